@@ -37,12 +37,15 @@ FREE_VERTEX_WEIGHT = 1e-14
 class ElasticSurface:
     """What is laid on the points.
 
-    `rest` (V, 3) metres: how it likes to be bent. `triangles` (T, 3), `matched` (T,) bool: those that points are of.
-    `stiffness` (V,): by how much more than others the hinges at a vertex keep their bend. `trust` (V,) in [0, 1]: what points
-    near a vertex count. `held` (V,) bool: those that stay where they are at first; by default none. `noise` (V,) or one for all:
-    metres by which points may scatter before they count less; by default as many as they like. `anchor`: what it counts that
-    the surface stays where it is at rest, if points, all of them, count 1: bending alone lets a limb that no point is of swing
-    about the joint at which the points end.
+    rest : (V, 3) metres: how it likes to be bent.
+    triangles : (T, 3) vertex numbers.
+    matched : (T,) bool: those that points are of.
+    stiffness : (V,) by how much more than others the hinges at a vertex keep their bend.
+    trust : (V,) in [0, 1]: what points near a vertex count.
+    held : (V,) bool: those that stay where they are at first; by default none.
+    noise : (V,) or one for all: metres by which points may scatter before they count less; by default as many as they like.
+    anchor : what it counts that the surface stays where it is at rest, if points, all of them, count 1: bending alone lets a
+        limb that no point is of swing about the joint at which the points end.
     """
 
     rest: NDArray[np.float64]
