@@ -7,6 +7,7 @@ import gc
 import os
 import signal
 import sys
+from contextlib import closing
 from difflib import get_close_matches
 
 import click
@@ -131,26 +132,26 @@ def migrate(version: str, down: bool) -> None:
     from shell.settings import read_settings
 
     settings = read_settings()
-    database = Database(settings.database, vault=settings.vault)
-    try:
-        if down and (lost := database.forgets(version)):
-            click.echo(f"Going down to {version} erases {'; '.join(lost)}.", err=True)
-        database.migrate(version, forget=down)
-    except DowngradeLosesData as lost:
-        raise CliError(
-            f"{version} is older than the tables are. Going down to it erases {lost}. Nothing was done: make a backup, "
-            "then say --down."
-        ) from None
-    except DatabaseInUse:
-        raise CliError(
-            "The service runs: stop `galatea serve` and every `galatea worker` that uses this database, on all "
-            "machines, then migrate. Nothing was done."
-        ) from None
-    except SecretUnreadable as error:
-        raise CliError(f"{error} Nothing was done.") from None
-    except CommandError as error:
-        raise CliError(f"{version}: {error}") from error
-    click.echo(f"The tables are at version {database.revision()}.")
+    with closing(Database(settings.database, vault=settings.vault)) as database:
+        try:
+            if down and (lost := database.forgets(version)):
+                click.echo(f"Going down to {version} erases {'; '.join(lost)}.", err=True)
+            database.migrate(version, forget=down)
+        except DowngradeLosesData as lost:
+            raise CliError(
+                f"{version} is older than the tables are. Going down to it erases {lost}. Nothing was done: make a backup, "
+                "then say --down."
+            ) from None
+        except DatabaseInUse:
+            raise CliError(
+                "The service runs: stop `galatea serve` and every `galatea worker` that uses this database, on all "
+                "machines, then migrate. Nothing was done."
+            ) from None
+        except SecretUnreadable as error:
+            raise CliError(f"{error} Nothing was done.") from None
+        except CommandError as error:
+            raise CliError(f"{version}: {error}") from error
+        click.echo(f"The tables are at version {database.revision()}.")
 
 
 @main.command()
