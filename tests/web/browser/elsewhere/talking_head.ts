@@ -4,7 +4,7 @@ import { TalkingHead } from '@met4citizen/talkinghead';
 import type { TalkingHeadPage } from './pages';
 
 const RATE = 22050; // samples a second that it expects
-const QUIET = 24; // of 765: two pixels that differ by less look the same
+const QUIET = 48; // of 765: two pixels that differ by less look the same
 
 const head = new TalkingHead(document.getElementById('avatar')!, {
   lipsyncModules: [], // visemes come with the audio
@@ -28,9 +28,17 @@ function drawn(): Uint8ClampedArray {
   return pen.getImageData(0, 0, canvas.width, canvas.height).data;
 }
 
-/** How high in the picture a joint is, in pixels from its upper edge. */
-const height = (joint: string): number =>
-  ((1 - place(joint).project(head.camera).y) / 2) * canvas.height;
+/** Where a joint is in the picture, in pixels from its left and upper edges. */
+function pixel(joint: string): [number, number] {
+  const { x, y } = place(joint).project(head.camera);
+  return [((1 + x) / 2) * canvas.width, ((1 - y) / 2) * canvas.height];
+}
+
+/** Whether a pixel is on the forehead's side of the line through both eyes: heads are held at an angle. */
+function aboveEyes(): (x: number, y: number) => boolean {
+  const [[leftX, leftY], [rightX, rightY]] = [pixel('LeftEye'), pixel('RightEye')];
+  return (x, y) => (leftX - rightX) * (y - rightY) < (leftY - rightY) * (x - rightX);
+}
 
 function place(joint: string) {
   const found = head.armature.getObjectByName(joint)!;
@@ -58,12 +66,16 @@ const page: TalkingHeadPage = {
     const before = drawn();
     influences[index] = 0;
     const after = drawn();
-    const rows: number[] = [];
+    const isAbove = aboveEyes();
+    let [pixels, above] = [0, 0];
     for (let i = 0; i < before.length; i += 4) {
       const apart = [0, 1, 2].reduce((sum, c) => sum + Math.abs(before[i + c]! - after[i + c]!), 0);
-      if (apart > QUIET) rows.push(Math.floor(i / 4 / canvas.width));
+      if (apart <= QUIET) continue;
+      const [x, y] = [(i / 4) % canvas.width, Math.floor(i / 4 / canvas.width)];
+      pixels += 1;
+      if (isAbove(x, y)) above += 1;
     }
-    return { pixels: rows.length, above: rows.filter((row) => row < height('LeftEye')).length };
+    return { pixels, above };
   },
 };
 Object.assign(window, { page });
