@@ -10,7 +10,7 @@ from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.fine import FIRST_INNER_FACE_POINT
 from engine.avatar.registration.skin import Skin, grown
 from engine.geometry.point_cloud import PointCloud, joined
-from engine.geometry.registration.iterative_closest_point import rigid_onto_surface
+from engine.geometry.registration.iterative_closest_point import rigid_onto_cloud
 from engine.geometry.registration.rigid import Similarity, fit_rigid, fit_robustly, fit_similarity
 
 LANDMARK_SIGMA = 0.006
@@ -19,32 +19,57 @@ MIN_FACE_LANDMARKS = 20
 """Face landmarks without which a head's cloud has no place."""
 ALIGNMENT_ROUNDS = 12
 """Of closest points, rigid."""
-ALIGNMENT_REACH = 0.03
-"""Metres about the head within which points are looked at, once landmarks have brought them there."""
-ALIGNMENT_GATE = 0.015
-"""Metres within which points are of the surface there."""
+ALIGNMENT_REACH = 0.25
+"""Metres about the head's middle within which the two clouds are laid on each other: hair, neck and shoulders tell how a round
+head is turned."""
+ALIGNMENT_GATE = 0.03
+"""Metres within which points of one cloud are of what the other shows there."""
+AGREED = 0.005
+"""Metres within which a point agrees with the other cloud."""
+ALIGNED_POINTS = 20000
+"""Points of the head's cloud that are laid on the body's, at most."""
 CLOUD_RINGS = 10
 """Rings of vertices below the head for which the head's cloud counts, too."""
 
 
 def head_to_body(
-    skin: Skin, fitted: NDArray[np.float64], cloud: PointCloud, landmarks: SpatialLandmarks, sized: bool
+    skin: Skin,
+    fitted: NDArray[np.float64],
+    body: PointCloud,
+    cloud: PointCloud,
+    landmarks: SpatialLandmarks,
+    sized: bool,
 ) -> Similarity | None:
-    """From the world of the head's clip to the body's: by face landmarks, which give its scale unless it is `sized` as the
-    body is, then rigidly by closest points. None where the face was not found in the head's clip."""
+    """From the world of the head's clip to that of the body's, whose own cloud is `body`. None where the face was not found in
+    the head's clip.
+
+    It begins with face landmarks, which give its scale unless it is `sized` as the body is; and where it is, also with no motion
+    at all, since both clips were then measured in one world. From each the clouds are laid on each other rigidly, by closest
+    points; the one in which more points agree is taken. The template is not asked how the head is turned: the body's clip shows
+    it small, and under a hat or hair it is another shape.
+    """
     known = np.flatnonzero(np.isfinite(landmarks.face).all(1))
     known = known[known >= FIRST_INNER_FACE_POINT]
     if len(known) < MIN_FACE_LANDMARKS:
         return None
     target = fitted[skin.face_points[known]]
     fit = fit_rigid if sized else fit_similarity
-    placed = fit_robustly(landmarks.face[known], target, LANDMARK_SIGMA, fit).transform
-    solid = skin.regions["head"] & ~skin.regions["lips"] & ~skin.regions["lids"]
-    surface = skin.triangles[skin.visible & solid[skin.triangles].all(1)]
-    points = placed(cloud.points)
-    near = cKDTree(fitted[solid]).query(points, distance_upper_bound=ALIGNMENT_REACH)[0] < np.inf
-    turn = rigid_onto_surface(points[near], fitted, surface, ALIGNMENT_GATE, ALIGNMENT_ROUNDS)
-    return Similarity(turn.linear @ placed.linear, turn(placed.shift))
+    starts = [fit_robustly(landmarks.face[known], target, LANDMARK_SIGMA, fit).transform]
+    if sized:
+        starts.append(Similarity(np.eye(3), np.zeros(3)))
+    middle = fitted[skin.regions["head"]].mean(0)
+    around = body[np.linalg.norm(body.points - middle, axis=1) < ALIGNMENT_REACH + ALIGNMENT_GATE]
+    tree = cKDTree(around.points)
+    best, most = starts[0], -1
+    for start in starts:
+        points = start(cloud.points)
+        points = points[np.linalg.norm(points - middle, axis=1) < ALIGNMENT_REACH]
+        points = points[:: max(len(points) // ALIGNED_POINTS, 1)]
+        turn = rigid_onto_cloud(points, around.points, around.normals, ALIGNMENT_GATE, ALIGNMENT_ROUNDS)
+        agreed = np.count_nonzero(np.isfinite(tree.query(turn(points), distance_upper_bound=AGREED)[0]))
+        if agreed > most:
+            best, most = Similarity(turn.linear @ start.linear, turn(start.shift)), agreed
+    return best
 
 
 def one_cloud(skin: Skin, fitted: NDArray[np.float64], body: PointCloud, head: PointCloud) -> PointCloud:

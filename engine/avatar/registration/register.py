@@ -79,7 +79,7 @@ def register(
     check()
     placed: Similarity | None = None
     if head is not None and len(head.cloud) >= MIN_POINTS:
-        placed = head_to_body(models.skin, fitted, head.cloud, head.landmarks, head.sized)
+        placed = head_to_body(models.skin, fitted, body.cloud, head.cloud, head.landmarks, head.sized)
         if placed is not None:
             fitted = _with_head(models, fitted, cloud, head, placed)
     check()
