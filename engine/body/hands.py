@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +10,9 @@ from numpy.typing import NDArray
 from engine.body.body_space import BodySpace
 from engine.body.rig import Rig
 from engine.body.template import Template
+from engine.geometry.joint_names import FINGERS, Side
 from engine.perception.hands import HAND_JOINTS
 
-FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
 FINGERTIP_DEPTH = 0.006
 """Metres within the skin at which the landmark of a fingertip lies."""
 
@@ -30,7 +29,7 @@ class HandModel:
     spread : (3,) float32 unit vector of the T-pose, about which fingers turn from the thumb's side to the other.
     """
 
-    side: Literal["Left", "Right"]
+    side: Side
     joints: NDArray[np.intp]
     mean: NDArray[np.float32]
     basis: NDArray[np.float32]
@@ -38,7 +37,7 @@ class HandModel:
     spread: NDArray[np.float32]
 
 
-def hand_model(template: Template, space: BodySpace, rig: Rig, side: Literal["Left", "Right"]) -> HandModel:
+def hand_model(template: Template, space: BodySpace, rig: Rig, side: Side) -> HandModel:
     """The model of one hand. `rig` has the joints of `space`."""
     body = template.vertices_of("body")
     strongest = rig.bones[body, 0]

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.fitting.observation import Crossing
-from engine.character.figure import SEEN, SIDES, Figure
+from engine.character.figure import SEEN, Figure
+from engine.geometry.joint_names import SIDES, Side
 from engine.imaging.masks.colour_segmentation import ColourMixture
 from engine.perception.body import BODY_LANDMARKS
-from engine.perception.hands import Side
 from engine.perception.landmarks import FACE_OVAL
 
 FINGERS = ("Pinky", "Index", "Thumb")

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from engine.body.parts import BODY_PARTS
 from engine.body.rig import Rig
 from engine.character.crossed_arms import CrossedArms
-from engine.character.figure import SIDES, Figure
+from engine.character.figure import Figure
 from engine.character.posed_template import PosedTemplate
+from engine.geometry.joint_names import SIDES
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
 from engine.imaging.masks.mask_pieces import largest_piece
 

@@ -13,19 +13,19 @@ from numpy.typing import NDArray
 from engine.character.placed_joints import WHOLE_SKELETON, check_places, check_skeleton, in_words
 from engine.character.posture import check_posture
 from engine.errors import InputError
+from engine.geometry.joint_names import SIDES
 from engine.imaging.resample import resized, size_within
 from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits
 from engine.perception.body import BODY_LANDMARKS, Body
 from engine.perception.faces import find_faces
-from engine.perception.hands import HAND_JOINTS, Side, find_hands
+from engine.perception.hands import HAND_JOINTS, find_hands
 from engine.perception.people import covered_by, find_body_within, find_people, person_box
 
 LONGEST_SIDE = 1920
 """Pixels: larger pictures are made smaller first."""
 SHOULDERS = ("LeftShoulder", "RightShoulder")
 """Without them there is nothing to animate."""
-SIDES: tuple[Side, Side] = ("Left", "Right")
 ON_HANDS = {"Wrist": "", "Index": "Index1", "Pinky": "Pinky1", "Thumb": "Thumb2"}
 """Landmarks of the body that are among the hand's, as joints: where a hand is seen closely, they are where it has them."""
 BELOW = ("LeftHip", "RightHip", "LeftKnee", "RightKnee", "LeftAnkle", "RightAnkle")

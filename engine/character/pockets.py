@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
 from engine.body.rig import Rig
-from engine.character.figure import SIDES
 from engine.character.labels import ARMS, complete_labels
 from engine.character.template_maps import side_maps
 from engine.character.unfound_hands import SURE, UnfoundHand, unit
+from engine.geometry.joint_names import SIDES
 from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, ColourMixture, smoothed_map
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.imaging.masks.mask_pieces import pieces_touching

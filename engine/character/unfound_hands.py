@@ -12,8 +12,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.figure import SIDES, Figure
+from engine.character.figure import Figure
 from engine.character.labels import ARMS
+from engine.geometry.joint_names import SIDES
 from engine.perception.body import BODY_LANDMARKS
 
 LOW, BESIDE, REACH = 0.7, 1.5, 0.5

@@ -10,9 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.joint_names import FINGERS
 from engine.geometry.skeleton import Skeleton
-
-FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
 
 FOOT_SLOPE = (0.0, -0.6, 0.8)
 """Where a foot's bone points that stands flat: from the ankle to the ball, between 35 and 40 degrees down."""

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.joint_names import SIDES
 from engine.perception.solutions import load_solution
 
 BODY_LANDMARKS = (
@@ -33,7 +34,7 @@ MIXAMO_JOINTS: dict[str, tuple[tuple[str, float], ...]] = {
     "Head": (("LeftEar", 0.5), ("RightEar", 0.5)),
     **{
         f"{side}{joint}": ((f"{side}{landmark}", 1.0),)
-        for side in ("Left", "Right")
+        for side in SIDES
         for joint, landmark in (
             *(("Arm", "Shoulder"), ("ForeArm", "Elbow"), ("Hand", "Wrist"), ("HandIndex1", "Index")),
             *(("UpLeg", "Hip"), ("Leg", "Knee"), ("Foot", "Ankle"), ("ToeBase", "FootIndex")),

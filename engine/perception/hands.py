@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from types import TracebackType
-from typing import Any, Literal
+from typing import Any
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.joint_names import FINGERS, SIDES, Side
 from engine.perception.body import Body
 from engine.perception.solutions import load_solution
 
-Side = Literal["Left", "Right"]
-
 HAND_JOINTS = (
     "",
-    *(f"{finger}{k}" for finger in ("Thumb", "Index", "Middle", "Ring", "Pinky") for k in (1, 2, 3, 4)),
+    *(f"{finger}{k}" for finger in FINGERS for k in (1, 2, 3, 4)),
 )
 """The 21 points as ends of Mixamo names: point k of a left hand is the joint "LeftHand" + JOINTS[k]."""
 
@@ -78,7 +77,7 @@ def find_hands(rgb: NDArray[np.uint8], body: Body | None = None, confidence: flo
     if body is None:
         with _hands(video=False, hands=4, confidence=confidence) as network:
             return _read(network.process(np.ascontiguousarray(rgb)), rgb.shape[:2])
-    sides: tuple[Side, ...] = ("Left", "Right")
+    sides: tuple[Side, ...] = SIDES
     found = (_hand_at_wrist(rgb, body, side, confidence) for side in sides)
     return sorted((hand for hand in found if hand is not None), key=lambda hand: -hand.confidence)
 

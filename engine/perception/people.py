@@ -7,6 +7,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.joint_names import SIDES
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.perception.body import BODY_LANDMARKS, FAINT_CONFIDENCE, Body, find_body
 from engine.perception.faces import find_faces
@@ -15,7 +16,7 @@ MAX_PEOPLE = 12
 """People that are looked for, at most."""
 LIMB_LINES = tuple(
     (f"{side}{a}", f"{side}{b}")
-    for side in ("Left", "Right")
+    for side in SIDES
     for a, b in (
         *(("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Wrist", "Index"), ("Shoulder", "Hip")),
         *(("Hip", "Knee"), ("Knee", "Ankle"), ("Ankle", "FootIndex")),

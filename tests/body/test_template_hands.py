@@ -9,10 +9,11 @@ from scipy.spatial.transform import Rotation
 from engine.body import Template
 from engine.body.body_space import BodySpace, load_body_space
 from engine.body.fitting.hand_fitting import HandAnchor, HandFit, fit_hand, hand_length
-from engine.body.hands import FINGERS, HandModel, finger_landmarks, hand_model
+from engine.body.hands import HandModel, finger_landmarks, hand_model
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
 from engine.geometry.camera import Camera
+from engine.geometry.joint_names import FINGERS
 from engine.geometry.skinning import bone_transforms
 from engine.perception.hands import HAND_JOINTS
 

@@ -8,12 +8,12 @@ from scipy.spatial.transform import Rotation
 
 from engine.body.fitting.body_fitting import Fit
 from engine.body.fitting.posing import SHAPE_COEFFICIENTS
-from engine.body.hands import FINGERS
 from engine.character.figure import Figure
 from engine.character.hands import turn_hands
 from engine.character.head import joint_axes
 from engine.character.template_fit import FittedBody, load_human
 from engine.geometry.camera import Camera
+from engine.geometry.joint_names import FINGERS
 
 FOCAL, CENTRE, PLACE = 2200.0, (499.5, 499.5), np.array([0, 0.1, -3.0])
 NOBODY = np.zeros(SHAPE_COEFFICIENTS, np.float32)

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.body.fitting.hand_fitting import HAND_BONES
 from engine.geometry.camera import Camera
+from engine.geometry.joint_names import SIDES
 from engine.imaging.masks.colour_segmentation import grab_cut
 
-SIDES = ("Left", "Right")
 FOOT, PALM = ("Ankle", "Heel", "FootIndex"), ("Wrist", "Index", "Pinky")
 """The corners of a foot and of a palm, without their side."""
 BONES = (("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Hip", "Knee"), ("Knee", "Ankle"))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.geometry.joint_names import SIDES
 from engine.imaging.resample import resized, size_within
 from engine.perception.body import BODY_LANDMARKS, Body
 from engine.perception.people import find_people
@@ -54,7 +55,7 @@ class PeopleShown:
         return sum(bool(height[1] > SIMILAR_HEIGHT * height[0]) for height in heights) / max(len(self.people), 1)
 
     def _knee(self, body: Body) -> bool:
-        at = [BODY_LANDMARKS.index(f"{side}Knee") for side in ("Left", "Right")]
+        at = [BODY_LANDMARKS.index(f"{side}Knee") for side in SIDES]
         inside = (body.points[at] >= 0).all(1) & (body.points[at] < self.size[::-1]).all(1)
         return bool((inside & (body.confidence[at] > SURE)).any())
 

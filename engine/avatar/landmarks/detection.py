@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from engine.avatar.landmarks.in_frames import FrameLandmarks
 from engine.avatar.landmarks.robust_triangulation import triangulate_robustly
-from engine.avatar.landmarks.spatial import FACE_LANDMARKS, HAND_LANDMARKS, HAND_SIDES, SpatialLandmarks
+from engine.avatar.landmarks.spatial import FACE_LANDMARKS, HAND_LANDMARKS, SpatialLandmarks
 from engine.body.fitting.hand_fitting import hand_length
 from engine.geometry.camera import Camera
+from engine.geometry.joint_names import SIDES
 
 SIGMA_SHARE = 6 / 720
 """By what share of a frame's shorter side a landmark of the body is off, usually."""
@@ -37,7 +38,7 @@ def spatial_landmarks(seen: Sequence[tuple[Camera, FrameLandmarks]]) -> SpatialL
         placed = triangulate_robustly(cameras, np.stack([at for _, at, _ in having]), confidence, sigma)
         if placed is not None and placed.agreeing >= MIN_VIEWS:
             body[name] = placed.place
-    return SpatialLandmarks(body, _face(seen), np.stack([_hand(seen, side) for side in HAND_SIDES]))
+    return SpatialLandmarks(body, _face(seen), np.stack([_hand(seen, side) for side in SIDES]))
 
 
 def _hand(seen: Sequence[tuple[Camera, FrameLandmarks]], side: str) -> NDArray[np.float64]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.joint_names import SIDES
 from engine.perception.body import BODY_LANDMARKS, Body, find_body
 from engine.perception.faces import find_faces
 from engine.perception.hands import find_hands
@@ -15,7 +16,7 @@ from engine.perception.landmarks import fiducials
 
 SKELETON_BONES = (
     *(("LeftShoulder", "RightShoulder"), ("LeftHip", "RightHip")),
-    *((f"{side}{a}", f"{side}{b}") for side in ("Left", "Right") for a, b in (
+    *((f"{side}{a}", f"{side}{b}") for side in SIDES for a, b in (
         ("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Shoulder", "Hip"), ("Hip", "Knee"), ("Knee", "Ankle")
     )),
 )  # fmt: skip

@@ -8,11 +8,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.joint_names import SIDES
 from engine.geometry.registration.rigid import Similarity
 
 FACE_LANDMARKS = 68
 """Points of a face (iBUG)."""
-HAND_SIDES = ("Left", "Right")
 HAND_LANDMARKS = 21
 """Points of a hand (`engine.perception.hands.HAND_JOINTS`)."""
 
@@ -28,7 +28,7 @@ class SpatialLandmarks:
 
     body: Mapping[str, NDArray[np.float64]]
     face: NDArray[np.float64] = field(default_factory=lambda: np.full((FACE_LANDMARKS, 3), np.nan))
-    hands: NDArray[np.float64] = field(default_factory=lambda: np.full((len(HAND_SIDES), HAND_LANDMARKS, 3), np.nan))
+    hands: NDArray[np.float64] = field(default_factory=lambda: np.full((len(SIDES), HAND_LANDMARKS, 3), np.nan))
 
     def without(self, names: frozenset[str]) -> SpatialLandmarks:
         """Those of the body whose names are not among `names`, and all of the face."""

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.landmarks.spatial import HAND_SIDES, SpatialLandmarks
+from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.models import HumanModels
 from engine.body.fitting.hand_in_space import fit_hand_in_space
+from engine.geometry.joint_names import SIDES
 from engine.geometry.skinning import skin as blend
 
 MAX_MEDIAN_ERROR = 0.015
@@ -41,7 +42,7 @@ def with_hands(models: HumanModels, parameters: NDArray[np.float64], landmarks: 
     scales = np.ones(len(joints))
     coefficients = parameters[-models.body.coefficients :]
     found = []
-    for side, seen in zip(HAND_SIDES, landmarks.hands, strict=True):
+    for side, seen in zip(SIDES, landmarks.hands, strict=True):
         wrist, forearm = (models.space.names.index(f"{side}{name}") for name in ("Hand", "ForeArm"))
         fit = fit_hand_in_space(models.hands[side], coefficients, rotations[forearm], joints[wrist], seen)
         if fit is None or fit.median_error > MAX_MEDIAN_ERROR:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.landmarks.spatial import HAND_SIDES, SpatialLandmarks
+from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.coarse import CoarseFit, fit_to_landmarks, fit_to_points
 from engine.avatar.registration.expressions import transferred_units
 from engine.avatar.registration.face_parts import lids_on_eyes, place_parts
@@ -25,6 +25,7 @@ from engine.avatar.registration.standing_feet import with_feet
 from engine.body.face.visemes import viseme_displacements
 from engine.errors import InputError, Notice
 from engine.geometry.deformation.cage_coordinates import cage_coordinates
+from engine.geometry.joint_names import SIDES
 from engine.geometry.point_cloud import PointCloud, thinned
 from engine.geometry.registration.rigid import Similarity
 
@@ -144,7 +145,7 @@ def _notices(
     coarse: CoarseFit, body: CoarseBody, coefficients: NDArray[np.float64], head_lost: bool
 ) -> tuple[Notice, ...]:
     found = []
-    if lost := [side.lower() for side in HAND_SIDES if side not in body.hands]:
+    if lost := [side.lower() for side in SIDES if side not in body.hands]:
         found.append(
             Notice(
                 "hand_not_measured",

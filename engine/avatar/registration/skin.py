@@ -15,6 +15,7 @@ from engine.body.rig import Rig
 from engine.body.template import Template, vertex_mask
 from engine.geometry.adjacency import neighbours
 from engine.geometry.camera import Camera
+from engine.geometry.joint_names import SIDES
 from engine.geometry.surface import triangulate
 from engine.render.rasteriser import rasterise
 
@@ -110,7 +111,7 @@ def _regions(
     trunk &= np.isin(
         strongest, ["Spine", "Spine1", "Spine2", "LeftShoulder", "RightShoulder", "LeftArm", "RightArm", "Hips"]
     )
-    feet = np.isin(strongest, [f"{side}{bone}" for side in ("Left", "Right") for bone in ("Foot", "ToeBase")])
+    feet = np.isin(strongest, [f"{side}{bone}" for side in SIDES for bone in ("Foot", "ToeBase")])
     return {
         "lips": moved_by(LIP_UNITS) | (vertex_mask(template, "lips")[vertices] > 0.5),
         "lids": moved_by(LID_UNITS),

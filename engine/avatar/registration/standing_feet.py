@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.landmarks.spatial import HAND_SIDES, SpatialLandmarks
+from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.footwear import in_shoes
 from engine.avatar.registration.hand_pose import CoarseBody
 from engine.avatar.registration.models import HumanModels
@@ -19,6 +19,7 @@ from engine.body.fitting.least_squares import levenberg_marquardt
 from engine.geometry.closest_points import closest_points
 from engine.geometry.deformation.handles import handles
 from engine.geometry.deformation.laplacian_deformation import LaplacianDeformation
+from engine.geometry.joint_names import SIDES
 from engine.geometry.point_cloud import PointCloud
 from engine.geometry.surface import face_normals
 
@@ -87,7 +88,7 @@ def with_feet(
     joints = np.asarray(models.space.joints(coefficients), np.float64)
     whole = skin.regions["lower_feet"]
     moved, places, turns = body.vertices.copy(), body.joints.copy(), body.rotations.copy()
-    for side, mask in zip(HAND_SIDES, models.feet.masks, strict=True):
+    for side, mask in zip(SIDES, models.feet.masks, strict=True):
         foot = _foot(models, side, np.flatnonzero(mask & whole), rest, joints)
         ankle, toes = (models.space.names.index(f"{side}{name}") for name in ("Foot", "ToeBase"))
         found = _laid(foot, _start(foot, places[ankle], turns[ankle]), side, landmarks, cloud)
@@ -96,7 +97,7 @@ def with_feet(
         places[[ankle, toes]] = foot.moved(joints[[ankle, toes]] - ground, found[None])[0]
         turns[[ankle, toes]] = _about_vertical(found[3])
     knee = joints[models.space.names.index("LeftLeg"), 1]
-    legs = np.isin(np.array(models.rig.names)[skin.bones[:, 0]], [f"{side}Leg" for side in HAND_SIDES])
+    legs = np.isin(np.array(models.rig.names)[skin.bones[:, 0]], [f"{side}Leg" for side in SIDES])
     bent = ((legs & (bare[:, 1] < BENT_HEIGHT * knee)) | skin.regions["feet"]) & ~whole
     deformation = LaplacianDeformation(body.vertices, skin.triangles, handles(len(moved), np.flatnonzero(~bent)))
     return replace(body, vertices=deformation(moved[~bent]), joints=places, rotations=turns)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +13,10 @@ from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.texture.views import ChartedSurface
 from engine.body.rig import Rig
 from engine.body.template import Template
+from engine.geometry.joint_names import SIDES, Side
 from engine.geometry.surface import triangulate
 from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv
 
-SIDES: tuple[Literal["Left", "Right"], ...] = ("Left", "Right")
 MOUTH_REACH = 0.04
 """Metres from the middle of the tongue, along each axis, within which the mouth's bag lies."""
 
@@ -34,7 +33,7 @@ class TemplateSurface:
     atlas: TextureAtlas
     part: NDArray[np.intp]
     mouth: NDArray[np.bool_]
-    hands: Mapping[Literal["Left", "Right"], NDArray[np.bool_]]
+    hands: Mapping[Side, NDArray[np.bool_]]
     rest: NDArray[np.float64]
 
     def fitted(self, vertices: NDArray[np.floating]) -> ChartedSurface:

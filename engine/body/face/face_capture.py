@@ -22,6 +22,7 @@ from engine.body.face.face_mesh_points import FaceMeshPoints, face_mesh_points
 from engine.body.face.face_points import PICTURE_TO_TEMPLATE
 from engine.body.template import FACE_UNITS, Template
 from engine.compiled import njit
+from engine.geometry.joint_names import SIDES
 from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS, RIGID_VERTICES, eye_distance
 
@@ -42,7 +43,7 @@ SUBTLE_UNITS = (
     *(
         f"{unit}{side}"
         for unit in ("mouthDimple", "mouthLowerDown", "mouthPress", "noseSneer", "cheekSquint", "mouthUpperUp")
-        for side in ("Left", "Right")
+        for side in SIDES
     ),
     *("cheekPuff", "jawForward", "mouthRollLower", "mouthRollUpper", "mouthShrugLower", "mouthShrugUpper"),
 )

@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from engine.body.fitting.pose_prior import JOINT_LIMIT_SIGMA
 from engine.body.fitting.posing import rotation_matrices
-from engine.body.hands import FINGERS, HandModel, finger_landmarks
+from engine.body.hands import HandModel, finger_landmarks
+from engine.geometry.joint_names import FINGERS
 
 WRIST_SIGMA = (1.0, 0.5, 0.7)
 """Radians about x, y and z of the T-pose by which hands turn on their arms, usually: the forearm turns with them about x."""

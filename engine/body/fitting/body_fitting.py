@@ -24,6 +24,7 @@ from engine.body.fitting.pose_prior import joint_limits, pose_prior
 from engine.body.fitting.posing import BodyPoser, PosedBodies, rotation_matrices
 from engine.body.landmarks import LandmarkModel
 from engine.geometry.camera import Camera
+from engine.geometry.joint_names import SIDES
 
 LANDMARK_CUTOFF = 4.0
 """Deviations at which a landmark's pull is at its strongest (Geman-McClure)."""
@@ -212,7 +213,7 @@ def _stance_terms(view: Observation, joints: NDArray[np.float64], names: Sequenc
     trunk = joints[:, names.index("Neck")] - joints[:, names.index("Hips")]
     lean = _seen_from(view.camera, trunk)[:, 2] / np.linalg.norm(trunk, axis=-1) / TRUNK_LEAN_SIGMA
     nearness = -view.camera.depth(joints)
-    ankles = [names.index(f"{side}Foot") for side in ("Left", "Right")]
+    ankles = [names.index(f"{side}Foot") for side in SIDES]
     stance = (nearness[:, ankles].mean(1) - nearness[:, names.index("Hips")]) / BALANCE_SIGMA
     return [lean[:, None], stance[:, None], legs.mean(1) / LEGS_LEAN_SIGMA, apart]
 

@@ -22,8 +22,9 @@ from engine.body.fitting.articulated_hand import (
     robust,
 )
 from engine.body.fitting.least_squares import levenberg_marquardt
-from engine.body.hands import FINGERS, HandModel, finger_landmarks
+from engine.body.hands import HandModel, finger_landmarks
 from engine.geometry.camera import Camera
+from engine.geometry.joint_names import FINGERS
 
 LANDMARK_SIGMA = 0.05
 """How far landmarks are off, usually, in lengths of the hand seen."""

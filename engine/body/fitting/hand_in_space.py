@@ -18,7 +18,8 @@ from engine.body.fitting.articulated_hand import (
     robust,
 )
 from engine.body.fitting.least_squares import levenberg_marquardt
-from engine.body.hands import FINGERS, HandModel, finger_landmarks
+from engine.body.hands import HandModel, finger_landmarks
+from engine.geometry.joint_names import FINGERS
 
 LANDMARK_SIGMA = 0.006
 """Metres by which landmarks are off, usually."""

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.geometry.joint_names import FINGERS, SIDES
 from engine.motion import rotation
 from engine.motion.files.source_motion import SourceMotion
 from engine.motion.retargeting.joint_names import SIDED_JOINTS, TARGET_NAMES, match_names
@@ -16,7 +17,7 @@ from engine.motion.retargeting.tree_shape import children_of, common_ancestor, m
 
 REQUIRED_JOINTS = (
     "Hips",
-    *(f"{side}{part}" for side in ("Left", "Right") for part in ("UpLeg", "Leg", "Foot", "Arm", "ForeArm")),
+    *(f"{side}{part}" for side in SIDES for part in ("UpLeg", "Leg", "Foot", "Arm", "ForeArm")),
 )
 
 MIN_TURN_ANGLE = np.radians(3)
@@ -27,11 +28,11 @@ MAX_JOINTS_TOLD = 10
 
 JOINT_CHAINS = tuple(
     tuple(side + part for part in chain)
-    for side in ("Left", "Right")
+    for side in SIDES
     for chain in (
         SIDED_JOINTS[:4],
         SIDED_JOINTS[4:],
-        *((f"Hand{f}{n}" for n in "123") for f in ("Thumb", "Index", "Middle", "Ring", "Pinky")),
+        *((f"Hand{f}{n}" for n in "123") for f in FINGERS),
     )
 )
 
@@ -169,7 +170,7 @@ def _trunk(parents: NDArray[np.int32], found: dict[str, int]) -> dict[str, int]:
         found["Spine"] = spine[0]
     if len(spine) >= 3:
         found["Spine1"] = spine[len(spine) // 2]
-    for side in ("Left", "Right"):
+    for side in SIDES:
         between = path(parents, chest, found[f"{side}Arm"])[1:-1]
         if f"{side}Shoulder" not in found and between:
             found[f"{side}Shoulder"] = between[-1]

@@ -13,14 +13,14 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
+from engine.geometry.joint_names import FINGERS, SIDES
 
 SIDED_JOINTS = ("Shoulder", "Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot", "ToeBase")
 
 TARGET_NAMES: tuple[str, ...] = (
     *("Hips", "Spine", "Spine1", "Spine2", "Neck", "Head"),
-    *(f"{side}{part}" for side in ("Left", "Right") for part in SIDED_JOINTS),
-    *(f"{side}Hand{f}{n}" for side in ("Left", "Right") for f in FINGERS for n in (1, 2, 3)),
+    *(f"{side}{part}" for side in SIDES for part in SIDED_JOINTS),
+    *(f"{side}Hand{f}{n}" for side in SIDES for f in FINGERS for n in (1, 2, 3)),
 )
 """The joints of our skeletons that a motion can move, by their Mixamo names."""
 
@@ -163,12 +163,12 @@ def match_names(names: Sequence[str]) -> dict[str, int]:
             if said.words in words and sided == bool(said.side) and (sided or said.number <= 1 or part != "Head"):
                 found.setdefault(said.side + part, index)
                 break
-    for side in ("Left", "Right"):
+    for side in SIDES:
         _tell_shoulders(spoken, side, found)
-    for (side, label), joints in fingers.items():
+    for (hand, label), joints in fingers.items():
         for phalanx, index in joints:
             if phalanx in (1, 2, 3):
-                found.setdefault(f"{side}Hand{label}{phalanx}", index)
+                found.setdefault(f"{hand}Hand{label}{phalanx}", index)
     return found
 
 

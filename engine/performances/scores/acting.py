@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from engine.geometry.joint_names import SIDES
 from engine.performances.modelling.figure import Pose
 from engine.performances.scores.timing import ease, idle_noise
 
 Units = dict[str, float]
-SIDES = ("Left", "Right")
 
 
 def pose(
@@ -18,7 +18,7 @@ def pose(
 ) -> Pose:
     """Let the lids follow the gaze, as they do, and the eyes hold their aim while the head turns."""
     up, left = gaze[0] + 0.9 * head[0], gaze[1] - 0.9 * head[1]
-    for side in ("Left", "Right"):
+    for side in SIDES:
         add(units, f"eyeLookUp{side}", max(up, 0.0) / 30)
         add(units, f"eyeLookDown{side}", max(-up, 0.0) / 30)
     return Pose(units=units, head=head, lean=lean, gaze=(up, left), breath=breath)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.hands import FINGERS, bending_axes, finger_landmarks
+from engine.body.hands import bending_axes, finger_landmarks
 from engine.body.rig import Rig
+from engine.geometry.joint_names import FINGERS, Side
 from engine.media.tone_mapping import srgb_code
 from engine.perception.hands import HAND_JOINTS
 from engine.performances.modelling.skin import BASE_REFLECTANCE, BLOOD_ABSORBANCE, MELANIN_ABSORBANCE
@@ -44,7 +44,7 @@ class HandBones:
     back: NDArray[np.float64]
 
 
-def hand_bones(rig: Rig, rest: NDArray[np.floating], side: Literal["Left", "Right"]) -> HandBones:
+def hand_bones(rig: Rig, rest: NDArray[np.floating], side: Side) -> HandBones:
     """Where the bones of a hand lie in the template's `rest` vertices (V, 3)."""
     heads, tails = rig.joints(rest)
     places = np.stack(

@@ -7,13 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.texture.template_surface import SIDES, TemplateSurface
+from engine.avatar.texture.template_surface import TemplateSurface
 from engine.avatar.texture.template_texture.eyes import Eyeballs, eye_samples, painted_eyes, persons_eyes
 from engine.avatar.texture.template_texture.hands import hand_bones, painted_hand, past_wrist
 from engine.avatar.texture.template_texture.mouth import painted_lining, painted_teeth, painted_tongue
 from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.avatar.texture.views import FrameView
 from engine.body.rig import Rig
+from engine.geometry.joint_names import SIDES
 from engine.geometry.surface import vertex_normals
 from engine.imaging.histogram_matching import matched_in_lab
 from engine.performances.modelling.eyes import EYEBALL_RADIUS

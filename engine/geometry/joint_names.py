@@ -1,0 +1,10 @@
+"""Words that joints' names are put together from, as Mixamo has them: `LeftHandThumb1`."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+Side = Literal["Left", "Right"]
+SIDES: tuple[Side, Side] = ("Left", "Right")
+"""The person's own."""
+FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
