@@ -8,28 +8,22 @@ where the last one stopped, and a corrected input redoes the stages that depend 
 
 from __future__ import annotations
 
-import hashlib
-import json
 import os
 import threading
 import time
-import weakref
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from concurrent.futures import wait as wait_for
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, is_dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Generic, Literal, TypeVar, get_type_hints
 
-import numpy as np
-from pydantic import BaseModel
-
-import engine
 from engine.errors import Canceled, InputError, Notice
 from engine.media.limits import Limits
+from engine.stage_keys import StageKeys
 from engine.store import StageStore
 
 T = TypeVar("T")
@@ -42,9 +36,6 @@ CANCEL_POLL_SECONDS = 0.2
 
 MAX_UNFINISHED_FRACTION = 0.999
 """The largest fraction before a run is over: 1 is told once, when there is nothing left to do."""
-
-STAGE_FORMAT = 3
-"""Of what stages give: raised where it changes between releases, so that nothing older is taken for it."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +87,7 @@ class Run:
         self._erased = dict(erased or {})
         self.limits = limits or Limits()
         self.mark_synthetic = mark_synthetic
-        self._keys: dict[int, tuple[Callable[[], Any], str]] = {}
+        self._keys = StageKeys(self._erased)
         self._weights: dict[str, float] = {}
         self._ended: Counter[str] = Counter()
         self._done = 0.0
@@ -200,7 +191,7 @@ class Run:
             output = function(*arguments)
             if store is not None:
                 output = store.save(key, output, heard[before:], kind)
-        self._keys[id(output)] = (_reference(output), key)
+        self._keys.remember(output, key)
         return output
 
     @contextmanager
@@ -249,36 +240,7 @@ class Run:
 
     def key(self, name: str, *arguments: Any) -> str:
         """The key of a stage's output for these arguments (hex)."""
-        parts = [
-            engine.__version__,
-            STAGE_FORMAT,
-            name,
-            *(self._part(argument) for argument in arguments if not callable(argument)),
-        ]
-        return hashlib.sha256(json.dumps(parts).encode()).hexdigest()[:40]
-
-    def _part(self, argument: Any) -> Any:
-        if id(argument) in self._keys and self._keys[id(argument)][0]() is argument:
-            return self._keys[id(argument)][1]
-        if isinstance(argument, Path):
-            return self._erased.get(argument) or content_hash(argument)
-        if isinstance(argument, BaseModel):
-            return argument.model_dump(mode="json")
-        if isinstance(argument, np.ndarray):
-            return [
-                str(argument.dtype),
-                argument.shape,
-                hashlib.sha256(np.ascontiguousarray(argument).data).hexdigest(),
-            ]
-        if is_dataclass(argument) and not isinstance(argument, type):
-            return {k: self._part(v) for k, v in vars(argument).items()}
-        if isinstance(argument, tuple | list):
-            return [self._part(item) for item in argument]
-        if isinstance(argument, Mapping):
-            return {name: self._part(argument[name]) for name in sorted(argument)}
-        if argument is None or isinstance(argument, str | int | float | bool):
-            return argument
-        raise TypeError(f"a stage cannot be keyed by {type(argument).__name__}")
+        return self._keys.key(name, *arguments)
 
     def _require_there(self, arguments: Sequence[Any]) -> None:
         """Refuse to work on what was erased."""
@@ -323,42 +285,7 @@ class ConcurrentStage(Generic[T]):
         return output
 
 
-def _reference(output: Any) -> Callable[[], Any]:
-    """What gives an output as long as somebody else holds it, where Python can tell."""
-    try:
-        return weakref.ref(output)
-    except TypeError:
-        return lambda: output
-
-
 class _Here(threading.local):
     """The stage `beside` the others that this thread works on, if it does."""
 
     beside: ConcurrentStage[Any] | None = None
-
-
-def content_hash(path: Path) -> str:
-    """SHA-256 of a file's content (hex)."""
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
-
-
-def write_report(
-    path: Path,
-    kind: str,
-    run: Run,
-    inputs: Mapping[str, Any],
-    quality: Mapping[str, float],
-    more: Mapping[str, Any] | None = None,
-) -> None:
-    """Write `report.json` as every run leaves it; `more` is what this kind alone has to say."""
-    report = {
-        "kind": kind,
-        "engine_version": engine.__version__,
-        "stages": {name: round(seconds, 4) for name, seconds in run.seconds.items()},
-        "inputs": dict(inputs),
-        "quality": dict(quality),
-        **(more or {}),
-        "warnings": [asdict(notice) for notice in run.notices],
-    }
-    path.write_text(json.dumps(report, indent=2) + "\n")

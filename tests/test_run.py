@@ -19,7 +19,9 @@ from pydantic import BaseModel
 
 import engine
 from engine.errors import Canceled, InputError, Notice
-from engine.run import Progress, Run, content_hash, write_report
+from engine.run import Progress, Run
+from engine.run_report import write_report
+from engine.stage_keys import content_hash
 from engine.store import StageStore
 
 

@@ -27,7 +27,8 @@ from engine.motion.files.reading import read_motion
 from engine.motion.library import built_in
 from engine.motion.retargeting.joint_map import lost_warning
 from engine.motion.retargeting.retarget import retarget
-from engine.run import Run, write_report
+from engine.run import Run
+from engine.run_report import write_report
 
 STAGES = {"read_avatar": 0.2, "capture_face": 1.0, "write_avatar": 1.0, "animate": 2.0}
 """The stages of an avatar that is there already, and their usual share of the time."""

@@ -41,7 +41,8 @@ from engine.export.still import write_first_impression, write_still
 from engine.geometry.point_cloud import PointCloud, joined, thinned
 from engine.geometry.registration.rigid import Similarity
 from engine.kind import Given
-from engine.run import Run, write_report
+from engine.run import Run
+from engine.run_report import write_report
 
 STAGES = {
     "choose_frames": 2.0,

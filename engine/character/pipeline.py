@@ -45,7 +45,8 @@ from engine.motion.retargeting.joint_map import lost_warning
 from engine.perception.models import matting_model
 from engine.render.character import film_cast
 from engine.render.ground_shadow import GroundShadow
-from engine.run import Run, write_report
+from engine.run import Run
+from engine.run_report import write_report
 
 STAGES = {
     "find_figure": 1.0,

@@ -14,7 +14,8 @@ from pydantic import BaseModel, ConfigDict
 
 from engine.kind import Given, Input, Kind, Needs
 from engine.motion.options import MotionClip, MotionJoints
-from engine.run import Run, write_report
+from engine.run import Run
+from engine.run_report import write_report
 
 STAGES = {"read": 4.0, "map_joints": 1.0}
 """The stages and their usual share of the time."""

@@ -22,7 +22,8 @@ from engine.perception.landmarks import fiducials
 from engine.portrait.driver_selection import choose_driver
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import in_pixels, look_for_face
-from engine.run import ConcurrentStage, Run, write_report
+from engine.run import ConcurrentStage, Run
+from engine.run_report import write_report
 
 STAGES = {
     "find_face": 1.0,

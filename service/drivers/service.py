@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from pathlib import Path
 
-from engine.run import content_hash
+from engine.stage_keys import content_hash
 from service.catalogue import built_in
 from service.context import Context
 from service.drivers.schemas import DriverOut

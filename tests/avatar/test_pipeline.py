@@ -35,7 +35,8 @@ from engine.errors import Canceled, InputError
 from engine.geometry.registration.rigid import Similarity, fit_robustly, fit_similarity
 from engine.media.video import read_video
 from engine.performances import video
-from engine.run import Run, content_hash
+from engine.run import Run
+from engine.stage_keys import content_hash
 from engine.store import StageStore
 
 OPTIONS = {

@@ -36,7 +36,8 @@ from engine.geometry.camera import Camera
 from engine.geometry.point_cloud import PointCloud
 from engine.kind import Given, Needs
 from engine.motion.library import built_in
-from engine.run import Run, write_report
+from engine.run import Run
+from engine.run_report import write_report
 
 
 def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -> None:

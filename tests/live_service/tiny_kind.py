@@ -18,7 +18,8 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from engine.errors import InputError
 from engine.kind import Candidates, Given, Input, Kind, Needs
-from engine.run import Run, write_report
+from engine.run import Run
+from engine.run_report import write_report
 
 
 class TinyOptions(BaseModel):

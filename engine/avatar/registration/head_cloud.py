@@ -66,7 +66,7 @@ def head_to_body(
         points = points[np.linalg.norm(points - middle, axis=1) < ALIGNMENT_REACH]
         points = points[:: max(len(points) // ALIGNED_POINTS, 1)]
         turn = rigid_onto_cloud(points, around.points, around.normals, ALIGNMENT_GATE, ALIGNMENT_ROUNDS)
-        agreed = np.count_nonzero(np.isfinite(tree.query(turn(points), distance_upper_bound=AGREED)[0]))
+        agreed = int(np.count_nonzero(np.isfinite(tree.query(turn(points), distance_upper_bound=AGREED)[0])))
         if agreed > most:
             best, most = Similarity(turn.linear @ start.linear, turn(start.shift)), agreed
     return best

@@ -21,7 +21,8 @@ from engine.performances.catalogue import POSTER_SIDE, Strength
 from engine.portrait.driver_segments.rest import own_rest
 from engine.portrait.driver_segments.segments import Segment, detect_segments
 from engine.portrait.driver_segments.watching import MAX_WATCHED_SIDE, WATCHED_FPS, FaceMeasurements, measure_video_face
-from engine.run import Run, write_report
+from engine.run import Run
+from engine.run_report import write_report
 
 STAGES = {"watch": 12.0, "find_segments": 0.5, "posters": 2.0}
 """The stages and their usual share of the time."""

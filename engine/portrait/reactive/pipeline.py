@@ -39,7 +39,8 @@ from engine.portrait.reactive.document import Profile, StatePart, TransitionPart
 from engine.portrait.reactive.excursion import Pose, excursion
 from engine.portrait.reactive.states import IDLE_STATE, State, choose_states, default_triggers
 from engine.portrait.target import in_pixels, look_for_face
-from engine.run import Run, write_report
+from engine.run import Run
+from engine.run_report import write_report
 
 MAX_PERFORMANCE_SECONDS = 20.0
 """Of a driving video of the user's own: a page loads the clip and all ways out of it."""
