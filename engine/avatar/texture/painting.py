@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from engine.avatar.texture.labels import UNSEEN
 from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.compiled import njit
-from engine.geometry.camera import Camera
 from engine.render.rasteriser import Raster
 from engine.render.sampling import bilinear
 
@@ -65,7 +64,7 @@ def paint(
         picture, gain = view.picture(), gains[n].astype(np.float32)
         for start in range(0, len(mine), strip):
             here = mine[start : start + strip]
-            found = _look(surface, raster, asked[here], view.camera, picture) * gain
+            found = _look(surface, raster, asked[here], view, picture) * gain
             at_home = here < own
             colours[asked[here[at_home]]] = np.clip(np.rint(found[at_home]), 0, 255)
             beyond[here[~at_home] - own] = found[~at_home]
@@ -75,13 +74,13 @@ def paint(
 
 
 def _look(
-    surface: ChartedSurface, raster: Raster, texels: NDArray[np.int64], camera: Camera, picture: NDArray[np.uint8]
+    surface: ChartedSurface, raster: Raster, texels: NDArray[np.int64], view: FrameView, picture: NDArray[np.uint8]
 ) -> NDArray[np.float32]:
-    """(n, 3) what a camera sees at the places that texels show."""
+    """(n, 3) what a view shows at the places that texels show."""
     places = _places(
         surface.vertices, surface.triangles, raster.triangle.ravel(), raster.barycentrics.reshape(-1, 3), texels
     )
-    return bilinear(picture, camera.project(places))
+    return bilinear(picture, view.places(places))
 
 
 @njit(nogil=True, boundscheck=False, error_model="numpy")

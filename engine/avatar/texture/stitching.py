@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.avatar.texture.alignment import aligned
 from engine.avatar.texture.exposure import exposure_gains
 from engine.avatar.texture.labels import UNSEEN, FaceLabels, best_views, stitched
 from engine.avatar.texture.levelling import level_seams
@@ -42,6 +43,8 @@ def stitch_texture(surface: ChartedSurface, views: Sequence[FrameView], size: in
 
     Raises ValueError where no view shows any of the surface.
     """
+    gains = exposure_gains(sample_views(surface, views))
+    views = aligned(surface, views, gains)
     samples = sample_views(surface, views)
     gains = exposure_gains(samples)
     samples = consistent(samples, gains)

@@ -68,14 +68,14 @@ def sample_views(surface: ChartedSurface, views: Sequence[FrameView]) -> ViewSam
         pixels = view.camera.project(on_faces)
         seen = seen_points(depth_buffer(view.camera, points, faces), pixels)
         if view.person is not None:
-            seen[seen] = _at(_without_rim(view.person()), pixels[seen])
+            seen[seen] = _at(_without_rim(view.person()), view.places(on_faces[seen]))
         middles = points[faces].mean(1)
         towards = view_cosines(view.camera, middles, facing_to)
         whole = seen.reshape(len(faces), -1).all(1) & (towards > np.cos(np.radians(STEEPEST_DEGREES)))
         whole &= surface.stitched & (view.camera.depth(middles) < view.farthest)
         cosine[:, n] = np.where(whole, towards, 0)
         density[:, n] = view.camera.focal / np.maximum(view.camera.depth(middles), 1e-6)
-        found = bilinear(view.picture(), view.camera.project(on_edges))
+        found = bilinear(view.picture(), view.places(on_edges))
         colours[:, n] = np.rint(found).astype(np.uint8).reshape(-1, EDGE_SAMPLES, 3)
     lengths = np.linalg.norm(end - start, axis=1)
     return ViewSamples(cosine, density, table[:, 2:].astype(np.intp), lengths, colours)
@@ -98,6 +98,9 @@ def _without_rim(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _at(mask: NDArray[np.bool_], pixels: NDArray[np.floating]) -> NDArray[np.bool_]:
-    """(N,) what a mask (H, W) says at pixels (N, 3), which lie within it."""
+    """(N,) what a mask (H, W) says at pixels (N, 3); beside it nothing is the person."""
     columns, rows = np.rint(pixels[:, 0]).astype(np.intp), np.rint(pixels[:, 1]).astype(np.intp)
-    return mask[np.minimum(rows, mask.shape[0] - 1), np.minimum(columns, mask.shape[1] - 1)]
+    inside = (rows >= 0) & (rows < mask.shape[0]) & (columns >= 0) & (columns < mask.shape[1])
+    out = np.zeros(len(pixels), np.bool_)
+    out[inside] = mask[rows[inside], columns[inside]]
+    return out

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.avatar.texture.image_shift import ImageShift
 from engine.geometry.camera import Camera
 from engine.geometry.texture_atlas import TextureAtlas
 
@@ -34,13 +35,21 @@ class ChartedSurface:
 class FrameView:
     """A frame by its camera. `read` gives the picture (H, W, 3) uint8, of the camera's size, anew each time it is asked: of a
     film's frames only one is held at a time. `person`, where it is known, gives (H, W) bool: which pixels show the person. What
-    is more than `farthest` metres away it is not asked about.
+    is more than `farthest` metres away it is not asked about. `shift`, where there is one: by how much it shows places elsewhere
+    than its camera has them.
     """
 
     camera: Camera
     read: Callable[[], NDArray[np.uint8]]
     person: Callable[[], NDArray[np.bool_]] | None = None
     farthest: float = np.inf
+    shift: ImageShift | None = None
+
+    def places(self, points: NDArray[np.floating]) -> NDArray[np.float32]:
+        """(N, 3) where the picture shows points (N, 3) of the surface, x and y in pixels, and how far away they are along the
+        view axis."""
+        pixels = self.camera.project(points)
+        return pixels if self.shift is None else self.shift.shifted(pixels)
 
     def picture(self) -> NDArray[np.uint8]:
         """The picture. Raises ValueError where it has another size than its camera."""

@@ -97,7 +97,7 @@ def eye_samples(
         camera = views[n].camera
         pixels = camera.project(points)
         seen = seen_points(depth_buffer(camera, surface.vertices, surface.triangles), pixels, LID_THICKNESS)
-        colours = np.clip(bilinear(views[n].picture(), pixels) * gains[n], 0, 255).astype(np.float32)
+        colours = np.clip(bilinear(views[n].picture(), views[n].places(points)) * gains[n], 0, 255).astype(np.float32)
         margin = min(1 / fineness, MAX_MARGIN)
         iris.append(colours[seen & (off > IRIS_BAND[0]) & (off < IRIS_BAND[1] - margin)])
         white.append(colours[seen & (off > WHITE_BAND[0] + margin) & (off < WHITE_BAND[1])])
