@@ -8,9 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.acting import standing_clip
+from engine.avatar.attachments.attachments import Attachments
 from engine.avatar.combined_targets import with_combined_targets
-from engine.avatar.mesh import morphs_of, skinned_mesh, surface_of
+from engine.avatar.mesh import morphs_of, skinned_mesh, surface_of, wearing
 from engine.avatar.registration.fitted_template import FittedTemplate
+from engine.avatar.registration.rigging import Pose
 from engine.body.rig import Rig
 from engine.body.template import Template
 from engine.geometry.morph_target import MorphTarget, morph_target
@@ -32,12 +34,18 @@ class Avatar:
 
 
 def assemble(
-    template: Template, rig: Rig, fitted: FittedTemplate, texture: NDArray[np.uint8], triangles: int
+    template: Template,
+    rig: Rig,
+    fitted: FittedTemplate,
+    worn: Attachments,
+    texture: NDArray[np.uint8],
+    triangles: int,
 ) -> Avatar:
-    """The avatar of a fitted template with its texture (S, S, 3), of so many triangles at most. Expressions: ARKit's face
-    units, visemes, and what talking heads ask for besides."""
+    """The avatar of a fitted template, and of what is `worn` off its body, with its texture (S, S, 3), of so many triangles at
+    most. Expressions: ARKit's face units, visemes, and what talking heads ask for besides."""
     surface = surface_of(template)
-    whole = skinned_mesh(surface, rig, fitted.skeleton, fitted.rest, texture)
+    skin = skinned_mesh(surface, rig, fitted.skeleton, fitted.rest, texture)
+    whole = wearing(skin, worn, Pose(fitted.joints, fitted.rotations))
     mesh, morphs = with_fewer_triangles(whole, morphs_of(surface, with_combined_targets(fitted.expressions)), triangles)
     filmed = standing_clip(mesh, fitted.rotations, fitted.joints[0], 30.0)
     return Avatar(mesh, morphs, filmed)

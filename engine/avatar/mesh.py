@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.avatar.attachments.attachments import Attachments
 from engine.avatar.eye_charts import avatar_uv
+from engine.avatar.registration.rigging import Pose, unposed
 from engine.body.rig import Rig
 from engine.body.template import Template
 from engine.geometry.morph_target import MorphTarget, morph_target
@@ -84,6 +86,27 @@ def skinned_mesh(
         bones=bones,
         weights=weights,
         texture=texture,
+    )
+
+
+def wearing(mesh: SkinnedMesh, worn: Attachments, pose: Pose) -> SkinnedMesh:
+    """The mesh with what stands off the body behind its own vertices and triangles, brought from the `pose` in which the person
+    was filmed to T-pose."""
+    if not len(worn.triangles):
+        return mesh
+    corners, index = np.unique(
+        np.stack([worn.triangles, worn.atlas.corners], 2).reshape(-1, 2), axis=0, return_inverse=True
+    )
+    of, place = corners.T
+    rest = unposed(worn.vertices, worn.bones, worn.weights, pose, mesh.skeleton.heads)
+    return SkinnedMesh(
+        skeleton=mesh.skeleton,
+        vertices=np.concatenate([mesh.vertices, rest[of].astype(np.float32)]),
+        triangles=np.concatenate([mesh.triangles, (index.reshape(-1, 3) + len(mesh.vertices)).astype(np.int32)]),
+        uv=np.concatenate([mesh.uv, worn.atlas.uv[place]]),
+        bones=np.concatenate([mesh.bones, worn.bones[of]]),
+        weights=np.concatenate([mesh.weights, worn.weights[of]]),
+        texture=mesh.texture,
     )
 
 

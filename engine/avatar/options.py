@@ -16,6 +16,8 @@ Coordinate = Annotated[float, Field(ge=-16384, le=16384)]
 Motion = Literal["idle", "walk", "run", "jump", "sit", "wave", "dance", "bow"]
 TEMPLATE_TRIANGLES = 27_676
 """Of the template's visible parts: an avatar has no more."""
+ATTACHED_TRIANGLES = 6_000
+"""Of what stands off the body, at most."""
 
 CAPTURE_OPTIONS = (
     *("height_m", "body_frames", "head_frames", "more_frames", "body_lens", "head_lens"),
@@ -65,8 +67,8 @@ class AvatarOptions(BaseModel):
     texture_size: Literal[1024, 2048, 4096, 8192] = Field(
         4096, description="Width and height of the texture in pixels."
     )
-    triangles: Annotated[int, Field(ge=2000, le=TEMPLATE_TRIANGLES)] = Field(
-        TEMPLATE_TRIANGLES, description="Most triangles of the avatar."
+    triangles: Annotated[int, Field(ge=2000, le=TEMPLATE_TRIANGLES + ATTACHED_TRIANGLES)] = Field(
+        TEMPLATE_TRIANGLES + ATTACHED_TRIANGLES, description="Most triangles of the avatar."
     )
     levels: Annotated[int, Field(ge=0, le=3)] = Field(
         0, description="Further levels of detail, each with a quarter of the triangles, in the same GLB (MSFT_lod)."

@@ -22,6 +22,7 @@ from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.models import load_models
 from engine.avatar.stages import (
     ClipScan,
+    find_attachments,
     find_cameras,
     find_landmarks,
     fit_template,
@@ -50,6 +51,7 @@ STAGES = {
     "find_landmarks": 2.0,
     "measure_cloud": 6.0,
     "fit_template": 2.0,
+    "find_attachments": 0.5,
     "stitch_texture": 3.0,
     "capture_face": 0.5,
     "write_avatar": 1.0,
@@ -131,12 +133,13 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
         run.warn(
             "height_guessed", "How tall the person is was not said: the avatar's size is that of an average person."
         )
-    texture = run.stage("stitch_texture", stitch_texture, fitted, clips, further, options.texture_size, run.check)
+    worn = run.stage("find_attachments", find_attachments, fitted, whole, near, run.check)
+    texture = run.stage("stitch_texture", stitch_texture, fitted, worn, clips, further, options.texture_size, run.check)
     run.publish(write_small_texture(out, texture.texture, run.mark_synthetic))
     scans = in_body_s_world([scan for _, scan in clips], fitted)
     shown = {name: (frames, scan) for name, (frames, _), scan in zip(("body", "head"), clips, scans, strict=False)}
     shown |= {f"more_{number}": one for number, one in enumerate(further, 1)}
-    avatar = assemble(human.template, human.rig, fitted, texture.texture, options.triangles)
+    avatar = assemble(human.template, human.rig, fitted, worn, texture.texture, options.triangles)
     scene = chosen_scene(avatar, motion, driver, options, run)
     with run.timed("write_avatar"):
         write_avatar(out, avatar, scene, options, run)

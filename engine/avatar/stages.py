@@ -7,7 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
+from engine.avatar.attachments.attaching import attachments
+from engine.avatar.attachments.attachments import Attachments
+from engine.avatar.attachments.silhouettes import Silhouettes
 from engine.avatar.capture.cameras import CaptureCameras, ClipCameras, solve_cameras
 from engine.avatar.capture.captured_view import CapturedView
 from engine.avatar.capture.chosen_frames import ChosenFrames
@@ -163,14 +167,34 @@ def fit_template(body: ClipScan, head: ClipScan | None, check: Callable[[], None
     return register(load_models(), body.scan(), None if head is None else head.scan(), check)
 
 
+def find_attachments(
+    fitted: FittedTemplate, body: ClipScan, head: ClipScan | None, check: Callable[[], None]
+) -> Attachments:
+    """What stands off the fitted body, hats' brims and tails of coats: by the clouds of both clips, the head's where registration has
+    placed it and only about the head, which it shows from near, and by the silhouettes of the body's."""
+    check()
+    human = load_models()
+    measured = [scan.dense.cloud.points[scan.dense.support > 0] for scan in [body]]
+    if head is not None and fitted.head_to_body is not None:
+        near = head.moved(fitted.head_to_body).dense
+        points = near.cloud.points[near.support > 0]
+        nearest = cKDTree(fitted.vertices[human.skin.vertices]).query(points)[1]
+        measured.append(points[human.skin.regions["head"][nearest]])
+    cameras = [
+        _resized(camera, (mask.shape[0], mask.shape[1])) for camera, mask in zip(body.cameras, body.masks, strict=True)
+    ]
+    return attachments(human, fitted.vertices, np.concatenate(measured), Silhouettes(body.masks, cameras))
+
+
 def stitch_texture(
     fitted: FittedTemplate,
+    worn: Attachments,
     clips: Sequence[tuple[ChosenFrames, ClipScan]],
     further: Sequence[tuple[ChosenFrames, ClipScan]],
     size: int,
     check: Callable[[], None],
 ) -> AvatarTexture:
-    """The texture, `size` texels a side, from the frames of the body's clip, of the head's, where registration has placed it, and of
+    """The texture of the fitted template and of what is `worn` off it, `size` texels a side, from the frames of the body's clip, of the head's, where registration has placed it, and of
     `further` ones in the body's world: section 3.5."""
     views: list[FrameView] = []
     scans = in_body_s_world([scan for _, scan in clips], fitted)
@@ -183,7 +207,8 @@ def stitch_texture(
             view = _frame_view(chosen, int(k), camera, mask, check)
             away = HEAD_VIEW_REACH * float(np.linalg.norm(camera.eye - head))
             views.append(replace(view, farthest=away) if of_head else view)
-    return avatar_texture(template_surface(human.template, human.rig), human.rig, fitted.vertices, views, size)
+    surface = template_surface(human.template, human.rig).wearing(worn)
+    return avatar_texture(surface, human.rig, np.concatenate([fitted.vertices, worn.vertices]), views, size)
 
 
 def in_body_s_world(scans: Sequence[ClipScan], fitted: FittedTemplate) -> list[ClipScan]:

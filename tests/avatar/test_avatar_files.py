@@ -11,6 +11,7 @@ from glb_reader import Glb, validate
 from template_avatar import fitted_template, template_avatar
 
 from engine.avatar.acting import Scene
+from engine.avatar.attachments.attachments import no_attachments
 from engine.avatar.avatar import Avatar, assemble
 from engine.avatar.combined_targets import COMBINED_TARGETS
 from engine.avatar.mesh import surface_of
@@ -70,7 +71,7 @@ def test_the_face_acts_in_the_clip_that_was_asked_for(folder: Path) -> None:
 
 def test_fewer_triangles_keep_the_expressions_of_the_vertices_that_stay(avatar: Avatar) -> None:
     fitted = fitted_template()
-    few = assemble(load_template(), load_rig(HUMAN_RIG), fitted, avatar.mesh.texture, 9000)
+    few = assemble(load_template(), load_rig(HUMAN_RIG), fitted, no_attachments(), avatar.mesh.texture, 9000)
     assert 8000 < len(few.mesh.triangles) <= 9000
     surface = surface_of(load_template())
     jaw = NAMES.index("jawOpen")

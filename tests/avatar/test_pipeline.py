@@ -229,7 +229,7 @@ def contents(path: Path) -> dict[str, bytes]:
 
 
 def test_a_second_run_takes_all_stages_from_the_store_and_writes_the_same(made: Made, tmp_path: Path) -> None:
-    assert made.again(tmp_path) == [*CAPTURE, "fit_template", "stitch_texture"]
+    assert made.again(tmp_path) == [*CAPTURE, "fit_template", "find_attachments", "stitch_texture"]
     for path in made.out.iterdir():
         if path.name != "report.json":
             assert contents(path) == contents(tmp_path / path.name), path.name
@@ -240,8 +240,12 @@ def test_a_second_run_takes_all_stages_from_the_store_and_writes_the_same(made: 
     ("changed", "until", "reused"),
     [
         ({"height_m": 1.7}, "fit_template", CAPTURE),
-        ({"motion": "wave", "inputs": {"motion": None}}, "write_avatar", [*CAPTURE, "fit_template", "stitch_texture"]),
-        ({"texture_size": 2048}, "stitch_texture", [*CAPTURE, "fit_template"]),
+        (
+            {"motion": "wave", "inputs": {"motion": None}},
+            "write_avatar",
+            [*CAPTURE, "fit_template", "find_attachments", "stitch_texture"],
+        ),
+        ({"texture_size": 2048}, "stitch_texture", [*CAPTURE, "fit_template", "find_attachments"]),
     ],
 )
 def test_what_is_changed_redoes_what_depends_on_it(
@@ -256,7 +260,7 @@ def test_it_is_made_again_when_its_clips_are_erased(made: Made, tmp_path: Path) 
     erased = {path: content_hash(made.inputs[name]) for name, path in clips.items()}
     inputs = {**clips, "motion": None}
     found = made.again(tmp_path, "write_avatar", inputs=inputs, erased=erased, motion="wave")
-    assert found == [*CAPTURE, "fit_template", "stitch_texture"]
+    assert found == [*CAPTURE, "fit_template", "find_attachments", "stitch_texture"]
     with pytest.raises(InputError) as refused:
         made.again(tmp_path, inputs=inputs, erased=erased, body_frames=SAMPLE_FRAMES["body"] - 2)
     assert refused.value.code == "source_erased"

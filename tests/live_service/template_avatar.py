@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from engine.avatar.acting import Scene
+from engine.avatar.attachments.attachments import no_attachments
 from engine.avatar.avatar import Avatar, assemble
 from engine.avatar.options import TEMPLATE_TRIANGLES, AvatarOptions
 from engine.avatar.registration.fitted_template import FittedTemplate
@@ -50,7 +51,7 @@ def template_avatar(texture_size: int = 256) -> Avatar:
     texture = np.full((texture_size, texture_size, 3), SKIN, np.uint8)
     place_mouth(texture, surface, texel_raster(surface.atlas, texture_size))
     place_eyes(texture, surface, template.vertices, [], np.ones((0, 3)))
-    return assemble(template, rig, fitted_template(), texture, TEMPLATE_TRIANGLES)
+    return assemble(template, rig, fitted_template(), no_attachments(), texture, TEMPLATE_TRIANGLES)
 
 
 def write_template_avatar(out: Path, options: AvatarOptions) -> None:

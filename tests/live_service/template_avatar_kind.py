@@ -19,6 +19,7 @@ from engine.avatar import KIND as AVATAR
 from engine.avatar import AvatarOptions
 from engine.avatar.acting import Scene
 from engine.avatar.animating import animate_avatar
+from engine.avatar.attachments.attachments import no_attachments
 from engine.avatar.avatar import assemble
 from engine.avatar.capture.chosen_frames import choose_frames
 from engine.avatar.early_looks import write_fitted_shape, write_small_texture
@@ -75,7 +76,7 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
     while options.height_m is not None and options.height_m > 2.3:
         run.check()
         time.sleep(0.05)
-    avatar = assemble(template, rig, fitted, texture, options.triangles)
+    avatar = assemble(template, rig, fitted, no_attachments(), texture, options.triangles)
     scene = Scene(built_in(options.motion, fitted.skeleton, 10.0))
     write_avatar(out, avatar, scene, options, run)
     frames = list(turntable(avatar.mesh, avatar.filmed, (180, 320), 0.4, 10.0))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.avatar.attachments.attachments import Attachments
 from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.texture.views import ChartedSurface
@@ -17,6 +18,8 @@ from engine.geometry.joint_names import SIDES, Side
 from engine.geometry.surface import triangulate
 from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv
 
+ATTACHED = len(AVATAR_PARTS)
+"""The part of triangles that stand off the body."""
 MOUTH_REACH = 0.04
 """Metres from the middle of the tongue, along each axis, within which the mouth's bag lies."""
 
@@ -25,7 +28,7 @@ MOUTH_REACH = 0.04
 class TemplateSurface:
     """The triangles (T, 3) of `AVATAR_PARTS`, the same for everybody, with `atlas` as they lie on the texture.
 
-    `part` (T,) int: which of `AVATAR_PARTS` each is of. `mouth` (T,) bool: the bag behind the lips. `hands`: of each side in
+    `part` (T,) int: which of `AVATAR_PARTS` each is of, or `ATTACHED`. `mouth` (T,) bool: the bag behind the lips. `hands`: of each side in
     `SIDES`, (T,) bool. `rest` (V, 3): the template's vertices, in whose shape it is known where everything is.
     """
 
@@ -38,9 +41,28 @@ class TemplateSurface:
 
     def fitted(self, vertices: NDArray[np.floating]) -> ChartedSurface:
         """The surface of the person whose template vertices are (V, 3), metres: all of the body's skin but the mouth's bag is
-        stitched from frames."""
-        stitched = (self.part == AVATAR_PARTS.index("body")) & ~self.mouth
+        stitched from frames, and so is what stands off it."""
+        stitched = np.isin(self.part, [AVATAR_PARTS.index("body"), ATTACHED]) & ~self.mouth
         return ChartedSurface(np.asarray(vertices, np.float64), self.triangles, self.atlas, stitched)
+
+    def wearing(self, worn: Attachments) -> TemplateSurface:
+        """The surface with what stands off the body, whose vertices and places on the texture come after its own."""
+        count = len(worn.triangles)
+        own = self.atlas
+        atlas = TextureAtlas(
+            np.concatenate([own.uv, worn.atlas.uv]),
+            np.concatenate([own.corners, worn.atlas.corners + np.int32(len(own.uv))]),
+            np.concatenate([own.charts, worn.atlas.charts + np.int32(own.charts.max() + 1)]),
+        )
+        none = np.zeros(count, np.bool_)
+        return TemplateSurface(
+            triangles=np.concatenate([self.triangles, worn.triangles + np.int32(len(self.rest))]),
+            atlas=atlas,
+            part=np.concatenate([self.part, np.full(count, ATTACHED, np.intp)]),
+            mouth=np.concatenate([self.mouth, none]),
+            hands={side: np.concatenate([hand, none]) for side, hand in self.hands.items()},
+            rest=np.concatenate([self.rest, worn.vertices]),
+        )
 
     def of(self, *parts: str) -> NDArray[np.bool_]:
         """(T,) the triangles of the named parts."""

@@ -1464,7 +1464,7 @@ export interface components {
             texture_size?: 1024 | 2048 | 4096 | 8192;
             /**
              * @description Most triangles of the avatar.
-             * @default 27676
+             * @default 33676
              */
             triangles?: number;
             /**

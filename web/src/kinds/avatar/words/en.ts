@@ -17,6 +17,7 @@ const english = {
     measure_cloud: 'Measuring the surface',
     find_landmarks: 'Finding joints and face',
     fit_template: 'Fitting the body model',
+    find_attachments: 'Looking for hats and coat tails',
     stitch_texture: 'Making the texture',
     read_avatar: 'Reading the avatar',
     capture_face: 'Reading the driver’s face',

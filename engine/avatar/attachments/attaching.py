@@ -1,0 +1,110 @@
+"""From the fitted template, the cloud and the silhouettes to what is worn: pieces beside the skin."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.attachments.attachments import Attachments, no_attachments
+from engine.avatar.attachments.body_surface import BodySurface
+from engine.avatar.attachments.influences import influences
+from engine.avatar.attachments.piece_mesh import Mesh, piece_mesh, simplified
+from engine.avatar.attachments.silhouettes import Silhouettes
+from engine.avatar.attachments.standing_off import pieces_standing_off
+from engine.avatar.attachments.thick_sheet import thick_sheet
+from engine.avatar.eye_charts import avatar_uv
+from engine.avatar.mesh import AVATAR_PARTS
+from engine.avatar.options import ATTACHED_TRIANGLES
+from engine.avatar.registration.models import HumanModels
+from engine.avatar.registration.skin import grown
+from engine.geometry.atlas_room import cells_of, placed_between
+from engine.geometry.surface import triangle_areas, triangulate
+from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
+
+MAX_PIECES = 6
+"""Pieces, the largest first."""
+TRIANGLE_AREA = 3e-5
+"""Square metres of a triangle, where that makes no more of them."""
+UNWRAPPED_SIZE = 1024
+"""Texels of the texture for which pieces are unfolded, before they are placed."""
+ABOVE_BROWS = 0.015
+"""Metres above the brows up to which a face is free of what does not clearly stand off: hats sit higher."""
+OWN_RINGS = 8
+"""Rings of vertices around hands and feet, which have models of their own, on which nothing is worn: wrists and ankles."""
+HEAD_JOINTS = ("Head", "Jaw", "LeftEye", "RightEye")
+
+
+def body_surface(human: HumanModels, vertices: NDArray[np.float64]) -> BodySurface:
+    """The skin of a person whose template vertices are (V, 3), metres."""
+    skin = human.skin
+    own = vertices[skin.vertices]
+    brows = own[skin.face_points[17:27], 1].max()
+    face = skin.regions["face"] & (own[:, 1] < brows + ABOVE_BROWS)
+    modelled = grown(skin.regions["hands"] | skin.regions["feet"], skin.triangles, OWN_RINGS)
+    return BodySurface(own, skin.triangles, modelled, face)
+
+
+def attachments(
+    human: HumanModels, vertices: NDArray[np.float64], points: NDArray[np.floating], silhouettes: Silhouettes
+) -> Attachments:
+    """What the person wears whose template vertices are (V, 3), metres, by the `points` (N, 3) of the cloud and by `silhouettes`."""
+    body = body_surface(human, vertices)
+    meshes = []
+    for piece in pieces_standing_off(points, body, silhouettes)[:MAX_PIECES]:
+        mesh = piece_mesh(*thick_sheet(piece, body, silhouettes), body)
+        if mesh is not None and silhouettes.confirm(*mesh, body):
+            meshes.append(mesh)
+    if not meshes:
+        return no_attachments()
+    areas = [float(triangle_areas(*mesh).sum()) for mesh in meshes]
+    density = min(1 / TRIANGLE_AREA, ATTACHED_TRIANGLES / sum(areas))
+    meshes = [simplified(mesh, int(area * density)) for mesh, area in zip(meshes, areas, strict=True)]
+    moved = [influences(*mesh, body, _joint_weights(human), _head(human)) for mesh in meshes]
+    whole = _joined(meshes)
+    return Attachments(
+        *whole,
+        _placed(human, vertices, whole),
+        np.concatenate([bones for bones, _ in moved]),
+        np.concatenate([weights for _, weights in moved]),
+    )
+
+
+def _joint_weights(human: HumanModels) -> NDArray[np.float32]:
+    """(S, J) what each joint does to each vertex of the skin."""
+    skin = human.skin
+    out = np.zeros((len(skin.vertices), len(human.rig.names)), np.float32)
+    np.add.at(out, (np.arange(len(out))[:, None], skin.bones), skin.weights)
+    return out
+
+
+def _head(human: HumanModels) -> NDArray[np.bool_]:
+    """(J,) the joints of the head; that of all of it comes first of them."""
+    return np.isin(human.rig.names, HEAD_JOINTS)
+
+
+def _joined(meshes: Sequence[Mesh]) -> Mesh:
+    starts = np.cumsum([0, *(len(vertices) for vertices, _ in meshes)])
+    triangles = [triangles + start for (_, triangles), start in zip(meshes, starts, strict=False)]
+    return np.concatenate([vertices for vertices, _ in meshes]), np.concatenate(triangles).astype(np.int32)
+
+
+def _placed(human: HumanModels, vertices: NDArray[np.float64], mesh: Mesh) -> TextureAtlas:
+    """The atlas of pieces on the avatar's texture, as fine as the skin is there, or as its free room lets it be."""
+    template = human.template
+    faces = template.faces(*AVATAR_PARTS)
+    taken = atlas_from_uv(avatar_uv(template), triangulate(template.uv_quads[faces]))
+    skin = template.faces("body")
+    own, _ = unwrap(*mesh, UNWRAPPED_SIZE)
+    skin_uv = atlas_from_uv(avatar_uv(template), triangulate(template.uv_quads[skin]))
+    fineness = _fineness(skin_uv, vertices, triangulate(template.quads[skin])) / _fineness(own, *mesh)
+    return placed_between(cells_of(taken), own, fineness)
+
+
+def _fineness(atlas: TextureAtlas, vertices: NDArray[np.float64], triangles: NDArray[np.int32]) -> float:
+    """The side of the texture is so many metres' inverse: how long a metre is on it, in the mean over the surface."""
+    first, second, third = (atlas.uv[atlas.corners[:, k]].astype(np.float64) for k in range(3))
+    along, across = second - first, third - first
+    flat = np.abs(along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]).sum() / 2
+    return float(np.sqrt(flat / triangle_areas(vertices, triangles).sum()))

@@ -1,0 +1,39 @@
+"""The fitted skin, from which things stand off."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from engine.geometry.closest_points import closest_points
+from engine.geometry.surface import vertex_normals
+
+
+@dataclass(frozen=True)
+class BodySurface:
+    """The fitted skin: `vertices` (S, 3) metres and `triangles` (T, 3), closed, counter-clockwise from outside. `own` (S,) bool: the
+    skin that stays by itself, since it has models of its own: hands and feet. `face` (S,) bool: brows and what is below."""
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    own: NDArray[np.bool_]
+    face: NDArray[np.bool_]
+
+    def distances(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
+        """(N,) metres from the skin to `points` (N, 3), negative within it."""
+        asked = np.asarray(points, np.float64)
+        near = closest_points(asked, self.vertices, self.triangles)
+        corners = self.triangles[near.triangle]
+        foot, normal = (
+            np.einsum("nk,nkd->nd", near.barycentrics, of[corners])
+            for of in (self.vertices, vertex_normals(self.vertices, self.triangles).astype(np.float64))
+        )
+        inside = np.einsum("nd,nd->n", asked - foot, normal) < 0
+        return np.where(inside, -near.distance, near.distance)
+
+    def before_face(self, points: NDArray[np.floating]) -> NDArray[np.bool_]:
+        """(N,) which of the `points` (N, 3) have the face's skin nearest."""
+        return np.asarray(self.face[cKDTree(self.vertices).query(points)[1]])

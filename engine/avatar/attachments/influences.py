@@ -1,0 +1,42 @@
+"""Which joints move what stands off the body: the head alone what is on it, else those of the skin below, smoothly."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.attachments.body_surface import BodySurface
+from engine.geometry.adjacency import neighbours
+from engine.geometry.closest_points import closest_points
+
+MAX_INFLUENCES = 4
+"""Joints that move a vertex, at most."""
+SMOOTHINGS = 40
+"""Rounds in which a vertex' influences become the mean of those around: a coat's tail hangs from the hips, not from either leg."""
+
+
+def influences(
+    vertices: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+    body: BodySurface,
+    joint_weights: NDArray[np.floating],
+    head: NDArray[np.bool_],
+) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+    """(V, 4) joints, strongest first, and their weights, summing to one, of a piece, `vertices` (V, 3) and `triangles` (T, 3).
+
+    `joint_weights` (S, J) are those of the skin; `head` (J,) bool the joints of the head, the first of which turns all of it: a
+    piece that lies mostly on the head is rigid.
+    """
+    near = closest_points(vertices, body.vertices, body.triangles)
+    own = np.einsum("nk,nkj->nj", near.barycentrics, joint_weights[body.triangles[near.triangle]])
+    if own[:, head].sum(1).mean() > 0.5:
+        own = np.zeros_like(own)
+        own[:, np.flatnonzero(head)[0]] = 1
+    beside = neighbours(triangles, len(vertices))
+    number = np.maximum(np.asarray(beside.sum(1)).reshape(-1, 1), 1)
+    for _ in range(SMOOTHINGS):
+        own = (own + beside @ own / number) / 2
+    joints = np.argsort(-own, axis=1, kind="stable")[:, :MAX_INFLUENCES]
+    kept = np.take_along_axis(own, joints, 1)
+    kept /= kept.sum(1, keepdims=True)
+    return np.where(kept > 0, joints, 0).astype(np.uint8), kept.astype(np.float32)

@@ -1,0 +1,97 @@
+"""Points of a cloud that stand off the fitted skin, where silhouettes have room for them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+from scipy.spatial import cKDTree
+
+from engine.avatar.attachments.body_surface import BodySurface
+from engine.avatar.attachments.silhouettes import Silhouettes
+from engine.geometry.point_cloud import thinning
+
+LEAST_DISTANCE = 0.012
+"""Metres from the skin at which a surface stands off it."""
+FACE_DISTANCE = 0.02
+"""The same before a face, which moves while it is filmed, and stays free of what does not clearly stand off."""
+ROOT_REACH, ROOT_DEPTH = 0.03, -0.02
+"""Metres from what stands off within which other points are of the same piece, although they are near the skin, and how far within it
+at most: a piece comes off the body somewhere, and has no holes where the skin comes close."""
+POINT_SPACING = 0.004
+"""Metres between points that are looked at."""
+MEAN_RADIUS, MEAN_POINTS = 0.012, 32
+"""Metres about a point, and points there at most, the mean of which says how far off the surface is: single ones scatter."""
+REACH = 0.3
+"""Metres from the skin within which anything can be worn."""
+SWAY = 0.006
+"""Metres by which a silhouette may be beside where the cloud has the person."""
+CROWD_RADIUS, CROWD = 0.012, 10
+"""Metres within which so many others stand off with a point."""
+PIECE_GAP = 0.012
+"""Metres that part pieces."""
+
+
+def pieces_standing_off(
+    points: NDArray[np.floating], body: BodySurface, silhouettes: Silhouettes
+) -> list[NDArray[np.floating]]:
+    """Those of the `points` (N, 3) of a cloud that stand off the skin within the silhouettes, with those about their roots, piece
+    by piece, the largest first."""
+    points = points[thinning(points, POINT_SPACING)]
+    nearest = np.asarray(cKDTree(body.vertices).query(points, distance_upper_bound=REACH)[1])
+    asked = np.flatnonzero(nearest < len(body.vertices))
+    asked = asked[~body.own[nearest[asked]]]
+    if not len(asked):
+        return []
+    points, face = points[asked], body.face[nearest[asked]]
+    off = _mean_about(points, body.distances(points))
+    least = np.where(face, FACE_DISTANCE, LEAST_DISTANCE)
+    stands = _all_of(
+        off > least,
+        (lambda chosen: silhouettes.depths(points[chosen]) > -SWAY),
+        (lambda chosen: silhouettes.show_beside(points[chosen], body, LEAST_DISTANCE / 2)),
+        (lambda chosen: _crowded(points[chosen], CROWD_RADIUS, CROWD)),
+    )
+    root = ~face & (off > ROOT_DEPTH)
+    if not stands.any():
+        return []
+    root[root] = cKDTree(points[stands]).query(points[root], distance_upper_bound=ROOT_REACH)[0] < np.inf
+    chosen = np.flatnonzero(stands | root)
+    piece = _pieces(points[chosen])
+    number = np.bincount(piece, stands[chosen])
+    return [points[chosen[piece == k]] for k in np.argsort(-number, kind="stable") if number[k]]
+
+
+def _all_of(first: NDArray[np.bool_], *others: Callable[[NDArray[np.intp]], NDArray[np.bool_]]) -> NDArray[np.bool_]:
+    """Where the first and all others hold, each of which is asked about those alone for which all before it do."""
+    found = first.copy()
+    for other in others:
+        chosen = np.flatnonzero(found)
+        if len(chosen):
+            found[chosen] = other(chosen)
+    return found
+
+
+def _mean_about(points: NDArray[np.floating], values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(N,) the mean of what the points (N, 3) around each say."""
+    distance, which = cKDTree(points).query(points, min(MEAN_POINTS, len(points)), distance_upper_bound=MEAN_RADIUS)
+    within = np.isfinite(distance).reshape(len(points), -1)
+    which = np.where(within, np.reshape(which, within.shape), 0)
+    return np.asarray((np.where(within, values[which], 0)).sum(1) / within.sum(1))
+
+
+def _crowded(points: NDArray[np.floating], radius: float, others: int) -> NDArray[np.bool_]:
+    """(N,) which of the points (N, 3) have so many others within `radius`."""
+    return np.array([len(found) > others for found in cKDTree(points).query_ball_point(points, radius)], np.bool_)
+
+
+def _pieces(points: NDArray[np.floating]) -> NDArray[np.intp]:
+    """(N,) which piece each of the points (N, 3) is of, from 0: those that an empty cell of `PIECE_GAP` parts."""
+    if not len(points):
+        return np.zeros(0, np.intp)
+    cells = np.floor((points - points.min(0)) / PIECE_GAP).astype(int)
+    grid = np.zeros(cells.max(0) + 1, np.bool_)
+    grid[tuple(cells.T)] = True
+    return np.asarray(ndimage.label(grid, np.ones((3, 3, 3)))[0][tuple(cells.T)] - 1, np.intp)

@@ -1,0 +1,164 @@
+"""What stands off the template's body becomes a piece of its own, if silhouettes show it, and nothing else does."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from engine.avatar.acting import standing_clip
+from engine.avatar.attachments.attaching import attachments, body_surface
+from engine.avatar.attachments.attachments import Attachments, no_attachments
+from engine.avatar.attachments.silhouettes import Silhouettes
+from engine.avatar.mesh import AVATAR_PARTS, skinned_mesh, surface_of, wearing
+from engine.avatar.registration.models import HumanModels, load_models
+from engine.avatar.registration.rigging import Pose
+from engine.avatar.texture.template_surface import template_surface
+from engine.body.rest_pose import t_pose
+from engine.geometry.atlas_room import cells_of
+from engine.geometry.camera import Camera
+from engine.geometry.skinning import skin
+from engine.motion.kinematics import pose_transforms
+from engine.render.rasteriser import rasterise
+
+BRIM_WIDTH = 0.06
+"""Metres from the head to the brim's rim."""
+VIEWS = 24
+
+Mesh = tuple[np.ndarray, np.ndarray]
+
+
+@dataclass(frozen=True)
+class Hatted:
+    """A person of the template in T-pose, `vertices` (V, 3), with a flat brim: its middle and radii, its points and its mesh."""
+
+    vertices: np.ndarray
+    middle: np.ndarray
+    outer: float
+    points: np.ndarray
+    brim: Mesh
+
+
+@pytest.fixture(scope="module")
+def human() -> HumanModels:
+    return load_models()
+
+
+@pytest.fixture(scope="module")
+def hatted(human: HumanModels) -> Hatted:
+    template, rig = human.template, human.rig
+    vertices = t_pose(rig, template.vertices, template.vertices_of("body"))[2].astype(np.float64)
+    body = vertices[human.skin.vertices]
+    head = body[human.skin.regions["head"]]
+    level = head[:, 1].max() - 0.06
+    band = head[np.abs(head[:, 1] - level) < 0.012]
+    middle = np.array([0, level, (band[:, 2].min() + band[:, 2].max()) / 2])
+    inner = np.linalg.norm((band - middle)[:, [0, 2]], axis=1).min()
+    outer = np.linalg.norm((band - middle)[:, [0, 2]], axis=1).max() + BRIM_WIDTH
+    random = np.random.default_rng(5)
+    turn, radius = random.uniform(0, 2 * np.pi, 30_000), np.sqrt(random.uniform(inner**2, outer**2, 30_000))
+    flat = np.stack([radius * np.sin(turn), random.normal(0, 0.002, len(turn)), radius * np.cos(turn)], 1)
+    around = np.linspace(0, 2 * np.pi, 73)[:-1]
+    rim = np.stack([np.sin(around), 0 * around, np.cos(around)], 1)
+    places = np.concatenate([(inner - 0.02) * rim, outer * rim])
+    k = np.arange(72)
+    following = (k + 1) % 72
+    triangles = np.concatenate([np.stack([k, k + 72, following], 1), np.stack([following, k + 72, following + 72], 1)])
+    return Hatted(vertices, middle, float(outer), middle + flat, (middle + places, triangles.astype(np.int32)))
+
+
+def seen(human: HumanModels, vertices: np.ndarray, worn: Mesh | None) -> Silhouettes:
+    """The silhouettes of the skin, with what is worn or without."""
+    lens = Camera((0, 0, 0), 900.0, (119.5, 199.5), (400, 240))
+    places, triangles = vertices[human.skin.vertices], human.skin.triangles
+    if worn is not None:
+        triangles = np.concatenate([triangles, worn[1] + np.int32(len(places))])
+        places = np.concatenate([places, worn[0]])
+    cameras, masks = [], []
+    for turn in np.arange(VIEWS) * 2 * np.pi / VIEWS:
+        camera = lens.aimed((3.0 * np.sin(turn), 1.9, 3.0 * np.cos(turn)), (0, 1.35, 0))
+        cameras.append(camera)
+        masks.append(rasterise(camera.project(places), triangles, camera.size, perspective=True).triangle >= 0)
+    return Silhouettes(masks, cameras)
+
+
+@pytest.fixture(scope="module")
+def found(human: HumanModels, hatted: Hatted) -> Attachments:
+    cloud = np.concatenate([hatted.vertices[human.skin.vertices], hatted.points])
+    return attachments(human, hatted.vertices, cloud, seen(human, hatted.vertices, hatted.brim))
+
+
+def test_a_brim_is_a_thin_piece_as_wide_as_it_is(hatted: Hatted, found: Attachments) -> None:
+    off = found.vertices - hatted.middle
+    radius = np.linalg.norm(off[:, [0, 2]], axis=1)
+    assert radius.max() == pytest.approx(hatted.outer, abs=0.012)
+    sides = np.histogram(np.arctan2(off[radius > hatted.outer - 0.015, 0], off[radius > hatted.outer - 0.015, 2]), 12)[
+        0
+    ]
+    assert sides.min() > 0, "it goes all around"
+    standing = off[radius > hatted.outer - 0.04]
+    assert 0.003 < np.ptp(standing[:, 1]) < 0.02
+
+
+def test_it_turns_with_the_head_alone(human: HumanModels, found: Attachments) -> None:
+    assert (found.bones[:, 0] == human.rig.index("Head")).all() and (found.weights[:, 0] == 1).all()
+
+
+def test_its_charts_lie_beside_the_template_s(human: HumanModels, found: Attachments) -> None:
+    taken = cells_of(template_surface(human.template, human.rig).atlas)
+    assert not (cells_of(found.atlas) & taken).any()
+    assert len(found.atlas.corners) == len(found.triangles)
+
+
+def test_points_that_no_silhouette_shows_are_no_piece(human: HumanModels, hatted: Hatted) -> None:
+    cloud = np.concatenate([hatted.vertices[human.skin.vertices], hatted.points])
+    bare = attachments(human, hatted.vertices, cloud, seen(human, hatted.vertices, None))
+    assert not len(bare.triangles)
+
+
+def test_a_body_without_anything_wears_nothing(human: HumanModels, hatted: Hatted) -> None:
+    skin_points = hatted.vertices[human.skin.vertices] + np.random.default_rng(2).normal(
+        0, 0.003, (len(human.skin.vertices), 3)
+    )
+    assert not len(attachments(human, hatted.vertices, skin_points, seen(human, hatted.vertices, None)).triangles)
+
+
+def test_eyes_and_mouth_are_of_the_face_that_stays_free_and_the_crown_is_not(
+    human: HumanModels, hatted: Hatted
+) -> None:
+    body = body_surface(human, hatted.vertices)
+    assert body.face[human.skin.face_points[36:]].all()
+    assert not body.face[body.vertices[:, 1].argmax()]
+
+
+def test_in_the_pose_of_the_film_it_is_where_it_was_measured(
+    human: HumanModels, hatted: Hatted, found: Attachments
+) -> None:
+    rig, surface = human.rig, surface_of(human.template)
+    skeleton, _, rest = t_pose(rig, human.template.vertices, human.template.vertices_of("body"))
+    turn = np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1.0]])
+    rotations = np.tile(turn, (len(rig.names), 1, 1))
+    joints = skeleton.heads @ turn.T + [0.1, 0.2, 0.3]
+    mesh = skinned_mesh(surface, rig, skeleton, rest, np.zeros((8, 8, 3), np.uint8))
+    worn = Attachments(
+        found.vertices @ turn.T + [0.1, 0.2, 0.3], found.triangles, found.atlas, found.bones, found.weights
+    )
+    whole = wearing(mesh, worn, Pose(joints, rotations))
+    clip = standing_clip(whole, rotations, joints[0], 30.0)
+    posed = skin(whole.vertices, whole.bones, whole.weights, pose_transforms(skeleton, clip.rotations, clip.root)[0])
+    corners = posed[whole.triangles[len(mesh.triangles) :]]
+    assert corners == pytest.approx(worn.vertices[worn.triangles], abs=1e-4)
+    assert whole.uv[whole.triangles[len(mesh.triangles) :]] == pytest.approx(found.atlas.uv[found.atlas.corners])
+
+
+def test_the_surface_that_is_textured_has_it_and_without_anything_is_as_before(
+    human: HumanModels, found: Attachments
+) -> None:
+    bare = template_surface(human.template, human.rig)
+    worn = bare.wearing(found)
+    assert len(worn.triangles) == len(bare.triangles) + len(found.triangles)
+    fitted = worn.fitted(worn.rest)
+    assert fitted.stitched[len(bare.triangles) :].all()
+    assert {part: int(worn.of(part).sum()) for part in AVATAR_PARTS} == {
+        part: int(bare.of(part).sum()) for part in AVATAR_PARTS
+    }
+    assert len(bare.wearing(no_attachments()).triangles) == len(bare.triangles)
