@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree
 from engine.avatar.attachments.attaching import attachments
 from engine.avatar.attachments.attachments import Attachments
 from engine.avatar.attachments.silhouettes import Silhouettes
+from engine.avatar.attachments.standing_off import well_supported
 from engine.avatar.capture.cameras import CaptureCameras, ClipCameras, solve_cameras
 from engine.avatar.capture.captured_view import CapturedView
 from engine.avatar.capture.chosen_frames import ChosenFrames
@@ -174,10 +175,10 @@ def find_attachments(
     placed it and only about the head, which it shows from near, and by the silhouettes of the body's."""
     check()
     human = load_models()
-    measured = [scan.dense.cloud.points[scan.dense.support > 0] for scan in [body]]
+    measured = [well_supported(body.dense.cloud.points, body.dense.support)]
     if head is not None and fitted.head_to_body is not None:
         near = head.moved(fitted.head_to_body).dense
-        points = near.cloud.points[near.support > 0]
+        points = well_supported(near.cloud.points, near.support)
         nearest = cKDTree(fitted.vertices[human.skin.vertices]).query(points)[1]
         measured.append(points[human.skin.regions["head"][nearest]])
     cameras = [

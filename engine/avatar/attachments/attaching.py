@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from engine.avatar.attachments.attachments import Attachments, no_attachments
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.avatar.attachments.influences import influences
-from engine.avatar.attachments.piece_mesh import Mesh, piece_mesh, simplified
+from engine.avatar.attachments.piece_mesh import Mesh, piece_mesh, seen_area, simplified
 from engine.avatar.attachments.silhouettes import Silhouettes
 from engine.avatar.attachments.standing_off import pieces_standing_off
 from engine.avatar.attachments.thick_sheet import thick_sheet
@@ -53,14 +53,14 @@ def attachments(
     body = body_surface(human, vertices)
     meshes = []
     for piece in pieces_standing_off(points, body, silhouettes)[:MAX_PIECES]:
-        mesh = piece_mesh(*thick_sheet(piece, body, silhouettes), body)
+        mesh = piece_mesh(*thick_sheet(piece, body, silhouettes))
         if mesh is not None and silhouettes.confirm(*mesh, body):
             meshes.append(mesh)
     if not meshes:
         return no_attachments()
-    areas = [float(triangle_areas(*mesh).sum()) for mesh in meshes]
+    areas = [seen_area(mesh, body) for mesh in meshes]
     density = min(1 / TRIANGLE_AREA, ATTACHED_TRIANGLES / sum(areas))
-    meshes = [simplified(mesh, int(area * density)) for mesh, area in zip(meshes, areas, strict=True)]
+    meshes = [simplified(mesh, body, int(area * density)) for mesh, area in zip(meshes, areas, strict=True)]
     moved = [influences(*mesh, body, _joint_weights(human), _head(human)) for mesh in meshes]
     whole = _joined(meshes)
     return Attachments(

@@ -20,37 +20,51 @@ LEAST_AREA = 0.015
 """Square metres of a piece's surface, both its sides: less is no hat and no tail."""
 HIDDEN_DEPTH = 0.003
 """Metres within the skin from which on nothing is seen of a piece."""
+HIDDEN_IMPORTANCE = 0.02
+"""Of what is hidden there, against the rest, when triangles are taken."""
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.int32]]
 """Vertices (V, 3) and triangles (T, 3)."""
 
 
-def piece_mesh(vertices: NDArray[np.floating], triangles: NDArray[np.integer], body: BodySurface) -> Mesh | None:
-    """What is seen of the largest part of a solid's surface, fair; None where that is too small to be worn."""
+def piece_mesh(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> Mesh | None:
+    """The largest part of a solid's surface, closed and fair; None where that is too small to be worn."""
     mesh = _largest(np.asarray(vertices, np.float64), np.asarray(triangles, np.int32))
     if mesh is None or triangle_areas(*mesh).sum() < LEAST_AREA:
         return None
-    moved = fair(*mesh, FAIRINGS)
-    seen = (body.distances(moved) > -HIDDEN_DEPTH)[mesh[1]].any(1)
-    return _largest(moved, mesh[1][seen])
+    return fair(*mesh, FAIRINGS), mesh[1]
 
 
-def simplified(mesh: Mesh, triangles: int) -> Mesh:
-    """A mesh of so many triangles at most."""
-    count = len(mesh[0])
+def seen_area(mesh: Mesh, body: BodySurface) -> float:
+    """Square metres of what the skin does not hide of a piece."""
+    return float(triangle_areas(*mesh)[_seen(*mesh, body)].sum())
+
+
+def simplified(mesh: Mesh, body: BodySurface, triangles: int) -> Mesh:
+    """What the skin does not hide of a closed piece, with so many triangles at most."""
+    vertices, corners = mesh
+    count = len(vertices)
     one = Skeleton(("root",), np.array([-1], np.int32), np.zeros((1, 3), np.float32))
-    bones, weights = np.zeros((count, 4), np.uint8), np.tile(np.array([1, 0, 0, 0], np.float32), (count, 1))
     whole = SkinnedMesh(
-        one,
-        mesh[0].astype(np.float32),
-        mesh[1],
-        np.zeros((count, 2), np.float32),
-        bones,
-        weights,
-        np.zeros((1, 1, 3), np.uint8),
+        skeleton=one,
+        vertices=vertices.astype(np.float32),
+        triangles=corners,
+        uv=np.zeros((count, 2), np.float32),
+        bones=np.zeros((count, 4), np.uint8),
+        weights=np.tile(np.array([1, 0, 0, 0], np.float32), (count, 1)),
+        texture=np.zeros((1, 1, 3), np.uint8),
     )
-    fewer = decimate(whole, triangles).mesh
-    return fewer.vertices.astype(np.float64), fewer.triangles
+    hidden = body.distances(vertices) < -HIDDEN_DEPTH
+    fewer = decimate(whole, triangles, np.where(hidden, HIDDEN_IMPORTANCE, 1.0)).mesh
+    left = fewer.vertices.astype(np.float64)
+    found = _largest(left, fewer.triangles[_seen(left, fewer.triangles, body)])
+    assert found is not None, "a piece that silhouettes confirm is seen"
+    return found
+
+
+def _seen(vertices: NDArray[np.float64], triangles: NDArray[np.int32], body: BodySurface) -> NDArray[np.bool_]:
+    """(T,) which triangles have their middle outside of the skin, or nearly so."""
+    return body.distances(vertices[triangles].mean(1)) > -HIDDEN_DEPTH
 
 
 def _largest(vertices: NDArray[np.float64], triangles: NDArray[np.int32]) -> Mesh | None:

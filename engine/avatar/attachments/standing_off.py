@@ -20,6 +20,8 @@ FACE_DISTANCE = 0.02
 ROOT_REACH, ROOT_DEPTH = 0.03, -0.02
 """Metres from what stands off within which other points are of the same piece, although they are near the skin, and how far within it
 at most: a piece comes off the body somewhere, and has no holes where the skin comes close."""
+DOUBTED = 0.25
+"""Share of a cloud's points, those that fewest views saw, of which no piece is made."""
 POINT_SPACING = 0.004
 """Metres between points that are looked at."""
 MEAN_RADIUS, MEAN_POINTS = 0.012, 32
@@ -32,6 +34,15 @@ CROWD_RADIUS, CROWD = 0.012, 10
 """Metres within which so many others stand off with a point."""
 PIECE_GAP = 0.012
 """Metres that part pieces."""
+
+
+def well_supported(points: NDArray[np.floating], support: NDArray[np.integer]) -> NDArray[np.floating]:
+    """Those of a cloud's `points` (N, 3) that as many views saw (`support` (N,)) as most of the others: what a few alone say of places
+    off the body is mostly room."""
+    measured = support[support > 0]
+    if not len(measured):
+        return points[:0]
+    return points[support >= np.quantile(measured, DOUBTED)]
 
 
 def pieces_standing_off(
