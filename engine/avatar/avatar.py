@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.acting import standing_clip
-from engine.avatar.attachments.attachments import Attachments
 from engine.avatar.combined_targets import with_combined_targets
 from engine.avatar.mesh import morphs_of, skinned_mesh, surface_of, wearing
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.rigging import Pose
+from engine.avatar.worn import Attachments
 from engine.body.rig import Rig
 from engine.body.template import Template
 from engine.geometry.morph_target import MorphTarget, morph_target

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.attachments.attachments import Attachments
 from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.registration.rigging import Pose, unposed
+from engine.avatar.worn import Attachments
 from engine.body.rig import Rig
 from engine.body.template import Template
 from engine.geometry.morph_target import MorphTarget, morph_target

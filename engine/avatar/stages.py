@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from engine.avatar.attachments.attaching import attachments
-from engine.avatar.attachments.attachments import Attachments
 from engine.avatar.attachments.silhouettes import Silhouettes
 from engine.avatar.attachments.standing_off import well_supported
 from engine.avatar.capture.cameras import CaptureCameras, ClipCameras, solve_cameras
@@ -30,6 +29,7 @@ from engine.avatar.registration.register import Scan, register
 from engine.avatar.texture.avatar_texture import AvatarTexture, avatar_texture
 from engine.avatar.texture.template_surface import template_surface
 from engine.avatar.texture.views import FrameView
+from engine.avatar.worn import Attachments
 from engine.geometry.camera import Camera
 from engine.geometry.multiview.structure_from_motion.mapping import Lens
 from engine.geometry.registration.rigid import Similarity

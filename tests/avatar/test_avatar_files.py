@@ -11,11 +11,11 @@ from glb_reader import Glb, validate
 from template_avatar import fitted_template, template_avatar
 
 from engine.avatar.acting import Scene
-from engine.avatar.attachments.attachments import no_attachments
 from engine.avatar.avatar import Avatar, assemble
 from engine.avatar.combined_targets import COMBINED_TARGETS
 from engine.avatar.mesh import surface_of
 from engine.avatar.options import TEMPLATE_TRIANGLES, AvatarOptions
+from engine.avatar.worn import no_attachments
 from engine.avatar.writing import WrittenCameras, write_avatar, write_cameras
 from engine.body.face.visemes import VISEMES
 from engine.body.rig import HUMAN_RIG

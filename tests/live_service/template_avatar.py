@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from engine.avatar.acting import Scene
-from engine.avatar.attachments.attachments import no_attachments
 from engine.avatar.avatar import Avatar, assemble
 from engine.avatar.options import TEMPLATE_TRIANGLES, AvatarOptions
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.texture.template_surface import template_surface
 from engine.avatar.texture.template_texture.placing import place_eyes, place_mouth
+from engine.avatar.worn import no_attachments
 from engine.avatar.writing import write_avatar
 from engine.body.face.visemes import viseme_displacements
 from engine.body.rest_pose import t_pose

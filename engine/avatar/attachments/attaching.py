@@ -7,7 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.attachments.attachments import Attachments, no_attachments
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.avatar.attachments.influences import influences
 from engine.avatar.attachments.piece_mesh import Mesh, piece_mesh, seen_area, simplified
@@ -19,6 +18,7 @@ from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.options import ATTACHED_TRIANGLES
 from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.skin import grown
+from engine.avatar.worn import Attachments, no_attachments
 from engine.geometry.atlas_room import cells_of, placed_between
 from engine.geometry.surface import triangle_areas, triangulate
 from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv, unwrap

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.attachments.attachments import Attachments
 from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.texture.views import ChartedSurface
+from engine.avatar.worn import Attachments
 from engine.body.rig import Rig
 from engine.body.template import Template
 from engine.geometry.joint_names import SIDES, Side

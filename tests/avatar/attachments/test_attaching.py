@@ -7,12 +7,12 @@ import pytest
 
 from engine.avatar.acting import standing_clip
 from engine.avatar.attachments.attaching import attachments, body_surface
-from engine.avatar.attachments.attachments import Attachments, no_attachments
 from engine.avatar.attachments.silhouettes import Silhouettes
 from engine.avatar.mesh import AVATAR_PARTS, skinned_mesh, surface_of, wearing
 from engine.avatar.registration.models import HumanModels, load_models
 from engine.avatar.registration.rigging import Pose
 from engine.avatar.texture.template_surface import template_surface
+from engine.avatar.worn import Attachments, no_attachments
 from engine.body.rest_pose import t_pose
 from engine.geometry.atlas_room import cells_of
 from engine.geometry.camera import Camera
