@@ -1,4 +1,4 @@
-"""Eyes, teeth, tongue and lashes of the fitted face: placed by how the skin about them was deformed, lids laid on eyes."""
+"""Eyes, teeth, tongue and lashes of the fitted face: placed by how the skin about them was deformed, teeth behind the lips."""
 
 from __future__ import annotations
 
@@ -6,22 +6,21 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.avatar.registration.skin import Skin
+from engine.avatar.registration.eyeballs import placed_eyeball
+from engine.avatar.registration.skin import EYE_PARTS, Skin
 from engine.body.template import Template
-from engine.geometry.registration.rigid import fit_similarity
+from engine.geometry.closest_points import closest_points
+from engine.geometry.registration.rigid import Similarity, fit_similarity
+from engine.geometry.winding_number import winding_numbers
 
-SURROUNDINGS = {
-    "left_eye": 0.03,
-    "right_eye": 0.03,
-    "upper_teeth": 0.045,
-    "lower_teeth": 0.045,
-    "tongue": 0.045,
-}
-"""Parts that are placed by a similarity, and the metres about their middle within which visible skin says where."""
-FOLLOWS = {"tongue": "lower_teeth"}
-"""A part that goes where another goes."""
-LID_GAP = 0.0004
-"""Metres that lids stay before the eyeball."""
+MOUTH_PARTS = ("upper_teeth", "lower_teeth", "tongue")
+"""What lies in the mouth, and is placed as one: teeth meet as they did."""
+MOUTH_SURROUNDINGS = 0.045
+"""Metres about the middle of the teeth within which visible skin says where they are."""
+TEETH_DEPTH = 0.002
+"""Metres that teeth lie behind the visible skin, at least."""
+BACK_STEP, MAX_BACK = 0.0005, 0.03
+"""Metres by which they are set back at a time, and at most."""
 SKIN_FOLLOWERS = 4
 """Vertices of the skin whose motion, weighted by nearness, a vertex of no such part follows."""
 
@@ -31,53 +30,47 @@ def place_parts(
 ) -> NDArray[np.float64]:
     """All the template's vertices (V, 3) for the `fitted` skin (S, 3), from `model` (V, 3), the whole template before the fit.
 
-    Skin is as it was fitted, rigid parts by a similarity (scale, turn, shift) of the skin about them, and what is left
-    (lashes, cages of cloth, joints' cubes) goes with the nearest skin.
+    Skin is as it was fitted, eyeballs lie between their lids, what is in the mouth by a similarity (scale, turn, shift) of the
+    skin about it, behind the lips, and what is left (lashes, cages of cloth, joints' cubes) goes with the nearest skin.
     """
-    before = np.asarray(model, np.float64)
-    own = before[skin.vertices]
-    shown = np.flatnonzero(~skin.regions["inner"] & skin.regions["head"])
-    out = _carried_by_skin(before, own, np.asarray(fitted, np.float64))
-    for part, reach in SURROUNDINGS.items():
-        vertices = template.vertices_of(part)
-        middle = before[template.vertices_of(FOLLOWS.get(part, part))].mean(0)
-        near = shown[np.linalg.norm(own[shown] - middle, axis=1) < reach]
-        out[vertices] = fit_similarity(own[near], np.asarray(fitted, np.float64)[near])(before[vertices])
-    out[skin.vertices] = fitted
+    before, after = np.asarray(model, np.float64), np.asarray(fitted, np.float64)
+    head = head_change(skin, before[skin.vertices], after)
+    out = _carried_by_skin(before, before[skin.vertices], after)
+    for part in EYE_PARTS:
+        out[template.vertices_of(part)] = placed_eyeball(template, skin, part, before, after, head)
+    inside = np.concatenate([template.vertices_of(part) for part in MOUTH_PARTS])
+    out[inside] = _behind_lips(skin, after, _in_mouth(template, skin, before, after)(before[inside]), head)
+    out[skin.vertices] = after
     return out
 
 
-def lids_on_eyes(template: Template, skin: Skin, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The skin (S, 3) of the whole template `vertices` (V, 3), with what of the lids is inside of an eyeball moved out to just
-    before it."""
-    fitted = vertices[skin.vertices].copy()
-    lids = np.flatnonzero(skin.regions["lids"] & ~skin.regions["inner"])
-    for part in ("left_eye", "right_eye"):
-        eyeball = vertices[template.vertices_of(part)]
-        middle, radius = sphere(eyeball)
-        near = lids[np.linalg.norm(fitted[lids] - middle, axis=1) < 2 * radius]
-        away = fitted[near] - middle
-        distance = np.linalg.norm(away, axis=1)
-        cornea = _reach(eyeball - middle, away / distance[:, None], radius) + LID_GAP
-        inside = distance < cornea
-        fitted[near[inside]] = middle + away[inside] * (cornea / distance)[inside, None]
-    return fitted
+def head_change(skin: Skin, before: NDArray[np.float64], after: NDArray[np.float64]) -> Similarity:
+    """What the head's visible skin as a whole went through from `before` (S, 3) to `after` (S, 3)."""
+    shown = ~skin.regions["inner"] & skin.regions["face"]
+    return fit_similarity(before[shown], after[shown])
 
 
-def sphere(points: NDArray[np.floating]) -> tuple[NDArray[np.float64], float]:
-    """The middle (3,) and the radius of the sphere on which points (N, 3) lie best, by linear least squares."""
-    rows = np.column_stack([2 * points, np.ones(len(points))])
-    solved = np.linalg.lstsq(rows, (points**2).sum(1), rcond=None)[0]
-    middle = solved[:3]
-    return np.asarray(middle), float(np.sqrt(solved[3] + middle @ middle))
+def _in_mouth(template: Template, skin: Skin, before: NDArray[np.float64], after: NDArray[np.float64]) -> Similarity:
+    """What the skin about the teeth went through."""
+    own = before[skin.vertices]
+    teeth = np.concatenate([template.vertices_of(part) for part in ("upper_teeth", "lower_teeth")])
+    shown = ~skin.regions["inner"] & skin.regions["head"]
+    near = shown & (np.linalg.norm(own - before[teeth].mean(0), axis=1) < MOUTH_SURROUNDINGS)
+    return fit_similarity(own[near], after[near])
 
 
-def _reach(eyeball: NDArray[np.float64], directions: NDArray[np.float64], radius: float) -> NDArray[np.float64]:
-    """(N,) metres from the eyeball's middle to its surface along unit `directions` (N, 3): of the nearest vertex, the cornea's
-    bulge included, and the sphere's at least."""
-    length = np.linalg.norm(eyeball, axis=1)
-    near = cKDTree(eyeball / length[:, None]).query(directions)[1]
-    return np.maximum(length[near], radius)
+def _behind_lips(
+    skin: Skin, fitted: NDArray[np.float64], points: NDArray[np.float64], head: Similarity
+) -> NDArray[np.float64]:
+    """The points (N, 3) set back into the head, all alike, until all are `TEETH_DEPTH` behind the visible skin."""
+    hull = skin.triangles[skin.visible]
+    backwards = -head.rotation[:, 2]
+    for back in np.arange(0, MAX_BACK, BACK_STEP):
+        placed = points + back * backwards
+        inside = winding_numbers(placed, fitted, hull) > 0.5
+        if inside.all() and closest_points(placed, fitted, hull).distance.min() > TEETH_DEPTH:
+            break
+    return np.asarray(placed)
 
 
 def _carried_by_skin(

@@ -7,6 +7,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
+from engine.avatar.registration.lip_contact import closed_mouth
 from engine.avatar.registration.skin import Skin
 from engine.geometry.adjacency import neighbours
 from engine.geometry.point_cloud import PointCloud
@@ -38,6 +39,12 @@ POINT_NOISE = 0.0015
 trousers that followed it would be crumpled paper. A face is believed whatever it is: it is stiff, and filmed from near."""
 FIRST_INNER_FACE_POINT = 17
 """Face landmarks before it lie on the jaw's outline, at another place of it in every view."""
+LID_POINTS = (37, 38, 40, 41, 43, 44, 46, 47)
+"""Face landmarks on the rims of upper and lower lids, between the corners of the eyes."""
+LID_LANDMARKS = 3000.0
+"""What those count in the head's own fit, where nothing else tells how far eyes are open."""
+LANDMARK_SIGMA = 0.008
+"""Metres from the fit before at which a landmark counts a quarter (Geman-McClure): a moustache moves those of the mouth."""
 MAX_FACE_DISTANCE = 0.03
 """Metres from the coarse fit beyond which, in the median, face landmarks are of a visor or a mask and not used."""
 
@@ -59,7 +66,7 @@ def fit_head(
     body. Both are one system: a head that is fitted alone drags its neck."""
     stiffness = _stiffness(skin, {"lips": LIP_STIFFNESS, "lids": LID_STIFFNESS, "inner": INNER_STIFFNESS})
     surface = _elastic(skin, body, stiffness)
-    drawn = face_landmarks(skin, body, face)
+    drawn = face_landmarks(skin, body, face, LID_LANDMARKS)
     return lay_on_points(surface, cloud.points, cloud.normals, HEAD_STEPS, drawn)
 
 
@@ -68,15 +75,31 @@ def without_details(skin: Skin, vertices: NDArray[np.float64]) -> NDArray[np.flo
     return _smooth_sheet(skin, vertices, skin.regions["hidden_by_cloth"])
 
 
-def face_landmarks(skin: Skin, vertices: NDArray[np.float64], face: NDArray[np.floating]) -> SurfaceLandmarks | None:
-    """The inner face landmarks that are known; None where they are not those of this face."""
+def face_landmarks(
+    skin: Skin, vertices: NDArray[np.float64], face: NDArray[np.floating], lids: float = 1.0
+) -> SurfaceLandmarks | None:
+    """The inner face landmarks that are known, each counting less the farther it is from the skin's `vertices` (S, 3), and those of
+    the lids' rims `lids` times as much; None where they are not those of this face. They tell where a place is across the face:
+    how deep it is the surface knows better, for landmarks of contours slide along as the view turns."""
     known = np.flatnonzero(np.isfinite(face).all(1))
     known = known[known >= FIRST_INNER_FACE_POINT]
     at = skin.face_points[known]
-    if len(known) < 10 or np.median(np.linalg.norm(vertices[at] - face[known], axis=1)) > MAX_FACE_DISTANCE:
+    off = np.linalg.norm(vertices[at] - face[known], axis=1)
+    if len(known) < 10 or np.median(off) > MAX_FACE_DISTANCE:
         return None
     rows = sp.csr_array((np.ones(len(at)), (np.arange(len(at)), at)), (len(at), len(vertices)))
-    return SurfaceLandmarks(rows, np.asarray(face[known], np.float64))
+    ahead = _straight_ahead(vertices[skin.face_points])
+    places = face[known] + ((vertices[at] - face[known]) @ ahead)[:, None] * ahead
+    off = np.linalg.norm(vertices[at] - places, axis=1)
+    believed = 1 / (1 + (off / LANDMARK_SIGMA) ** 2) ** 2
+    weights = believed * np.where(np.isin(known, LID_POINTS), lids, 1.0)
+    return SurfaceLandmarks(rows, np.asarray(places, np.float64), weights)
+
+
+def _straight_ahead(face: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(3,) the unit vector along which a face (68, 3) looks: across its eyes' outer corners, and from the chin to the nose's root."""
+    ahead = np.cross(face[45] - face[36], face[27] - face[8])
+    return np.asarray(ahead / np.linalg.norm(ahead))
 
 
 def _smooth_sheet(skin: Skin, vertices: NDArray[np.float64], drawn: NDArray[np.bool_]) -> NDArray[np.float64]:
@@ -91,9 +114,9 @@ def _smooth_sheet(skin: Skin, vertices: NDArray[np.float64], drawn: NDArray[np.b
 
 
 def _elastic(skin: Skin, rest: NDArray[np.float64], stiffness: NDArray[np.float64]) -> ElasticSurface:
-    """The skin (S, 3) at rest as what is laid on a cloud; soles and toes stay where they are."""
+    """The skin (S, 3) at rest, its mouth closed, as what is laid on a cloud; soles and toes stay where they are."""
     return ElasticSurface(
-        rest,
+        closed_mouth(rest, skin.triangles, skin.lip_contact, skin.regions["lips"] | skin.regions["inner"]),
         skin.triangles,
         skin.visible,
         stiffness,
@@ -101,6 +124,7 @@ def _elastic(skin: Skin, rest: NDArray[np.float64], stiffness: NDArray[np.float6
         held=skin.regions["lower_feet"],
         noise=np.where(skin.regions["face"], np.inf, POINT_NOISE),
         anchor=ANCHOR,
+        contact=skin.lip_contact,
     )
 
 
@@ -113,5 +137,7 @@ def _stiffness(skin: Skin, factors: dict[str, float]) -> NDArray[np.float64]:
 
 
 def _trust(skin: Skin) -> NDArray[np.float64]:
-    """(S,) what points near each vertex count: none of lips, where hair grows."""
-    return np.where(skin.regions["lips"], 0.0, np.where(skin.regions["hands"], HAND_TRUST, 1.0))
+    """(S,) what points near each vertex count: none of lips, where hair grows, and of lids' rims, between which they are of the
+    eye."""
+    untold = skin.regions["lips"] | skin.regions["left_eye_lids"] | skin.regions["right_eye_lids"]
+    return np.where(untold, 0.0, np.where(skin.regions["hands"], HAND_TRUST, 1.0))

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.coarse import CoarseFit, fit_to_landmarks, fit_to_points
 from engine.avatar.registration.expressions import transferred_units
-from engine.avatar.registration.face_parts import lids_on_eyes, place_parts
+from engine.avatar.registration.eyeballs import lids_on_eyes
+from engine.avatar.registration.face_parts import head_change, place_parts
 from engine.avatar.registration.fine import fit_body, fit_head
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.footwear import seen_barefoot
@@ -84,8 +85,6 @@ def register(
         if placed is not None:
             fitted = _with_head(models, fitted, cloud, head, placed)
     check()
-    fitted = inner_skin(models.skin, coarse, fitted)
-    check()
     return _person(
         models,
         body_fit,
@@ -118,7 +117,9 @@ def _person(
     """The fitted skin with eyes, teeth and joints, in its pose and in T-pose, with expressions."""
     template, skin, rig = models.template, models.skin, models.rig
     vertices = place_parts(template, skin, coarse.whole, fitted)
-    vertices[skin.vertices] = lids_on_eyes(template, skin, vertices)
+    grown = head_change(skin, coarse.vertices, fitted).scale
+    lids = lids_on_eyes(template, skin, coarse.whole, vertices, grown)
+    vertices[skin.vertices] = inner_skin(skin, coarse.vertices, lids)
     rotations = coarse.rotations
     joints = cage_coordinates(coarse.joints, coarse.vertices, skin.triangles) @ vertices[skin.vertices]
     for joint, part in (("LeftEye", "left_eye"), ("RightEye", "right_eye")):

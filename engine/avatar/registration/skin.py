@@ -6,14 +6,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse as sp
 from numpy.typing import NDArray
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
+from engine.avatar.registration.face_landmarks import landmark_vertices
+from engine.avatar.registration.lip_contact import lip_contact
 from engine.body.body_space import BodySpace
 from engine.body.cache import cached_arrays
-from engine.body.face.face_points import face_points
 from engine.body.rig import Rig
 from engine.body.template import Template, vertex_mask
-from engine.geometry.adjacency import neighbours
+from engine.geometry.adjacency import edge_table, neighbours
 from engine.geometry.camera import Camera
 from engine.geometry.joint_names import SIDES
 from engine.geometry.surface import triangulate
@@ -26,8 +30,15 @@ VIEWS, VIEW_DISTANCE, VIEW_SIZE = 120, 0.6, 700
 LIP_UNITS = ("mouthRollLower", "mouthRollUpper", "mouthFunnel", "mouthPucker", "mouthPressLeft", "mouthPressRight")
 """Face units that move lips and the skin above and below, where a moustache or a beard grows ..."""
 LID_UNITS = ("eyeBlinkLeft", "eyeBlinkRight")
+EYE_PARTS = ("left_eye", "right_eye")
+LID_RINGS = 3
+"""Rings of vertices about the rims of lids that are close to them."""
+LID_REACH = 1.3
+"""Radii of an eyeball about its middle within which the rims of its lids lie."""
 MIN_UNIT_MOTION = 0.002
 """... by more than this, in metres."""
+JAW_DROP = 0.008
+"""Metres by which what hangs on the jaw goes down as it opens."""
 NIPPLE_BOX = np.array([[-0.25, 1.0, 0.03], [0.25, 1.6, 1.0]])
 FINE_EDGE = 0.009
 """Vertices of the trunk whose edges are shorter in the mean, metres, are nipples (or the navel), which no clothes show."""
@@ -45,8 +56,10 @@ class Skin:
     visible : (T,) seen from outside; the mouth's inside and the eyes' sockets are not.
     bones, weights : (S, K) the joints that move each, and by how much, summing to one.
     regions : masks (S,) by name: `head`, `face`, `lips` (with the skin around), `lids`, `hands`, `feet`, `lower_feet` (what
-        a shoe covers at least), `inner` (part of no visible triangle), `hidden_by_cloth` (nipples, navel).
-    face_points : (68,) the face landmarks.
+        a shoe covers at least), `inner` (part of no visible triangle), `hidden_by_cloth` (nipples, navel), `left_eye_rim` and
+        `right_eye_rim` (where lids end before the eyeball), `left_eye_lids` and `right_eye_lids` (close to there).
+    face_points : (68,) the face landmarks, all of them vertices that are seen from the front.
+    lip_contact : (C, S) the lips' contact (`engine.avatar.registration.lip_contact`).
     """
 
     vertices: NDArray[np.intp]
@@ -56,6 +69,7 @@ class Skin:
     weights: NDArray[np.float32]
     regions: Mapping[str, NDArray[np.bool_]]
     face_points: NDArray[np.intp]
+    lip_contact: sp.csr_array
 
     def index_of(self, template_vertices: NDArray[np.integer]) -> NDArray[np.intp]:
         """The numbers here of vertices of the template, which are all of the skin."""
@@ -69,18 +83,28 @@ def load_skin(template: Template, space: BodySpace, rig: Rig) -> Skin:
     triangles = triangulate(quads)
     visible = cached_arrays("visible-skin", lambda: {"visible": _visible(template, space, vertices[triangles])})
     seen = visible["visible"]
+    seen = _largest_piece(triangles, seen | seen[_mirrored(template.vertices[vertices], triangles)])
     strongest = np.array(rig.names)[rig.bones[vertices, 0]]
     head = np.isin(strongest, ["Head", "Jaw", "LeftEye", "RightEye"])
     seen = seen | ~head[triangles].all(1)  # what lies between fingers or under arms does show, if not in every pose
-    points = np.searchsorted(vertices, face_points(template, space))
+    mean = space.mean[vertices].astype(np.float64)
     regions = _regions(template, space.mean[vertices], vertices, triangles, strongest)
     regions["head"] = head
-    nose = space.mean[vertices[points[30]]]
-    regions["face"] = head & (np.linalg.norm((space.mean[vertices] - nose) / FACE_RADII, axis=1) < 1)
     shown = np.zeros(len(vertices), np.bool_)
     shown[triangles[seen]] = True
     regions["inner"] = ~shown
-    return Skin(vertices, triangles, seen, rig.bones[vertices], rig.weights[vertices], regions, points.astype(np.intp))
+    for part in EYE_PARTS:
+        rim = _lid_rims(template, part, vertices, triangles[seen & head[triangles].all(1)])
+        regions[f"{part}_rim"] = rim
+        regions[f"{part}_lids"] = grown(rim, triangles, LID_RINGS) & shown
+        regions["lids"] |= regions[f"{part}_lids"]
+    lower = template.face_units.dense(("jawOpen",))[0, vertices, 1] < -JAW_DROP
+    contact = lip_contact(mean, triangles, regions["lips"] & shown, lower)
+    touching = np.unique(contact.indices[contact.data == 1])
+    lips = touching[~lower[touching]], touching[lower[touching]]
+    points = landmark_vertices(template, space, vertices, triangles, shown, lips)
+    regions["face"] = head & (np.linalg.norm((mean - mean[points[30]]) / FACE_RADII, axis=1) < 1)
+    return Skin(vertices, triangles, seen, rig.bones[vertices], rig.weights[vertices], regions, points, contact)
 
 
 def grown(region: NDArray[np.bool_], triangles: NDArray[np.integer], rings: int) -> NDArray[np.bool_]:
@@ -120,6 +144,40 @@ def _regions(
         "lower_feet": feet & (mean[:, 1] < mean[feet, 1].min() + LOWER_FOOT * np.ptp(mean[feet, 2])),
         "hidden_by_cloth": grown(trunk & (edge < FINE_EDGE), triangles, 2),
     }
+
+
+def _mirrored(vertices: NDArray[np.float32], triangles: NDArray[np.int32]) -> NDArray[np.intp]:
+    """(T,) of each triangle, which lies over the other side where it lies over its own."""
+    middles = vertices[triangles].mean(1)
+    return np.asarray(cKDTree(middles).query(middles * np.array([-1, 1, 1]))[1], np.intp)
+
+
+def _largest_piece(triangles: NDArray[np.int32], chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(T,) those of the `chosen` triangles that hang together by edges with most others: specks of the mouth's inside are seen
+    through the slit between the template's lips."""
+    numbers = np.flatnonzero(chosen)
+    table = edge_table(
+        np.ascontiguousarray(triangles[numbers], np.int32), np.arange(int(triangles.max()) + 1, dtype=np.int32)
+    )
+    pairs = table[table[:, 3] >= 0, 2:]
+    links = sp.csr_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), (len(numbers), len(numbers)))
+    piece = connected_components(links, directed=False)[1]
+    out = np.zeros(len(chosen), np.bool_)
+    out[numbers[piece == np.bincount(piece).argmax()]] = True
+    return out
+
+
+def _lid_rims(template: Template, part: str, vertices: NDArray[np.intp], seen: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """(S,) the vertices before an eyeball at which what is seen of the skin ends: `seen` (T, 3)."""
+    eyeball = template.vertices[template.vertices_of(part)].astype(np.float64)
+    middle = (eyeball.max(0) + eyeball.min(0)) / 2
+    radius = float(np.linalg.norm(eyeball - middle, axis=1).mean())
+    sides = np.sort(np.concatenate([seen[:, [0, 1]], seen[:, [1, 2]], seen[:, [2, 0]]]), 1)
+    edges, count = np.unique(sides, axis=0, return_counts=True)
+    ends = np.zeros(len(vertices), np.bool_)
+    ends[edges[count == 1]] = True
+    away = np.linalg.norm(template.vertices[vertices] - middle, axis=1) / radius
+    return np.asarray(ends & (away > 1) & (away < LID_REACH))
 
 
 def _visible(template: Template, space: BodySpace, triangles: NDArray[np.integer]) -> NDArray[np.bool_]:

@@ -29,6 +29,8 @@ ITERATIONS = 3
 """Of each step: new closest points, new turns, new places."""
 WEIGHED_STEPS = 2
 """The last steps, in which points count by how much those around them scatter; before, the surface is too stiff to tell."""
+CONTACT_WEIGHT = 1e4
+"""Of what is left between points that touch, against all points of the cloud: nothing pulls them apart."""
 FREE_VERTEX_WEIGHT = 1e-14
 """What holds vertices of no hinge where they are at rest, against any other pull."""
 
@@ -46,6 +48,8 @@ class ElasticSurface:
     noise : (V,) or one for all: metres by which points may scatter before they count less; by default as many as they like.
     anchor : what it counts that the surface stays where it is at rest, if points, all of them, count 1: bending alone lets a
         limb that no point is of swing about the joint at which the points end.
+    contact : (C, V) sparse, by default none: each row is a point of the surface minus another that it touches, in weights of
+        vertices; times the vertices, it is what is between the two.
     """
 
     rest: NDArray[np.float64]
@@ -56,15 +60,23 @@ class ElasticSurface:
     held: NDArray[np.bool_] | None = None
     noise: NDArray[np.float64] | float = np.inf
     anchor: float = 0.0
+    contact: sp.csr_array | None = None
 
 
 @dataclass(frozen=True)
 class SurfaceLandmarks:
     """Points of the surface with known places: `rows` (L, V) sparse, each the weights of vertices, summing to one, and
-    `places` (L, 3) metres."""
+    `places` (L, 3) metres; `weights` (L,), by default ones: what each counts."""
 
     rows: sp.csr_array
     places: NDArray[np.float64]
+    weights: NDArray[np.float64] | None = None
+
+    def pulls(self) -> tuple[sp.csr_array, NDArray[np.float64]]:
+        """Their part of the normal equations, (V, V) sparse and (V, 3), as the mean over all."""
+        weights = np.ones(len(self.places)) if self.weights is None else self.weights
+        weighed = sp.csr_array(self.rows.T @ sp.diags_array(weights / max(len(weights), 1)))
+        return sp.csr_array(weighed @ self.rows), np.asarray(weighed @ self.places)
 
 
 @dataclass(frozen=True)
@@ -102,6 +114,8 @@ def lay_on_points(
     shares = hinges.areas * surface.stiffness[hinges.hinges].max(1) / hinges.areas.sum()
     weighed = sp.csr_array(hinges.operator.T @ sp.diags_array(shares))
     bending = sp.csr_array(weighed @ hinges.operator)
+    touching = surface.contact
+    contact = None if touching is None else CONTACT_WEIGHT * sp.csr_array(touching.T @ touching)
     areas = vertex_areas(surface.rest, surface.triangles)
     anchors = FREE_VERTEX_WEIGHT + surface.anchor * areas / areas.sum()
     vertices = surface.rest.copy() if start is None else np.asarray(start, np.float64).copy()
@@ -116,13 +130,14 @@ def lay_on_points(
         for _ in range(ITERATIONS):
             matrix, right = _matched_points(surface, trust, vertices, points, normals, step.gate)
             if landmarks is not None:
-                pull = step.landmarks / len(landmarks.places)
-                matrix = matrix + pull * (landmarks.rows.T @ landmarks.rows)
-                right = right + pull * (landmarks.rows.T @ landmarks.places)
+                drawn, towards = landmarks.pulls()
+                matrix = matrix + step.landmarks * drawn
+                right = right + step.landmarks * towards
             elif not matrix.nnz:
                 raise ValueError("no point of the cloud is near the surface")
             bent = weighed @ hinges.turned(hinges.rotations(vertices))
-            whole = sp.csr_array(matrix + step.regularisation * bending + sp.diags_array(anchors))[free]
+            whole = matrix + step.regularisation * bending + sp.diags_array(anchors)
+            whole = sp.csr_array(whole if contact is None else whole + contact)[free]
             right = right + step.regularisation * bent + anchors[:, None] * surface.rest
             vertices[free] = system.solve(sp.csc_array(whole[:, free]), right[free] - whole[:, ~free] @ vertices[~free])
     return vertices

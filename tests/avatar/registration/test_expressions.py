@@ -15,7 +15,7 @@ def test_the_template_itself_has_its_own_and_one_twice_as_large_has_them_twice(m
     for scale in (1.0, 2.0):
         units = transferred_units(template, models.skin, template.vertices * scale + [0, 1, 0])
         assert set(units) == set(FACE_UNITS)
-        for name in ("jawOpen", "eyeBlinkLeft", "mouthSmileRight"):
+        for name in ("jawOpen", "browInnerUp", "mouthSmileRight"):
             own = template.face_units.displacement({name: scale})
             for part in ("body", "lower_teeth", "left_eye"):
                 at = template.vertices_of(part)

@@ -1,4 +1,4 @@
-"""Eyes, teeth and lids."""
+"""Eyes and teeth."""
 
 from __future__ import annotations
 
@@ -7,8 +7,11 @@ import pytest
 from known_person import KnownPerson
 from scipy.spatial.transform import Rotation
 
-from engine.avatar.registration.face_parts import lids_on_eyes, place_parts, sphere
+from engine.avatar.registration.face_parts import MOUTH_PARTS, TEETH_DEPTH, place_parts
+from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.models import HumanModels
+from engine.geometry.closest_points import closest_points
+from engine.geometry.winding_number import winding_numbers
 
 
 @pytest.mark.parametrize("part", ["left_eye", "upper_teeth", "tongue"])
@@ -22,22 +25,21 @@ def test_parts_go_with_a_head_that_is_moved_turned_and_grown(
     assert np.allclose(placed[at], moved[at], atol=1e-6)
 
 
-def test_lids_end_before_the_eyeball(models: HumanModels, person: KnownPerson) -> None:
+def test_teeth_are_behind_the_lips_in_both_poses(models: HumanModels, fitted: FittedTemplate) -> None:
     template, skin = models.template, models.skin
-    vertices = person.vertices.copy()
-    eye = template.vertices_of("left_eye")
-    vertices[eye] += [0, 0, 0.004]
-    middle, radius = sphere(vertices[eye])
-    fitted = lids_on_eyes(template, skin, vertices)
-    lids = fitted[skin.regions["lids"] & ~skin.regions["inner"]]
-    near = np.linalg.norm(lids - middle, axis=1)
-    assert (np.linalg.norm(vertices[skin.vertices][skin.regions["lids"]] - middle, axis=1) < radius).any()
-    assert near.min() > radius
+    inside = np.concatenate([template.vertices_of(part) for part in MOUTH_PARTS])
+    for vertices in (fitted.vertices, fitted.rest.astype(np.float64)):
+        own, hull = vertices[skin.vertices], skin.triangles[skin.visible]
+        assert winding_numbers(vertices[inside], own, hull).min() > 0.5
+        assert closest_points(vertices[inside], own, hull).distance.min() > TEETH_DEPTH - 1e-5
 
 
-def test_the_sphere_through_points() -> None:
-    random = np.random.default_rng(2).normal(size=(40, 3))
-    points = [0.1, 0.2, 0.3] + 0.012 * random / np.linalg.norm(random, axis=1, keepdims=True)
-    middle, radius = sphere(points)
-    assert np.allclose(middle, [0.1, 0.2, 0.3])
-    assert radius == pytest.approx(0.012)
+def test_teeth_that_would_stick_out_are_set_back(models: HumanModels, person: KnownPerson) -> None:
+    template, skin = models.template, models.skin
+    lean = person.vertices[skin.vertices].copy()
+    teeth = person.vertices[template.vertices_of("upper_teeth")]
+    near = np.linalg.norm(lean - teeth.mean(0), axis=1) < 0.06
+    lean[near & (lean[:, 2] > teeth[:, 2].max() - 0.003)] -= [0, 0, 0.006]  # the mouth fallen in
+    placed = place_parts(template, skin, person.vertices, lean)
+    at = template.vertices_of("upper_teeth")
+    assert winding_numbers(placed[at], lean, skin.triangles[skin.visible]).min() > 0.5

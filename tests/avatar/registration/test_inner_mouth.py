@@ -7,6 +7,7 @@ from known_person import KnownPerson
 
 from engine.avatar.registration.inner_mouth import inner_skin
 from engine.avatar.registration.models import HumanModels
+from engine.geometry.winding_number import winding_numbers
 
 
 def test_what_is_not_seen_goes_with_what_is(models: HumanModels, person: KnownPerson) -> None:
@@ -18,3 +19,16 @@ def test_what_is_not_seen_goes_with_what_is(models: HumanModels, person: KnownPe
     assert np.array_equal(found[~inner], after[~inner])
     off = np.linalg.norm(found[inner] - before[inner] - [0.01, -0.02, 0.03], axis=1)
     assert np.median(off) < 1e-6
+
+
+def test_nothing_of_the_inside_is_outside_of_a_face_that_has_fallen_in(
+    models: HumanModels, person: KnownPerson
+) -> None:
+    skin = models.skin
+    before = person.vertices[skin.vertices]
+    nose = before[skin.face_points[33]]
+    after = before.copy()
+    after[:, 2] -= 0.008 * np.exp(-((np.linalg.norm(before - nose, axis=1) / 0.02) ** 2))
+    found = inner_skin(skin, before, after)
+    deep = skin.regions["inner"] & (np.linalg.norm(before - nose, axis=1) < 0.04)
+    assert winding_numbers(found[deep], found, skin.triangles[skin.visible]).min() > 0.5

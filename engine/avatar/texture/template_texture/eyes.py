@@ -48,6 +48,11 @@ class Eyeballs:
         off = np.hypot(self.places[:, 0], self.places[:, 1])
         return np.where(self.places[:, 2] > 0, off, EYEBALL_RADIUS)
 
+    def gaze(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
+        """(3,) the unit vector along which the eye looks whose places are at `points` (N, 3) metres."""
+        ahead = _pupil(points, self.off_axis) - points.mean(0)
+        return np.asarray(ahead / np.linalg.norm(ahead))
+
 
 def painted_eyes(eyes: Eyeballs) -> NDArray[np.float32]:
     """(N, 3) sRGB, 0 to 255, of eyeballs as they look from the front; the back is white."""
@@ -86,9 +91,7 @@ def eye_samples(
     off = eyes.off_axis
     corners = surface.vertices[surface.triangles[eyes.triangles]]
     points = np.einsum("nk,nkd->nd", eyes.shares, corners)
-    pupil = points[np.argsort(off)[: max(len(off) // 50, 1)]].mean(0)
-    gaze = pupil - points.mean(0)
-    gaze /= np.linalg.norm(gaze)
+    pupil, gaze = _pupil(points, off), eyes.gaze(points)
     ranked = sorted(((_pixels(view, pupil, gaze), n) for n, view in enumerate(views)), reverse=True)
     iris, white = [np.zeros((0, 3), np.float32)], [np.zeros((0, 3), np.float32)]
     for fineness, n in ranked[:BEST_VIEWS]:
@@ -102,6 +105,11 @@ def eye_samples(
         iris.append(colours[seen & (off > IRIS_BAND[0]) & (off < IRIS_BAND[1] - margin)])
         white.append(colours[seen & (off > WHITE_BAND[0] + margin) & (off < WHITE_BAND[1])])
     return _middle(np.concatenate(iris)), _lightest(np.concatenate(white))
+
+
+def _pupil(points: NDArray[np.floating], off: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(3,) the middle of those of the points (N, 3) that are the least `off` (N,) the axis of gaze."""
+    return np.asarray(points[np.argsort(off)[: max(len(off) // 50, 1)]].mean(0))
 
 
 def _pixels(view: FrameView, pupil: NDArray[np.float64], gaze: NDArray[np.float64]) -> float:

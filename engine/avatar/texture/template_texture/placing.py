@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from engine.avatar.texture.template_surface import TemplateSurface
 from engine.avatar.texture.template_texture.eyes import Eyeballs, eye_samples, painted_eyes, persons_eyes
 from engine.avatar.texture.template_texture.hands import hand_bones, painted_hand, past_wrist
+from engine.avatar.texture.template_texture.lid_shadow import lid_shadow
 from engine.avatar.texture.template_texture.mouth import painted_lining, painted_teeth, painted_tongue
 from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.avatar.texture.views import FrameView
@@ -63,7 +64,9 @@ def place_eyes(
         whites.append(white)
     iris, white = np.concatenate(irises), np.concatenate(whites)
     for texels, eyes in balls:
-        texels.put(texture, persons_eyes(painted_eyes(eyes), eyes, iris, white))
+        points = texels.blend(fitted.vertices, surface.triangles)
+        shadow = lid_shadow(fitted, points, eyes.gaze(points))
+        texels.put(texture, persons_eyes(painted_eyes(eyes), eyes, iris, white) * shadow[:, None])
     return bool(len(iris) and len(white))
 
 

@@ -1,0 +1,82 @@
+"""Lids of the fitted face that close as a blink ends, and stay before the eyeball all the way."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.registration.eyeballs import before_eyeball
+from engine.avatar.registration.skin import Skin
+from engine.body.template import Template
+
+BLINKS: Mapping[str, str] = {"eyeBlinkLeft": "left_eye", "eyeBlinkRight": "right_eye"}
+"""The face units of a closed eye, and which it is."""
+UPPER_MOTION = 0.001
+"""Metres by which a blink moves the rim of the upper lid, at least, and that of the lower at most."""
+
+
+@dataclass(frozen=True)
+class MeetingRims:
+    """Where the U vertices `upper` of an upper lid's rim end in a blink: between two of the lower lid's, `between` (U, 2), by
+    `shares` (U,) from the first to the second. All are the template's vertices."""
+
+    upper: NDArray[np.intp]
+    between: NDArray[np.intp]
+    shares: NDArray[np.float64]
+
+    def gap(self, vertices: NDArray[np.floating]) -> NDArray[np.float64]:
+        """(U, 3) from where the lower rim has the places to where the upper has them, for the template's `vertices` (V, 3)."""
+        return np.asarray(vertices[self.upper] - self.lower(vertices))
+
+    def lower(self, vertices: NDArray[np.floating]) -> NDArray[np.float64]:
+        """(U, 3) the places on the lower lid's rim."""
+        first, second = (np.asarray(vertices, np.float64)[self.between[:, k]] for k in (0, 1))
+        return np.asarray(first + self.shares[:, None] * (second - first))
+
+    @property
+    def vertices(self) -> NDArray[np.intp]:
+        """(U + L,) those of the upper lid, then those of the lower, each once."""
+        return np.concatenate([self.upper, np.unique(self.between)])
+
+    def met(self, eyeball: NDArray[np.float64], vertices: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(U + L, 3) where `vertices` (V, 3) of both rims are as a blink ends: the upper ones on the lower rim, before the
+        eyeball (E, 3) all the way, and the lower ones as much before it as that takes."""
+        upper = vertices[self.upper]
+        end = upper + before_the_eye(eyeball, upper, self.lower(vertices) - upper)
+        ahead = end - self.lower(vertices)
+        below, index = np.unique(self.between, return_inverse=True)
+        weights = np.zeros((len(below), len(upper)))
+        at = np.arange(len(upper))
+        for k, share in enumerate((1 - self.shares, self.shares)):
+            np.add.at(weights, (index.reshape(-1, 2)[:, k], at), share)
+        weights /= np.maximum(weights.sum(1, keepdims=True), 1e-9)
+        return np.concatenate([end, vertices[below] + weights @ ahead])
+
+
+def meeting_rims(template: Template, skin: Skin, blink: str) -> MeetingRims:
+    """Where the lids of one eye meet in the template's own `blink`: places of the upper lid's rim above the lower's; what is
+    beyond that at the corners has nothing to meet."""
+    offsets = template.face_units.dense((blink,))[0]
+    rim = skin.vertices[skin.regions[f"{BLINKS[blink]}_rim"]]
+    moves = np.linalg.norm(offsets[rim], axis=1) > UPPER_MOTION
+    across = template.vertices[:, 0] + offsets[:, 0]
+    lower = rim[~moves][np.argsort(across[rim[~moves]])]
+    upper = rim[moves]
+    upper = upper[(across[upper] >= across[lower[0]]) & (across[upper] <= across[lower[-1]])]
+    after = np.clip(np.searchsorted(across[lower], across[upper]), 1, len(lower) - 1)
+    between = np.stack([lower[after - 1], lower[after]], 1)
+    width = np.maximum(across[between[:, 1]] - across[between[:, 0]], 1e-9)
+    return MeetingRims(upper, between, (across[upper] - across[between[:, 0]]) / width)
+
+
+def before_the_eye(
+    eyeball: NDArray[np.float64], rest: NDArray[np.float64], moved: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The displacements `moved` (N, 3) of vertices at `rest` (N, 3) so that neither with all of them, nor with half, any lies in an
+    eyeball (E, 3): morph targets move along straight lines, which cut a sphere."""
+    half = before_eyeball(eyeball, rest + moved / 2, 0.0)
+    out = 2 * (half - rest)
+    return np.asarray(before_eyeball(eyeball, rest + out) - rest)

@@ -1,0 +1,60 @@
+"""How dark an eyeball is beneath its lids: which share of the light from above and before it the face lets through."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.texture.views import ChartedSurface
+from engine.geometry.camera import Camera
+from engine.render.rasteriser import rasterise
+from engine.render.sampling import bilinear
+
+LIGHTS = 24
+"""Directions from which light comes, evenly over the half of the sky before the face, more of it from above."""
+LIGHT_DISTANCE, LIGHT_PICTURE, LIGHT_WIDTH = 0.5, 240, 0.06
+"""Metres to a light, and the pixels and the metres at the eye that its picture of the face is wide."""
+SLACK = 8e-4
+"""Metres behind the surface at which a point still has a light."""
+DARKEST = 0.7
+"""What is left of the light where none of the sky is seen: skin lets some through, and the ball shines back."""
+HIDDEN_SHARE = 0.05
+"""Of the most light that any point has, below which a point is hidden behind a lid."""
+
+
+def lid_shadow(surface: ChartedSurface, points: NDArray[np.float64], gaze: NDArray[np.float64]) -> NDArray[np.float32]:
+    """(N,) what an eyeball's colours at `points` (N, 3) are multiplied by: 1 where as much light comes as on average over what lids
+    leave to be seen, from which the colours are, or more, and where lids hide it, since that shows when the eye turns. `gaze` (3,): where it looks, a unit vector; y is up."""
+    middle = points.mean(0)
+    half = (LIGHT_PICTURE - 1) / 2
+    lens = Camera(
+        (0.0, 0.0, 0.0), LIGHT_PICTURE * LIGHT_DISTANCE / LIGHT_WIDTH, (half, half), (LIGHT_PICTURE, LIGHT_PICTURE)
+    )
+    near = surface.triangles[
+        (np.linalg.norm(surface.vertices - middle, axis=1) < LIGHT_WIDTH)[surface.triangles].all(1)
+    ]
+    total = np.zeros(len(points))
+    normals = points - middle
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
+    for direction in _sky(gaze):
+        camera = lens.aimed((middle + LIGHT_DISTANCE * direction).tolist(), middle.tolist())
+        depth = rasterise(camera.project(surface.vertices), near, camera.size, perspective=True).depth
+        depth = np.where(np.isfinite(depth), depth, 2 * LIGHT_DISTANCE).astype(np.float32)
+        pixels = camera.project(points)
+        lit = pixels[:, 2] <= bilinear(depth[..., None], pixels)[:, 0] + SLACK
+        total += lit * np.maximum(normals @ direction, 0)
+    seen = total > HIDDEN_SHARE * total.max()
+    if not seen.any():
+        return np.ones(len(points), np.float32)
+    shade = DARKEST + (1 - DARKEST) * total / total.max()
+    return np.asarray(np.where(seen, np.minimum(shade / shade[seen].mean(), 1), 1), np.float32)
+
+
+def _sky(gaze: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(L, 3) unit vectors of the half of the sphere about where a face looks, those from below left out."""
+    k = np.arange(2 * LIGHTS) + 0.5
+    height = 1 - k / LIGHTS
+    turn = np.pi * (1 + np.sqrt(5)) * k
+    level = np.sqrt(np.maximum(1 - height**2, 0))
+    around = np.stack([level * np.cos(turn), height, level * np.sin(turn)], 1)
+    return np.asarray(around[(around @ gaze > 0.1) & (around[:, 1] > -0.2)])
