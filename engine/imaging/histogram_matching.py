@@ -18,15 +18,9 @@ MIN_RANGE = 2.0
 """Of a channel of CIELAB, below which the colours have no distribution of their own that could be stretched: it is shifted."""
 
 
-def matched_in_lab(
-    colours: NDArray[np.floating], reference: NDArray[np.floating], max_stretch: float = np.inf
-) -> NDArray[np.float32]:
+def matched_in_lab(colours: NDArray[np.floating], reference: NDArray[np.floating]) -> NDArray[np.float32]:
     """The colours (N, 3) sRGB, 0 to 255, so that L, a and b are each distributed as those of the `reference` (M, 3). Their
-    order stays. Where there is no reference they stay as they are.
-
-    `max_stretch`: by how much two values of a channel may be parted. Where the reference's are farther apart, as those of a hand
-    under shading, or between skin and a sleeve, they are drawn to its median, so that no grain of the colours becomes a stain.
-    """
+    order stays. Where there is no reference they stay as they are."""
     if not len(colours) or not len(reference):
         return np.asarray(colours, np.float32)
     own, goal = to_lab(colours), to_lab(reference)
@@ -39,19 +33,8 @@ def matched_in_lab(
             out[:, channel] = own[:, channel] + np.median(want) - np.median(have)
         else:
             rising = np.concatenate([[True], np.diff(have) > 0])
-            out[:, channel] = np.interp(own[:, channel], have[rising], _drawn_together(have, want, max_stretch)[rising])
+            out[:, channel] = np.interp(own[:, channel], have[rising], want[rising])
     return from_lab(out)
-
-
-def _drawn_together(have: NDArray[np.floating], want: NDArray[np.floating], max_stretch: float) -> NDArray[np.floating]:
-    """The quantiles `want` (Q,), nowhere farther apart than so many times those that are there, `have` (Q,); their median stays."""
-    steps = (
-        np.minimum(np.diff(want), np.maximum(max_stretch * np.diff(have), 0))
-        if np.isfinite(max_stretch)
-        else np.diff(want)
-    )
-    drawn = np.concatenate([[0.0], np.cumsum(steps)])
-    return drawn - drawn[len(drawn) // 2] + want[len(want) // 2]
 
 
 def to_lab(colours: NDArray[np.floating]) -> NDArray[np.float32]:

@@ -39,13 +39,3 @@ def test_lab_and_back() -> None:
     own = colours(5, (120, 100, 140), 60, 500)
     np.testing.assert_allclose(from_lab(to_lab(own)), own, atol=1.0)
     np.testing.assert_allclose(to_lab(np.array([[255.0, 255, 255], [0, 0, 0]])), [[100, 0, 0], [0, 0, 0]], atol=0.02)
-
-
-def test_contrast_grows_no_more_than_allowed() -> None:
-    own, reference = colours(6, (150, 130, 120), 4), colours(7, (150, 120, 90), 30)
-    ranges = [
-        np.ptp(np.quantile(to_lab(each), (0.1, 0.9), 0), 0) for each in (own, matched_in_lab(own, reference, 1.5))
-    ]
-    np.testing.assert_allclose(ranges[1] / ranges[0], 1.5, rtol=0.1)
-    median = np.median(to_lab(matched_in_lab(own, reference, 1.5)), 0)
-    np.testing.assert_allclose(median, np.median(to_lab(reference), 0), atol=0.5)

@@ -21,6 +21,9 @@ NAIL_LENGTH, NAIL_WIDTH = 0.52, 0.72
 CREASE_WIDTH = 0.0009
 """Metres: standard deviation across a crease at a joint."""
 
+HOLLOW = 0.2
+"""By how much both pigments seem more at the roots of fingers, on their sides."""
+
 
 @dataclass(frozen=True)
 class Phalanx:
@@ -75,8 +78,8 @@ def painted_hand(
     facing = normals @ bones.back
     grain = _noise(places, 0.0012, seed) + 0.7 * _noise(places, 0.006, seed + 1)
     palm = _ramp(-facing, -0.1, 0.5)
-    blood = BLOOD + 0.05 * grain + 0.22 * palm
-    melanin = MELANIN + 0.03 * _noise(places, 0.003, seed + 2) - 0.14 * palm
+    blood = BLOOD + 0.04 * grain + 0.28 * palm
+    melanin = MELANIN + 0.03 * _noise(places, 0.003, seed + 2) - 0.16 * palm
     nearest, along, across = _beside_bones(bones, places)
     nail = np.zeros(len(places))
     rim = np.zeros(len(places))
@@ -90,9 +93,13 @@ def painted_hand(
         for shift, depth in ((-0.0028, 0.5), (0.0026, 0.5), (-0.0052, 0.25)) if bone.number == 2 else ():
             folds = np.exp(-0.5 * ((from_joint - shift) / CREASE_WIDTH) ** 2)
             crease = np.maximum(crease, depth * folds * (towards > 0))
-        melanin[own] += 0.16 * crease * (0.5 + 0.5 * np.abs(towards))
+        melanin[own] += 0.24 * crease * (0.5 + 0.5 * np.abs(towards))
         knuckle = np.exp(-0.5 * (from_joint / 0.006) ** 2) * _ramp(towards, 0.1, 0.7)
-        blood[own] += 0.16 * knuckle
+        blood[own] += 0.22 * knuckle
+        # between fingers less light comes in
+        hollow = _ramp(1 - np.abs(towards), 0.4, 1.0) * _ramp(1.6 - along[own] - bone.number, 0.0, 1.6)
+        melanin[own] += HOLLOW * hollow
+        blood[own] += HOLLOW * hollow
         if bone.number == 3:
             width = max(float(np.quantile(np.abs(across[own]), 0.98)), 1e-6) if len(own) else 1e-6
             inside = _nail(along[own], across[own] / width, towards)

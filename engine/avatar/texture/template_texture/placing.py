@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from engine.avatar.texture.template_surface import TemplateSurface
 from engine.avatar.texture.template_texture.eyes import Eyeballs, eye_samples, painted_eyes, persons_eyes
-from engine.avatar.texture.template_texture.hands import hand_bones, painted_hand, past_wrist
+from engine.avatar.texture.template_texture.hand_colours import face_skin, hand_tone, like_skin, toned
+from engine.avatar.texture.template_texture.hands import HandBones, hand_bones, painted_hand, past_wrist
 from engine.avatar.texture.template_texture.lid_shadow import lid_shadow
 from engine.avatar.texture.template_texture.mouth import painted_lining, painted_teeth, painted_tongue
 from engine.avatar.texture.template_texture.part_texels import PartTexels
@@ -17,16 +18,16 @@ from engine.avatar.texture.views import FrameView
 from engine.body.rig import Rig
 from engine.geometry.joint_names import SIDES
 from engine.geometry.surface import vertex_normals
-from engine.imaging.histogram_matching import matched_in_lab
+from engine.imaging.histogram_matching import to_lab
 from engine.performances.modelling.eyes import EYEBALL_RADIUS
 from engine.render.rasteriser import Raster
 
-WRIST_LENGTH = 0.03
-"""Metres past the wrist over which the frames' colours become the template's."""
-MAX_STRETCH = 1.3
-"""Of the painted hand's contrast: what frames have more of is their shading."""
-MIN_SEEN_SHARE = 0.05
-"""Of a hand's texels, that frames must show for their colours to be those of the hand; else all are, filled ones too."""
+WRIST_LENGTH, CUFF_LENGTH = 0.03, 0.004
+"""Metres past the wrist over which the frames' colours become the template's: along bare skin, and where a sleeve ends."""
+SLEEVE = (-0.025, 0.0)
+"""Metres past the wrist between which it is looked what the arm wears ..."""
+ARM_RADIUS = 0.08
+"""... and about it."""
 
 
 def place_mouth(texture: NDArray[np.uint8], surface: TemplateSurface, raster: Raster) -> None:
@@ -73,21 +74,35 @@ def place_eyes(
 def place_hands(
     texture: NDArray[np.uint8], seen: NDArray[np.bool_], surface: TemplateSurface, raster: Raster, rig: Rig
 ) -> None:
-    """Paint the hands, in the colours that a stitched `texture` (S, S, 3) has of them, where it was `seen` (S, S)."""
+    """Paint the hands, in the tone of the person's own skin as a stitched `texture` (S, S, 3) shows it, where it was `seen` (S, S):
+    gloves stay as frames show them."""
     normals = vertex_normals(surface.rest, surface.triangles)
     flat, shown = texture.reshape(-1, 3), seen.ravel()
+    face = face_skin(texture, seen, surface, raster)
+    arms = PartTexels.of(raster, surface.of("body") & ~surface.mouth)
     for side in SIDES:
         texels = PartTexels.of(raster, surface.hands[side])
         if not len(texels.texels):
             continue
         bones = hand_bones(rig, surface.rest, side)
         places = texels.blend(surface.rest, surface.triangles)
+        hand = past_wrist(bones, places, CUFF_LENGTH) == 1
+        own = flat[texels.texels]
+        sleeve = flat[arms.texels[_before_wrist(bones, arms.blend(surface.rest, surface.triangles))]]
+        tone = hand_tone(face, own[hand], shown[texels.texels][hand], sleeve)
+        if tone is None:
+            continue
+        bare = len(sleeve) and like_skin(to_lab(sleeve), tone).mean() > 0.5
+        share = past_wrist(bones, places, WRIST_LENGTH if bare else CUFF_LENGTH)[:, None]
         facing = texels.blend(normals, surface.triangles)
         facing /= np.maximum(np.linalg.norm(facing, axis=1, keepdims=True), 1e-9)
-        own = flat[texels.texels].astype(np.float32)
-        share = past_wrist(bones, places, WRIST_LENGTH)[:, None].astype(np.float32)
-        hand = share[:, 0] == 1  # a sleeve may reach as far as the wrist
-        told = hand & shown[texels.texels]
-        reference = own[told] if told.sum() > MIN_SEEN_SHARE * hand.sum() else own[hand]
-        painted = matched_in_lab(painted_hand(bones, places, facing), reference, MAX_STRETCH)
+        painted = toned(painted_hand(bones, places, facing), tone)
         texels.put(texture, own + share * (painted - own))
+
+
+def _before_wrist(bones: HandBones, places: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """(N,) which places (N, 3) are on the arm, just before the wrist."""
+    offset = places - bones.wrist
+    along = offset @ bones.along
+    beside = np.linalg.norm(offset - along[:, None] * bones.along, axis=1)
+    return np.asarray((along > SLEEVE[0]) & (along < SLEEVE[1]) & (beside < ARM_RADIUS))
