@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from engine.avatar.attachments.attaching import attachments
-from engine.avatar.attachments.silhouettes import Silhouettes
 from engine.avatar.attachments.standing_off import well_supported
 from engine.avatar.capture.cameras import CaptureCameras, ClipCameras, solve_cameras
 from engine.avatar.capture.captured_view import CapturedView
@@ -184,7 +183,7 @@ def find_attachments(
     cameras = [
         _resized(camera, (mask.shape[0], mask.shape[1])) for camera, mask in zip(body.cameras, body.masks, strict=True)
     ]
-    return attachments(human, fitted.vertices, np.concatenate(measured), Silhouettes(body.masks, cameras))
+    return attachments(human, fitted.vertices, np.concatenate(measured), body.masks, cameras)
 
 
 def stitch_texture(

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.avatar.attachments.influences import influences
 from engine.avatar.attachments.piece_mesh import Mesh, piece_mesh, seen_area, simplified
-from engine.avatar.attachments.silhouettes import Silhouettes
+from engine.avatar.attachments.silhouettes import silhouettes_beside
 from engine.avatar.attachments.standing_off import pieces_standing_off
 from engine.avatar.attachments.thick_sheet import thick_sheet
 from engine.avatar.eye_charts import avatar_uv
@@ -20,6 +20,7 @@ from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.skin import grown
 from engine.avatar.worn import Attachments, no_attachments
 from engine.geometry.atlas_room import cells_of, placed_between
+from engine.geometry.camera import Camera
 from engine.geometry.surface import triangle_areas, triangulate
 from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
 
@@ -47,14 +48,20 @@ def body_surface(human: HumanModels, vertices: NDArray[np.float64]) -> BodySurfa
 
 
 def attachments(
-    human: HumanModels, vertices: NDArray[np.float64], points: NDArray[np.floating], silhouettes: Silhouettes
+    human: HumanModels,
+    vertices: NDArray[np.float64],
+    points: NDArray[np.floating],
+    masks: Sequence[NDArray[np.bool_]],
+    cameras: Sequence[Camera],
 ) -> Attachments:
-    """What the person wears whose template vertices are (V, 3), metres, by the `points` (N, 3) of the cloud and by `silhouettes`."""
+    """What the person wears whose template vertices are (V, 3), metres, by the `points` (N, 3) of the cloud, and by the `masks` of
+    the person, (H, W) bool each, that `cameras` of their sizes have."""
     body = body_surface(human, vertices)
+    silhouettes = silhouettes_beside(body, masks, cameras)
     meshes = []
     for piece in pieces_standing_off(points, body, silhouettes)[:MAX_PIECES]:
         mesh = piece_mesh(*thick_sheet(piece, body, silhouettes))
-        if mesh is not None and silhouettes.confirm(*mesh, body):
+        if mesh is not None and silhouettes.confirm(*mesh):
             meshes.append(mesh)
     if not meshes:
         return no_attachments()

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 from scipy.spatial import cKDTree
 
 from engine.avatar.attachments.body_surface import BodySurface
-from engine.avatar.attachments.silhouettes import Silhouettes
+from engine.avatar.attachments.silhouettes import BESIDE_VIEWS, Silhouettes
 from engine.geometry.point_cloud import thinning
 
 LEAST_DISTANCE = 0.012
@@ -58,31 +56,19 @@ def pieces_standing_off(
         return []
     points, face = points[asked], body.face[nearest[asked]]
     off = _mean_about(points, body.distances(points))
-    least = np.where(face, FACE_DISTANCE, LEAST_DISTANCE)
-    stands = _all_of(
-        off > least,
-        (lambda chosen: silhouettes.depths(points[chosen]) > -SWAY),
-        (lambda chosen: silhouettes.show_beside(points[chosen], body, LEAST_DISTANCE / 2)),
-        (lambda chosen: _crowded(points[chosen], CROWD_RADIUS, CROWD)),
-    )
-    root = ~face & (off > ROOT_DEPTH)
-    if not stands.any():
+    stands = np.flatnonzero(off > np.where(face, FACE_DISTANCE, LEAST_DISTANCE))
+    depths, views = silhouettes.depths(points[stands])
+    stands = stands[(depths > -SWAY) & (views >= BESIDE_VIEWS)]
+    stands = stands[_crowded(points[stands], CROWD_RADIUS, CROWD)]
+    if not len(stands):
         return []
-    root[root] = cKDTree(points[stands]).query(points[root], distance_upper_bound=ROOT_REACH)[0] < np.inf
-    chosen = np.flatnonzero(stands | root)
+    about = cKDTree(points[stands]).query(points, distance_upper_bound=ROOT_REACH)[0] < np.inf
+    own = about & ~face & (off > ROOT_DEPTH)
+    own[stands] = True
+    chosen = np.flatnonzero(own)
     piece = _pieces(points[chosen])
-    number = np.bincount(piece, stands[chosen])
+    number = np.bincount(piece, np.isin(chosen, stands))
     return [points[chosen[piece == k]] for k in np.argsort(-number, kind="stable") if number[k]]
-
-
-def _all_of(first: NDArray[np.bool_], *others: Callable[[NDArray[np.intp]], NDArray[np.bool_]]) -> NDArray[np.bool_]:
-    """Where the first and all others hold, each of which is asked about those alone for which all before it do."""
-    found = first.copy()
-    for other in others:
-        chosen = np.flatnonzero(found)
-        if len(chosen):
-            found[chosen] = other(chosen)
-    return found
 
 
 def _mean_about(points: NDArray[np.floating], values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -95,6 +81,8 @@ def _mean_about(points: NDArray[np.floating], values: NDArray[np.float64]) -> ND
 
 def _crowded(points: NDArray[np.floating], radius: float, others: int) -> NDArray[np.bool_]:
     """(N,) which of the points (N, 3) have so many others within `radius`."""
+    if not len(points):
+        return np.zeros(0, np.bool_)
     return np.array([len(found) > others for found in cKDTree(points).query_ball_point(points, radius)], np.bool_)
 
 

@@ -62,7 +62,7 @@ def thick_sheet(
     across, along = sheet.distances(places)
     off = body.distances(places)
     free = np.where(body.before_face(places), off - FACE_DISTANCE, np.inf)
-    room = silhouettes.depths(places) + SLACK - EXTENT_DOUBT * along
+    room = silhouettes.depths(places)[0] + SLACK - EXTENT_DOUBT * along
     ends = ndimage.gaussian_filter(grid.spread(np.minimum(np.minimum(EXTENT - along, room), free)), OUTLINE_BLUR)
     field = np.minimum(grid.spread(np.maximum(THICKNESS / 2 - across, COVER - off)), ends)
     skin = grid.spread(-off) > 0

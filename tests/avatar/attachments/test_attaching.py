@@ -7,7 +7,6 @@ import pytest
 
 from engine.avatar.acting import standing_clip
 from engine.avatar.attachments.attaching import attachments, body_surface
-from engine.avatar.attachments.silhouettes import Silhouettes
 from engine.avatar.mesh import AVATAR_PARTS, skinned_mesh, surface_of, wearing
 from engine.avatar.registration.models import HumanModels, load_models
 from engine.avatar.registration.rigging import Pose
@@ -66,7 +65,7 @@ def hatted(human: HumanModels) -> Hatted:
     return Hatted(vertices, middle, float(outer), middle + flat, (middle + places, triangles.astype(np.int32)))
 
 
-def seen(human: HumanModels, vertices: np.ndarray, worn: Mesh | None) -> Silhouettes:
+def seen(human: HumanModels, vertices: np.ndarray, worn: Mesh | None) -> tuple[list[np.ndarray], list[Camera]]:
     """The silhouettes of the skin, with what is worn or without."""
     lens = Camera((0, 0, 0), 900.0, (119.5, 199.5), (400, 240))
     places, triangles = vertices[human.skin.vertices], human.skin.triangles
@@ -78,13 +77,13 @@ def seen(human: HumanModels, vertices: np.ndarray, worn: Mesh | None) -> Silhoue
         camera = lens.aimed((3.0 * np.sin(turn), 1.9, 3.0 * np.cos(turn)), (0, 1.35, 0))
         cameras.append(camera)
         masks.append(rasterise(camera.project(places), triangles, camera.size, perspective=True).triangle >= 0)
-    return Silhouettes(masks, cameras)
+    return masks, cameras
 
 
 @pytest.fixture(scope="module")
 def found(human: HumanModels, hatted: Hatted) -> Attachments:
     cloud = np.concatenate([hatted.vertices[human.skin.vertices], hatted.points])
-    return attachments(human, hatted.vertices, cloud, seen(human, hatted.vertices, hatted.brim))
+    return attachments(human, hatted.vertices, cloud, *seen(human, hatted.vertices, hatted.brim))
 
 
 def test_a_brim_is_a_thin_piece_as_wide_as_it_is(hatted: Hatted, found: Attachments) -> None:
@@ -111,7 +110,7 @@ def test_its_charts_lie_beside_the_template_s(human: HumanModels, found: Attachm
 
 def test_points_that_no_silhouette_shows_are_no_piece(human: HumanModels, hatted: Hatted) -> None:
     cloud = np.concatenate([hatted.vertices[human.skin.vertices], hatted.points])
-    bare = attachments(human, hatted.vertices, cloud, seen(human, hatted.vertices, None))
+    bare = attachments(human, hatted.vertices, cloud, *seen(human, hatted.vertices, None))
     assert not len(bare.triangles)
 
 
@@ -119,7 +118,7 @@ def test_a_body_without_anything_wears_nothing(human: HumanModels, hatted: Hatte
     skin_points = hatted.vertices[human.skin.vertices] + np.random.default_rng(2).normal(
         0, 0.003, (len(human.skin.vertices), 3)
     )
-    assert not len(attachments(human, hatted.vertices, skin_points, seen(human, hatted.vertices, None)).triangles)
+    assert not len(attachments(human, hatted.vertices, skin_points, *seen(human, hatted.vertices, None)).triangles)
 
 
 def test_eyes_and_mouth_are_of_the_face_that_stays_free_and_the_crown_is_not(

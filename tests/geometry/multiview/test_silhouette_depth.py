@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from engine.geometry.camera import Camera
-from engine.geometry.multiview.silhouette_depth import silhouette_depths
+from engine.geometry.multiview.silhouette_depth import Beside, silhouette_depths
 
 RADIUS, AWAY = 0.2, 3.0
 PIXEL = 1.2 * AWAY / 400
@@ -41,3 +41,10 @@ def test_a_share_of_wrong_silhouettes_is_passed_over() -> None:
 def test_who_is_in_no_picture_is_outside_of_none() -> None:
     found, seen = silhouette_depths(np.array([[0, 9.0, 0]]), balls(4), ring(4), 0.0)
     assert np.isinf(found[0]) and seen[0] == 0
+
+
+def test_views_say_nothing_of_what_is_behind_or_hardly_beside_what_is_known() -> None:
+    known = [np.hypot(*(np.mgrid[:200, :200] - 99.5)) < 15] * 8  # 11 cm about the middle
+    points = np.array([[0, 0.05, 0], [0, 0.13, 0], [0, 0.16, 0]])
+    found, seen = silhouette_depths(points, balls(8), ring(8), 0.0, Beside(known, 0.03))
+    assert seen.tolist() == [0, 0, 8] and found[2] == pytest.approx(0.04, abs=PIXEL)
