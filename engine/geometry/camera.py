@@ -113,11 +113,12 @@ class Camera:
 
         In float32, as rasterisers take them, or float64, as whoever searches by small steps needs them. Points behind the
         eye have a distance <= 0 and no meaningful pixel; the rasteriser leaves them out. Those not as far away as `nearest`
-        (metres) come to lie where they would be seen at that distance, so that a search may lead through the camera.
+        (metres) come to lie where they would be seen at that distance, so that a search may lead through the camera. What is
+        so far aside that the polynomial of the lens would fold it back into the picture goes on outwards.
         """
         rows = np.ascontiguousarray(points).reshape(-1, 3)
         found: NDArray[np.floating] = np.empty((len(rows), 3), dtype)
-        lens = np.array([self.focal, self.focal * self.aspect, *self.centre, nearest])
+        lens = np.array([self.focal, self.focal * self.aspect, *self.centre, nearest, self._fold()])
         _project(rows, np.array(self.eye), np.array(self.axes), lens, self._coefficients(), found)
         return found.reshape(np.shape(points))
 
@@ -171,6 +172,15 @@ class Camera:
             [*self.distortion, *[0.0] * (DISTORTION_COEFFICIENTS - len(self.distortion))] if self.distortion else []
         )
 
+    def _fold(self) -> float:
+        """Squared distance from the axis, on the plane at distance 1, from which on the lens would bring places back inwards."""
+        if not self.distortion:
+            return np.inf
+        k1, k2, _, _, k3 = self._coefficients()
+        roots = np.roots([7 * k3, 5 * k2, 3 * k1, 1.0])  # of the slope of the distorted distance
+        turning = roots.real[(np.abs(roots.imag) < 1e-9) & (roots.real > 0)]
+        return float(turning.min()) if len(turning) else np.inf
+
     def _offsets(self, pixels: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """x and y (...,) in pixels from the principal point, as they would be without distortion."""
         away = np.asarray(pixels, np.float64) - self.centre
@@ -184,7 +194,7 @@ class Camera:
 def _project(
     points: np.ndarray, eye: np.ndarray, axes: np.ndarray, lens: np.ndarray, coefficients: np.ndarray, found: np.ndarray
 ) -> None:
-    across, down, x, y, nearest = lens
+    across, down, x, y, nearest, fold = lens
     for v in range(len(points)):
         a, b, c = points[v, 0] - eye[0], points[v, 1] - eye[1], points[v, 2] - eye[2]
         distance = -(a * axes[2, 0] + b * axes[2, 1] + c * axes[2, 2])
@@ -192,9 +202,11 @@ def _project(
         up = a * axes[1, 0] + b * axes[1, 1] + c * axes[1, 2]
         away = max(distance, nearest)
         if len(coefficients):
-            px, py = _distorted(right / away, -up / away, coefficients)
-            found[v, 0] = across * px + x
-            found[v, 1] = down * py + y
+            aside = (right * right + up * up) / (away * away)
+            shrunk = np.sqrt(fold / aside) if aside > fold else 1.0
+            px, py = _distorted(shrunk * right / away, -shrunk * up / away, coefficients)
+            found[v, 0] = across * px / shrunk + x
+            found[v, 1] = down * py / shrunk + y
         else:
             found[v, 0] = across * right / away + x
             found[v, 1] = -down * up / away + y

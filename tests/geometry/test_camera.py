@@ -101,6 +101,18 @@ def test_one_depth_for_all_pixels_is_a_plane_before_the_camera() -> None:
     np.testing.assert_allclose(lens("barrel").depth(plane), 2.5)
 
 
+@pytest.mark.parametrize("distortion", [(-0.3, 0.0, 0.0, 0.0), (0.05, -0.01, 0.0, 0.0), (-0.2, 0.04, 0.0, 0.0, -0.02)])
+def test_what_is_further_aside_is_seen_further_out_even_where_the_lens_s_polynomial_turns_back(
+    distortion: tuple[float, ...],
+) -> None:
+    camera = replace(START, distortion=distortion).aimed((0.0, 0.0, 3.0), (0.0, 0.0, 0.0))
+    angles = np.radians(np.linspace(0, 89, 400))
+    around = np.array([0.6, 0.8]) * np.sin(angles)[:, None]
+    seen = camera.project(np.column_stack([around, 3 - np.cos(angles)]), np.float64)[:, :2] - camera.centre
+    out = np.hypot(seen[:, 0] / camera.focal, seen[:, 1] / (camera.focal * camera.aspect))
+    assert (np.diff(out) >= 0).all() and out[-1] > 10
+
+
 def test_where_a_lens_shows_nothing_there_is_no_point() -> None:
     """A barrel that folds back shows nothing further out than where it does."""
     camera = replace(START, distortion=(-0.5, 0.0, 0.0, 0.0))
