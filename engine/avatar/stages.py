@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.avatar.attachments.attaching import attachments
+from engine.avatar.attachments.attaching import Sighting, attachments, standing_points
 from engine.avatar.attachments.standing_off import well_supported
 from engine.avatar.capture.cameras import CaptureCameras, ClipCameras, solve_cameras
 from engine.avatar.capture.captured_view import CapturedView
@@ -44,6 +44,9 @@ HEAD_VIEW_REACH = 1.5
 """How far away frames of the head's clip are asked about the person, in distances of the head: shoes below a chin that sways are
 hidden by what the mesh has elsewhere."""
 
+OFF_RADIUS = 0.008
+"""Metres around points that stand off the body within which others do."""
+
 Tick = Callable[[float], None]
 Warn = Callable[[str, str], None]
 
@@ -72,6 +75,13 @@ class ClipScan:
     def scan(self) -> Scan:
         """What registration takes of it; both clips' worlds are of one size."""
         return Scan(self.dense.cloud, self.landmarks, sized=True)
+
+    def without(self, off: NDArray[np.floating]) -> ClipScan:
+        """All of it but the cloud's points around those that are `off` (M, 3) the body."""
+        away = cKDTree(off).query(self.dense.cloud.points, distance_upper_bound=OFF_RADIUS)[0]
+        kept = np.flatnonzero(~np.isfinite(away))
+        dense = replace(self.dense, cloud=self.dense.cloud[kept], support=self.dense.support[kept])
+        return replace(self, dense=dense)
 
     def moved(self, change: Similarity) -> ClipScan:
         """All of it in another world."""
@@ -162,28 +172,43 @@ def in_metres(height_m: float | None) -> Similarity:
 
 
 def fit_template(body: ClipScan, head: ClipScan | None, check: Callable[[], None]) -> FittedTemplate:
-    """The template fitted to the clouds: section 3.4. Raises what `register` raises."""
+    """The template fitted to the clouds: section 3.4. What is found to stand off it is no part of the body, which is fitted once more
+    without: under a hat is a head. Raises what `register` raises."""
     check()
-    return register(load_models(), body.scan(), None if head is None else head.scan(), check)
+    human = load_models()
+    fitted = register(human, body.scan(), None if head is None else head.scan(), check)
+    off = standing_points(human, fitted.vertices, _sighting(fitted, body, head))
+    if not len(off):
+        return fitted
+    check()
+    bare = body.without(off)
+    if head is None or fitted.head_to_body is None:
+        return register(human, bare.scan(), None if head is None else head.scan(), check)
+    return register(human, bare.scan(), head.without(fitted.head_to_body.inverse()(off)).scan(), check)
 
 
 def find_attachments(
     fitted: FittedTemplate, body: ClipScan, head: ClipScan | None, check: Callable[[], None]
 ) -> Attachments:
-    """What stands off the fitted body, hats' brims and tails of coats: by the clouds of both clips, the head's where registration has
-    placed it and only about the head, which it shows from near, and by the silhouettes of the body's."""
+    """What stands off the fitted body: hats' brims, hair, tails of coats."""
     check()
-    human = load_models()
+    return attachments(load_models(), fitted.vertices, _sighting(fitted, body, head))
+
+
+def _sighting(fitted: FittedTemplate, body: ClipScan, head: ClipScan | None) -> Sighting:
+    """The clouds of both clips, the head's where registration has placed it and only about the head, which it shows from near, and the
+    silhouettes of the body's."""
+    skin = load_models().skin
     measured = [well_supported(body.dense.cloud.points, body.dense.support)]
     if head is not None and fitted.head_to_body is not None:
         near = head.moved(fitted.head_to_body).dense
         points = well_supported(near.cloud.points, near.support)
-        nearest = cKDTree(fitted.vertices[human.skin.vertices]).query(points)[1]
-        measured.append(points[human.skin.regions["head"][nearest]])
+        nearest = cKDTree(fitted.vertices[skin.vertices]).query(points)[1]
+        measured.append(points[skin.regions["head"][nearest]])
     cameras = [
         _resized(camera, (mask.shape[0], mask.shape[1])) for camera, mask in zip(body.cameras, body.masks, strict=True)
     ]
-    return attachments(human, fitted.vertices, np.concatenate(measured), body.masks, cameras)
+    return Sighting(np.concatenate(measured), body.masks, cameras)
 
 
 def stitch_texture(

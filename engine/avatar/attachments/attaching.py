@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,19 +48,28 @@ def body_surface(human: HumanModels, vertices: NDArray[np.float64]) -> BodySurfa
     return BodySurface(own, skin.triangles, modelled, face)
 
 
-def attachments(
-    human: HumanModels,
-    vertices: NDArray[np.float64],
-    points: NDArray[np.floating],
-    masks: Sequence[NDArray[np.bool_]],
-    cameras: Sequence[Camera],
-) -> Attachments:
-    """What the person wears whose template vertices are (V, 3), metres, by the `points` (N, 3) of the cloud, and by the `masks` of
-    the person, (H, W) bool each, that `cameras` of their sizes have."""
+@dataclass(frozen=True)
+class Sighting:
+    """What was seen of a person: `points` (N, 3) of the cloud, metres, and `masks`, (H, W) bool each, of `cameras` of their sizes."""
+
+    points: NDArray[np.floating]
+    masks: Sequence[NDArray[np.bool_]]
+    cameras: Sequence[Camera]
+
+
+def standing_points(human: HumanModels, vertices: NDArray[np.float64], seen: Sighting) -> NDArray[np.floating]:
+    """(M, 3) the points of all that stands off the body of the person whose template vertices are (V, 3), metres."""
     body = body_surface(human, vertices)
-    silhouettes = silhouettes_beside(body, masks, cameras)
+    pieces = pieces_standing_off(seen.points, body, silhouettes_beside(body, seen.masks, seen.cameras))
+    return np.concatenate([seen.points[:0], *pieces[:MAX_PIECES]])
+
+
+def attachments(human: HumanModels, vertices: NDArray[np.float64], seen: Sighting) -> Attachments:
+    """What the person wears whose template vertices are (V, 3), metres."""
+    body = body_surface(human, vertices)
+    silhouettes = silhouettes_beside(body, seen.masks, seen.cameras)
     meshes = []
-    for piece in pieces_standing_off(points, body, silhouettes)[:MAX_PIECES]:
+    for piece in pieces_standing_off(seen.points, body, silhouettes)[:MAX_PIECES]:
         mesh = piece_mesh(*thick_sheet(piece, body, silhouettes))
         if mesh is not None and silhouettes.confirm(*mesh):
             meshes.append(mesh)

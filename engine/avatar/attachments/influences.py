@@ -11,8 +11,9 @@ from engine.geometry.closest_points import closest_points
 
 MAX_INFLUENCES = 4
 """Joints that move a vertex, at most."""
-SMOOTHINGS = 40
-"""Rounds in which a vertex' influences become the mean of those around: a coat's tail hangs from the hips, not from either leg."""
+SMOOTHINGS = 300
+"""Rounds in which a vertex' influences become the mean of those around, a hand's breadth and more: a coat's tail that lies between
+both legs follows what they do together, and is not folded between them when they close."""
 
 
 def influences(

@@ -30,6 +30,8 @@ SWAY = 0.006
 """Metres by which a silhouette may be beside where the cloud has the person."""
 CROWD_RADIUS, CROWD = 0.012, 10
 """Metres within which so many others stand off with a point."""
+FEWEST_POINTS = 250
+"""Points of a piece that stand off: at their spacing a hand's palm of it."""
 PIECE_GAP = 0.012
 """Metres that part pieces."""
 
@@ -68,7 +70,7 @@ def pieces_standing_off(
     chosen = np.flatnonzero(own)
     piece = _pieces(points[chosen])
     number = np.bincount(piece, np.isin(chosen, stands))
-    return [points[chosen[piece == k]] for k in np.argsort(-number, kind="stable") if number[k]]
+    return [points[chosen[piece == k]] for k in np.argsort(-number, kind="stable") if number[k] >= FEWEST_POINTS]
 
 
 def _mean_about(points: NDArray[np.floating], values: NDArray[np.float64]) -> NDArray[np.float64]:

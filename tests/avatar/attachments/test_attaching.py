@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from engine.avatar.acting import standing_clip
-from engine.avatar.attachments.attaching import attachments, body_surface
+from engine.avatar.attachments.attaching import Sighting, attachments, body_surface, standing_points
 from engine.avatar.mesh import AVATAR_PARTS, skinned_mesh, surface_of, wearing
 from engine.avatar.registration.models import HumanModels, load_models
 from engine.avatar.registration.rigging import Pose
@@ -83,7 +83,7 @@ def seen(human: HumanModels, vertices: np.ndarray, worn: Mesh | None) -> tuple[l
 @pytest.fixture(scope="module")
 def found(human: HumanModels, hatted: Hatted) -> Attachments:
     cloud = np.concatenate([hatted.vertices[human.skin.vertices], hatted.points])
-    return attachments(human, hatted.vertices, cloud, *seen(human, hatted.vertices, hatted.brim))
+    return attachments(human, hatted.vertices, Sighting(cloud, *seen(human, hatted.vertices, hatted.brim)))
 
 
 def test_a_brim_is_a_thin_piece_as_wide_as_it_is(hatted: Hatted, found: Attachments) -> None:
@@ -98,6 +98,14 @@ def test_a_brim_is_a_thin_piece_as_wide_as_it_is(hatted: Hatted, found: Attachme
     assert 0.003 < np.ptp(standing[:, 1]) < 0.02
 
 
+def test_the_points_of_the_brim_and_of_its_root_are_those_that_stand_off(human: HumanModels, hatted: Hatted) -> None:
+    cloud = np.concatenate([hatted.vertices[human.skin.vertices], hatted.points])
+    off = standing_points(human, hatted.vertices, Sighting(cloud, *seen(human, hatted.vertices, hatted.brim)))
+    assert np.abs(off[:, 1] - hatted.middle[1]).max() < 0.05
+    radius = np.linalg.norm((off - hatted.middle)[:, [0, 2]], axis=1)
+    assert radius.max() > hatted.outer - 0.01
+
+
 def test_it_turns_with_the_head_alone(human: HumanModels, found: Attachments) -> None:
     assert (found.bones[:, 0] == human.rig.index("Head")).all() and (found.weights[:, 0] == 1).all()
 
@@ -110,7 +118,7 @@ def test_its_charts_lie_beside_the_template_s(human: HumanModels, found: Attachm
 
 def test_points_that_no_silhouette_shows_are_no_piece(human: HumanModels, hatted: Hatted) -> None:
     cloud = np.concatenate([hatted.vertices[human.skin.vertices], hatted.points])
-    bare = attachments(human, hatted.vertices, cloud, *seen(human, hatted.vertices, None))
+    bare = attachments(human, hatted.vertices, Sighting(cloud, *seen(human, hatted.vertices, None)))
     assert not len(bare.triangles)
 
 
@@ -118,7 +126,9 @@ def test_a_body_without_anything_wears_nothing(human: HumanModels, hatted: Hatte
     skin_points = hatted.vertices[human.skin.vertices] + np.random.default_rng(2).normal(
         0, 0.003, (len(human.skin.vertices), 3)
     )
-    assert not len(attachments(human, hatted.vertices, skin_points, *seen(human, hatted.vertices, None)).triangles)
+    assert not len(
+        attachments(human, hatted.vertices, Sighting(skin_points, *seen(human, hatted.vertices, None))).triangles
+    )
 
 
 def test_eyes_and_mouth_are_of_the_face_that_stays_free_and_the_crown_is_not(
