@@ -3,9 +3,12 @@
 import numpy as np
 import pytest
 
+from engine.avatar.capture.dense import DenseCloud
+from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.options import KnownLens
-from engine.avatar.stages import lens_of_frames
+from engine.avatar.stages import ClipScan, lens_of_frames
 from engine.geometry.camera import Camera
+from engine.geometry.point_cloud import PointCloud
 
 
 def test_a_lens_sees_in_shrunk_frames_what_it_sees_in_the_clip() -> None:
@@ -23,3 +26,13 @@ def test_a_lens_sees_in_shrunk_frames_what_it_sees_in_the_clip() -> None:
 def test_without_a_principal_point_it_is_the_middle() -> None:
     lens = lens_of_frames(KnownLens(focal=900.0), (640, 360), (640, 360))
     assert lens.centre.tolist() == pytest.approx([179.5, 319.5])
+
+
+def test_a_scan_without_what_stands_off_the_body_has_the_other_points_with_their_support() -> None:
+    points = np.array([[0, 0, 0], [0, 0.1, 0], [0, 0.105, 0], [0, 0.2, 0]], np.float32)
+    cloud = PointCloud(points, np.tile(np.array([0, 0, 1], np.float32), (4, 1)), np.zeros((4, 3), np.uint8))
+    dense = DenseCloud(cloud, np.array([3, 4, 5, 6], np.uint8), ())
+    scan = ClipScan(np.zeros(0, np.int64), (), (), dense, SpatialLandmarks({}))
+    left = scan.without(np.array([[0, 0.1, 0.001]])).dense
+    assert left.support.tolist() == [3, 6]
+    np.testing.assert_array_equal(left.cloud.points, points[[0, 3]])
