@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.avatar.texture.template_texture.iris_in_frame import iris_centre
 from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.imaging.histogram_matching import matched_in_lab, to_lab
 from engine.media.tone_mapping import srgb_code
@@ -102,8 +103,11 @@ def eye_samples(
         seen = seen_points(depth_buffer(camera, surface.vertices, surface.triangles), pixels, LID_THICKNESS)
         colours = np.clip(bilinear(views[n].picture(), views[n].places(points)) * gains[n], 0, 255).astype(np.float32)
         margin = min(1 / fineness, MAX_MARGIN)
-        iris.append(colours[seen & (off > IRIS_BAND[0]) & (off < IRIS_BAND[1] - margin)])
-        white.append(colours[seen & (off > WHITE_BAND[0] + margin) & (off < WHITE_BAND[1])])
+        seen &= eyes.places[:, 2] > 0
+        across, shown = eyes.places[seen, :2], colours[seen]
+        away = np.hypot(*(across - iris_centre(across, shown.mean(1))).T)
+        iris.append(shown[(away > IRIS_BAND[0]) & (away < IRIS_BAND[1] - margin)])
+        white.append(shown[(away > WHITE_BAND[0] + margin) & (away < WHITE_BAND[1])])
     return _middle(np.concatenate(iris)), _lightest(np.concatenate(white))
 
 

@@ -16,7 +16,9 @@ LIGHT_DISTANCE, LIGHT_PICTURE, LIGHT_WIDTH = 0.5, 240, 0.06
 """Metres to a light, and the pixels and the metres at the eye that its picture of the face is wide."""
 SLACK = 8e-4
 """Metres behind the surface at which a point still has a light."""
-DARKEST = 0.7
+FROM_ABOVE = 0.3
+"""What light from level with the eye counts beside that from straight above, less that."""
+DARKEST = 0.5
 """What is left of the light where none of the sky is seen: skin lets some through, and the ball shines back."""
 HIDDEN_SHARE = 0.05
 """Of the most light that any point has, below which a point is hidden behind a lid."""
@@ -42,7 +44,7 @@ def lid_shadow(surface: ChartedSurface, points: NDArray[np.float64], gaze: NDArr
         depth = np.where(np.isfinite(depth), depth, 2 * LIGHT_DISTANCE).astype(np.float32)
         pixels = camera.project(points)
         lit = pixels[:, 2] <= bilinear(depth[..., None], pixels)[:, 0] + SLACK
-        total += lit * np.maximum(normals @ direction, 0)
+        total += lit * np.maximum(normals @ direction, 0) * (direction[1] + FROM_ABOVE)
     seen = total > HIDDEN_SHARE * total.max()
     if not seen.any():
         return np.ones(len(points), np.float32)

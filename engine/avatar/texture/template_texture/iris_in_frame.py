@@ -1,0 +1,36 @@
+"""Where an iris is in a frame: nobody looks straight ahead all the time, and a fitted eye is off by a millimetre."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.performances.modelling.eyes import IRIS_RADIUS
+
+REACH, STEP = 0.55 * IRIS_RADIUS, 0.1 * IRIS_RADIUS
+"""Metres to either side within which it is looked for, and between places that are tried."""
+WITHIN, AROUND = 0.8, (1.15, 1.7)
+"""Radii of the iris within which it is dark, and between which the white about it is light."""
+MIN_SEEN = 12
+"""Samples of each, without which a place is not tried."""
+STRAIGHT_AHEAD = 0.05
+"""Of the contrast, what a place at the end of the reach has less for it: of two alike the nearer is it."""
+
+
+def iris_centre(places: NDArray[np.floating], lightness: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(2,) metres from straight ahead to where an iris is: where within it is darker than about it by most.
+
+    `places` (N, 2) metres across an eyeball of the radius of `engine.performances.modelling.eyes`, those that a frame shows,
+    with their `lightness` (N,).
+    """
+    steps = np.arange(-REACH, REACH + STEP / 2, STEP)
+    best, found = 0.0, np.zeros(2)
+    for centre in np.stack(np.meshgrid(steps, steps), -1).reshape(-1, 2):
+        off = np.hypot(*(places - centre).T) / IRIS_RADIUS
+        dark, light = lightness[off < WITHIN], lightness[(off > AROUND[0]) & (off < AROUND[1])]
+        if min(len(dark), len(light)) < MIN_SEEN:
+            continue
+        contrast = (light.mean() - dark.mean()) * (1 - STRAIGHT_AHEAD * float(centre @ centre) / REACH**2)
+        if contrast > best:
+            best, found = contrast, centre
+    return found
