@@ -53,26 +53,28 @@ def placed_eyeball(
 
 
 def lids_on_eyes(
-    template: Template, skin: Skin, before: NDArray[np.float64], vertices: NDArray[np.float64], scale: float
+    template: Template, skin: Skin, before: NDArray[np.float64], vertices: NDArray[np.float64], head: Similarity
 ) -> NDArray[np.float64]:
     """The skin (S, 3) of the whole template `vertices` (V, 3) with the lids' rims as far before the eyeballs as they were `before`
-    (V, 3), `scale` times, the lids along with them, and nothing of the lids within an eyeball."""
+    (V, 3), as large as the `head` has become, and nothing of the lids within an eyeball.
+
+    Lids between their rims and the skin about them keep the folds that they had before, but for a smooth displacement: the fit
+    crumples them where an eye is opened wider, and between them points are of the eye.
+    """
     fitted = vertices[skin.vertices].copy()
     own = before[skin.vertices]
     lids = skin.regions["lids"] & ~skin.regions["inner"]
-    moved = np.zeros_like(fitted)
     free = lids.copy()
     for part in EYE_PARTS:
         rim = np.flatnonzero(skin.regions[f"{part}_rim"])
         was = np.linalg.norm(own[rim] - sphere(before[template.vertices_of(part)])[0], axis=1)
-        away = fitted[rim] - sphere(vertices[template.vertices_of(part)])[0]
-        moved[rim] = away * (scale * was / np.linalg.norm(away, axis=1) - 1)[:, None]
+        middle = sphere(vertices[template.vertices_of(part)])[0]
+        away = fitted[rim] - middle
+        fitted[rim] = middle + away * (head.scale * was / np.linalg.norm(away, axis=1))[:, None]
         free[rim] = False
-    fitted[lids] += smooth_field(skin.triangles, free, moved)[lids]
+    fitted[lids] = (head(own) + smooth_field(skin.triangles, free, fitted - head(own)))[lids]
     for part in EYE_PARTS:
-        eyeball = vertices[template.vertices_of(part)]
-        near = np.flatnonzero(lids)
-        fitted[near] = before_eyeball(eyeball, fitted[near])
+        fitted[lids] = before_eyeball(vertices[template.vertices_of(part)], fitted[lids])
     return fitted
 
 

@@ -117,8 +117,8 @@ def _person(
     """The fitted skin with eyes, teeth and joints, in its pose and in T-pose, with expressions."""
     template, skin, rig = models.template, models.skin, models.rig
     vertices = place_parts(template, skin, coarse.whole, fitted)
-    grown = head_change(skin, coarse.vertices, fitted).scale
-    lids = lids_on_eyes(template, skin, coarse.whole, vertices, grown)
+    head = head_change(skin, coarse.vertices, fitted)
+    lids = lids_on_eyes(template, skin, coarse.whole, vertices, head)
     vertices[skin.vertices] = inner_skin(skin, coarse.vertices, lids)
     rotations = coarse.rotations
     joints = cage_coordinates(coarse.joints, coarse.vertices, skin.triangles) @ vertices[skin.vertices]

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from engine.avatar.mouth_chart import mouth_faces
 from engine.avatar.registration.face_landmarks import landmark_vertices
 from engine.avatar.registration.lip_contact import lip_contact
 from engine.body.body_space import BodySpace
@@ -83,7 +84,8 @@ def load_skin(template: Template, space: BodySpace, rig: Rig) -> Skin:
     triangles = triangulate(quads)
     visible = cached_arrays("visible-skin", lambda: {"visible": _visible(template, space, vertices[triangles])})
     seen = visible["visible"]
-    seen = _largest_piece(triangles, seen | seen[_mirrored(template.vertices[vertices], triangles)])
+    seen = seen | seen[_mirrored(template.vertices[vertices], triangles)]
+    seen = _largest_piece(triangles, seen & ~np.tile(mouth_faces(template), 2))
     strongest = np.array(rig.names)[rig.bones[vertices, 0]]
     head = np.isin(strongest, ["Head", "Jaw", "LeftEye", "RightEye"])
     seen = seen | ~head[triangles].all(1)  # what lies between fingers or under arms does show, if not in every pose

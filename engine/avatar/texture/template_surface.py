@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
+from engine.avatar.mouth_chart import mouth_faces
 from engine.avatar.texture.views import ChartedSurface
 from engine.avatar.worn import Attachments
 from engine.body.rig import Rig
@@ -20,8 +21,6 @@ from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv
 
 ATTACHED = len(AVATAR_PARTS)
 """The part of triangles that stand off the body."""
-MOUTH_REACH = 0.04
-"""Metres from the middle of the tongue, along each axis, within which the mouth's bag lies."""
 
 
 @dataclass(frozen=True)
@@ -81,9 +80,9 @@ def template_surface(template: Template, rig: Rig) -> TemplateSurface:
     bones = np.array(rig.names)[rig.bones[:, 0]]
     of_hand = {side: np.array([name.startswith(f"{side}Hand") for name in bones.tolist()]) for side in SIDES}
     hands = {side: body & _charts(atlas, np.all(moved[triangles], axis=1), body) for side, moved in of_hand.items()}
-    tongue = rest[template.vertices_of("tongue")].mean(0)
-    away = np.abs(rest[triangles].mean(1) - tongue).max(1)
-    return TemplateSurface(triangles, atlas, part, body & _charts(atlas, away < MOUTH_REACH, body), hands, rest)
+    mouth = np.zeros(len(faces), np.bool_)
+    mouth[: sizes[AVATAR_PARTS.index("body")]] = mouth_faces(template)
+    return TemplateSurface(triangles, atlas, part, np.tile(mouth, 2), hands, rest)
 
 
 def _charts(atlas: TextureAtlas, inside: NDArray[np.bool_], among: NDArray[np.bool_]) -> NDArray[np.bool_]:

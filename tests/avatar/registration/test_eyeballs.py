@@ -32,7 +32,7 @@ def test_lids_end_before_the_eyeball(models: HumanModels, person: KnownPerson) -
     eye = template.vertices_of("left_eye")
     vertices[eye] += [0, 0, 0.004]
     middle, radius = sphere(vertices[eye])
-    fitted = lids_on_eyes(template, skin, person.vertices, vertices, 1.0)
+    fitted = lids_on_eyes(template, skin, person.vertices, vertices, Similarity(np.eye(3), np.zeros(3)))
     rim, lids = skin.regions["left_eye_rim"], skin.regions["lids"] & ~skin.regions["inner"]
     own = sphere(person.vertices[eye])[0]
     before = np.linalg.norm(person.vertices[skin.vertices][rim] - own, axis=1)
