@@ -12,9 +12,14 @@ from engine.geometry.point_cloud import PointCloud
 
 def crowded(cloud: PointCloud, radius: float, neighbours: int) -> NDArray[np.bool_]:
     """(N,) which points have so many others within `radius` metres."""
-    if len(cloud) <= neighbours:
-        return np.zeros(len(cloud), bool)
-    distance, _ = cKDTree(cloud.points).query(cloud.points, [neighbours + 1], distance_upper_bound=radius)
+    return crowded_points(cloud.points, radius, neighbours)
+
+
+def crowded_points(points: NDArray[np.floating], radius: float, neighbours: int) -> NDArray[np.bool_]:
+    """(N,) which of `points` (N, 3) have so many others within `radius`."""
+    if len(points) <= neighbours:
+        return np.zeros(len(points), bool)
+    distance, _ = cKDTree(points).query(points, [neighbours + 1], distance_upper_bound=radius)
     return np.isfinite(np.asarray(distance)[:, 0])
 
 

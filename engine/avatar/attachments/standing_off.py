@@ -9,6 +9,7 @@ from scipy.spatial import cKDTree
 
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.avatar.attachments.silhouettes import BESIDE_VIEWS, Silhouettes
+from engine.geometry.cloud_cleaning import crowded_points
 from engine.geometry.point_cloud import thinning
 
 LEAST_DISTANCE = 0.012
@@ -61,7 +62,7 @@ def pieces_standing_off(
     stands = np.flatnonzero(off > np.where(face, FACE_DISTANCE, LEAST_DISTANCE))
     depths, views = silhouettes.depths(points[stands])
     stands = stands[(depths > -SWAY) & (views >= BESIDE_VIEWS)]
-    stands = stands[_crowded(points[stands], CROWD_RADIUS, CROWD)]
+    stands = stands[crowded_points(points[stands], CROWD_RADIUS, CROWD)]
     if not len(stands):
         return []
     about = cKDTree(points[stands]).query(points, distance_upper_bound=ROOT_REACH)[0] < np.inf
@@ -79,13 +80,6 @@ def _mean_about(points: NDArray[np.floating], values: NDArray[np.float64]) -> ND
     within = np.isfinite(distance).reshape(len(points), -1)
     which = np.where(within, np.reshape(which, within.shape), 0)
     return np.asarray((np.where(within, values[which], 0)).sum(1) / within.sum(1))
-
-
-def _crowded(points: NDArray[np.floating], radius: float, others: int) -> NDArray[np.bool_]:
-    """(N,) which of the points (N, 3) have so many others within `radius`."""
-    if not len(points):
-        return np.zeros(0, np.bool_)
-    return np.array([len(found) > others for found in cKDTree(points).query_ball_point(points, radius)], np.bool_)
 
 
 def _pieces(points: NDArray[np.floating]) -> NDArray[np.intp]:
