@@ -37,7 +37,7 @@ def matched_in_lab(colours: NDArray[np.floating], reference: NDArray[np.floating
     return from_lab(out)
 
 
-def to_lab(colours: NDArray[np.floating]) -> NDArray[np.float32]:
+def to_lab(colours: NDArray[np.number]) -> NDArray[np.float32]:
     """CIELAB (N, 3), D65, of sRGB (N, 3), 0 to 255."""
     rows = np.asarray(colours, np.float32).reshape(-1, 1, 3) / 255
     return np.asarray(cv2.cvtColor(rows, cv2.COLOR_RGB2LAB), np.float32)[:, 0]

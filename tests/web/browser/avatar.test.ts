@@ -1,6 +1,6 @@
 /** Avatars in the page: ordered once somebody has agreed, followed, looked at, and made again; against a service that fits nothing. */
 
-import { mkdtempSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import type { Browser, Page, Request } from 'playwright-core';
@@ -83,14 +83,23 @@ describe('the studio of avatars', () => {
     await page.getByLabel(/^Body clip: me.mp4/).setInputFiles(clip);
     await expect.poll(() => start.isDisabled()).toBe(true);
     await page.getByLabel('The clips show me, or somebody who agreed to this.').check();
+    const further = page.getByRole('region', { name: 'Further clips' });
+    await further.getByText('Further clips').click();
+    await further.getByLabel(/^Drop a further clip/).setInputFiles(clip);
+    await further.getByLabel(/^Drop another clip/).setInputFiles({ name: 'hands.mp4', mimeType: 'video/mp4', buffer: readFileSync(clip) });
+    await expect.poll(() => start.isDisabled()).toBe(true);
+    await page.getByLabel('The clips show me, or somebody who agreed to this.').check();
+    await further.getByRole('button', { name: 'Remove the clip me.mp4' }).click();
+    await expect.poll(() => start.isDisabled()).toBe(false);
     await page.getByRole('radio', { name: 'Dance' }).press(' ');
     await page.getByText('Options').click();
     await page.getByLabel('Also as VRM').check();
     await readable(page);
     const [request] = await Promise.all([page.waitForRequest(isPost(/\/v1\/jobs$/)), start.click()]);
-    const asked = request.postDataJSON() as { inputs: Record<string, string>; options: object };
+    const asked = request.postDataJSON() as { inputs: Record<string, string | string[]>; options: object };
     expect(asked).toMatchObject({ kind: 'avatar', options: { height_m: 1.75, vrm: true } });
-    expect(Object.keys(asked.inputs).sort()).toEqual(['body', 'motion']);
+    expect(Object.keys(asked.inputs).sort()).toEqual(['body', 'more', 'motion']);
+    expect(asked.inputs.more).toHaveLength(1);
     expect(asked.inputs.motion).toBe('dance');
     await page.getByRole('heading', { name: 'Me', level: 1 }).waitFor();
     await fetch(`${service.address}/v1/jobs/${page.url().split('/').at(-1)}/cancel`, { method: 'POST' });

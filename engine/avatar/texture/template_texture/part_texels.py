@@ -49,7 +49,7 @@ class PartTexels:
         """(N, C) attributes of vertices (V, C) at the texels."""
         return np.einsum("nk,nkc->nc", self.shares, np.asarray(values, np.float64)[triangles[self.triangles]])
 
-    def put(self, texture: NDArray[np.uint8], colours: NDArray[np.floating]) -> None:
+    def put(self, texture: NDArray[np.uint8], colours: NDArray[np.number]) -> None:
         """Give these texels of a `texture` (S, S, 3) the `colours` (N, 3), 0 to 255, in place; one that is there several times
         their mean."""
         found, index = np.unique(self.texels, return_inverse=True)

@@ -11,12 +11,13 @@ export interface AvatarOrder extends Order {
   kind: 'avatar';
   body: File;
   head: File | null;
+  more: readonly File[];
   motion: Motion;
   driver: File | null;
   options: object;
 }
 
-export const avatarOrder = (given: Pick<AvatarOrder, 'body' | 'head' | 'motion' | 'driver' | 'options'>): AvatarOrder => ({
+export const avatarOrder = (given: Pick<AvatarOrder, 'body' | 'head' | 'more' | 'motion' | 'driver' | 'options'>): AvatarOrder => ({
   ...given,
   ...{ kind: 'avatar', key: randomKey(), sent: {} },
 });
@@ -30,6 +31,11 @@ export async function request(order: AvatarOrder, upload: Upload): Promise<JobRe
   const { motion, options } = order;
   const inputs: JobRequest['inputs'] = { body: await upload(order.body, 'body') };
   if (order.head) inputs.head = await upload(order.head, 'head');
+  if (order.more.length) {
+    const further: string[] = [];
+    for (const [index, clip] of order.more.entries()) further.push(await upload(clip, index ? `more ${index + 1}` : 'more'));
+    inputs.more = further;
+  }
   inputs.motion = motion.by === 'file' ? await upload(motion.file, 'motion') : motion.name;
   if (order.driver) inputs.driver = await upload(order.driver, 'driver');
   const { picture, performance } = namesOf(order);

@@ -15,6 +15,7 @@ import { RecentWorks } from '../../works/recent_works';
 import type { Options } from '../generic/fields';
 import { Consent } from './consent';
 import { DriverField } from './driver_field';
+import { FurtherClips } from './further_clips';
 import { Advice } from './guide/advice';
 import { ClipPanel } from './guide/clip_panel';
 import { heightIn } from './height';
@@ -32,6 +33,8 @@ const videos = ['body', 'head', 'driver'] as const;
 type Video = (typeof videos)[number];
 
 interface Draft extends Record<Video, File | null> {
+  /** Further clips of the person. */
+  more: File[];
   motion: Motion;
   joints: MotionJoints;
   /** Which of the motion's animations. */
@@ -44,12 +47,12 @@ interface Draft extends Record<Video, File | null> {
 
 const EMPTY_DRAFT: Draft = {
   ...{ body: null, head: null, driver: null, motion: { by: 'name', name: USUAL_MOTION }, joints: {}, clip: null },
-  ...{ height: '', agreed: false, options: {} },
+  ...{ more: [], height: '', agreed: false, options: {} },
 };
 
 export default function AvatarStudio({ kind }: StudioProps) {
   const [draft, change] = useDraft(kind.name, EMPTY_DRAFT);
-  const { refused, refuse, accept } = useRefusals<Video | 'motion'>(kind.name);
+  const { refused, refuse, accept } = useRefusals<Video | 'more' | 'motion'>(kind.name);
   const sending = useSending();
   useStudioTitle(kind);
   const give = (video: Video, file: File | null): void => {
@@ -60,6 +63,10 @@ export default function AvatarStudio({ kind }: StudioProps) {
   const refuseVideo = (video: Video): void => {
     refuse(video);
     change({ [video]: null });
+  };
+  const giveMore = (more: File[]): void => {
+    accept('more');
+    change({ more, ...(more.length > draft.more.length && { agreed: false }) });
   };
   // another motion has other joints, and other animations
   const move = (motion: Motion): void => {
@@ -96,6 +103,14 @@ export default function AvatarStudio({ kind }: StudioProps) {
       >
         <ClipPanel clip="body" {...place('body')} />
         <ClipPanel clip="head" optional={words.clips.head.without} {...place('head')} />
+        <section class="panel wide" aria-label={words.further.title}>
+          <FurtherClips
+            files={draft.more}
+            refused={refused.more === true}
+            onFiles={giveMore}
+            onRefused={() => refuse('more')}
+          />
+        </section>
         <Advice />
         <section class="panel" aria-labelledby="person-title">
           <h2 id="person-title">{words.person}</h2>
@@ -130,8 +145,8 @@ export default function AvatarStudio({ kind }: StudioProps) {
 }
 
 /** What stands in the way of an order; empty where nothing does. */
-function missingIn({ body, height, agreed }: Draft, refused: Partial<Record<Video | 'motion', boolean>>): string {
-  if (refused.body || refused.head) return words.wrongClip;
+function missingIn({ body, height, agreed }: Draft, refused: Partial<Record<Video | 'more' | 'motion', boolean>>): string {
+  if (refused.body || refused.head || refused.more) return words.wrongClip;
   if (refused.driver) return words.wrongDriver;
   if (refused.motion) return motionWords.wrong;
   if (!body) return words.needBody;
@@ -139,7 +154,7 @@ function missingIn({ body, height, agreed }: Draft, refused: Partial<Record<Vide
   return agreed ? '' : words.needConsent;
 }
 
-function orderOf({ head, driver, motion, joints, clip, height, options }: Draft, body: File) {
+function orderOf({ head, more, driver, motion, joints, clip, height, options }: Draft, body: File) {
   const metres = heightIn(height);
   const said = {
     ...options,
@@ -147,5 +162,5 @@ function orderOf({ head, driver, motion, joints, clip, height, options }: Draft,
     ...(Object.keys(joints).length && { motion_joints: joints }),
     ...(clip !== null && { motion_clip: clip }),
   };
-  return avatarOrder({ body, head, motion, driver, options: said });
+  return avatarOrder({ body, head, more, motion, driver, options: said });
 }

@@ -4,6 +4,7 @@ import { type InputDescription, listDrivers, listMotions } from '../../api';
 import { useLoaded } from '../../api/loading';
 import { isMotion, isPicture, isVideo, motionTypes, pictureTypes, videoTypes } from '../../studio/media_types';
 import { plain, strings } from '../../language/strings';
+import { FileList } from '../../studio/file_list';
 import { Dropzone } from '../../widgets/dropzone';
 import { SelectField } from '../../widgets/select';
 import type { Given } from './order';
@@ -37,22 +38,13 @@ export function InputField({ input, value, onChange, refused, onRefused }: Props
       {input.library && (
         <LibraryField library={input.library} value={typeof value === 'string' ? value : undefined} onChange={onChange} />
       )}
-      {input.many && files.length > 0 && (
-        <ul class="plain">
-          {files.map((file, index) => (
-            <li key={index}>
-              {file.name}{' '}
-              <button
-                type="button"
-                class="button quiet"
-                aria-label={words.remove(file.name)}
-                onClick={() => onChange(files.length > 1 ? files.filter((one) => one !== file) : undefined)}
-              >
-                {strings.job.remove}
-              </button>
-            </li>
-          ))}
-        </ul>
+      {input.many && (
+        <FileList
+          files={files}
+          removeWord={words.removeWord}
+          removeLabel={words.remove}
+          onRemove={(file) => onChange(files.length > 1 ? files.filter((one) => one !== file) : undefined)}
+        />
       )}
       <Dropzone
         media={input.media === 'image' || input.media === 'video' ? input.media : 'motion'}

@@ -83,7 +83,16 @@ const english = {
   },
 
   /** Files, by what they are to an order. */
-  files: { body: 'the body clip', head: 'the head clip', motion: 'the motion', driver: 'the driver' },
+  files: {
+    body: 'the body clip',
+    head: 'the head clip',
+    more: 'the further clip',
+    'more 2': 'the second further clip',
+    'more 3': 'the third further clip',
+    'more 4': 'the fourth further clip',
+    motion: 'the motion',
+    driver: 'the driver',
+  },
 
   studio: {
     title: 'Make an avatar of a person',
@@ -118,6 +127,16 @@ const english = {
       },
     },
     remove: 'Remove this clip',
+    further: {
+      title: 'Further clips',
+      hint: 'Up to four, of what the body clip shows too little of: arms, hands, the back, shoes. The same person stands in the same place, and you walk a slow arc around it. Each adds a minute or two.',
+      drop: 'Drop a further clip here',
+      another: 'Drop another clip here',
+      browse: 'or choose a video',
+      removeWord: 'Remove',
+      remove: (name: string) => `Remove the clip ${name}`,
+      wrong: 'This is not a video.',
+    },
     wrongClip: 'This is not a video. Please choose the clip as the phone made it: MP4, MOV or another video file.',
     needBody: 'Choose a body clip to begin.',
     needConsent: 'Confirm that the person agreed to it.',

@@ -15,6 +15,7 @@ export const generic = {
     chosen: (input: string, name: string) => `${input}: ${name}. Choose another`,
     wrong: 'This is not a file of the right kind.',
     more: 'Add another file',
+    removeWord: 'Remove',
     remove: (name: string) => `Remove ${name}`,
     named: 'Or by name',
     auto: 'The best match',
