@@ -16,6 +16,8 @@ from engine.compiled import njit
 
 NEAREST_VERTICES = 3
 """Vertices whose triangles are looked at for each point."""
+FEW_POINTS = 2048
+"""So many are looked for without threads: starting them costs more, and a process that has started any must not be forked."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,8 @@ def closest_points(
     starts = np.concatenate([[0], np.cumsum(np.bincount(at.ravel(), minlength=len(used)))])
     count = min(NEAREST_VERTICES, len(used))
     near = cKDTree(places[used]).query(asked, k=count)[1].reshape(len(asked), count)
-    return ClosestPoints(*_closest(asked, places, corners, near, starts, order // 3))
+    search = _closest_of_few if len(asked) <= FEW_POINTS else _closest
+    return ClosestPoints(*search(asked, places, corners, near, starts, order // 3))
 
 
 @njit(parallel=True, nogil=True, boundscheck=False, error_model="numpy")
@@ -58,27 +61,42 @@ def _closest(points, vertices, triangles, near, starts, touching):  # type: igno
     chosen = np.zeros(len(points), np.intp)
     barycentrics = np.zeros((len(points), 3))
     for i in prange(len(points)):
-        best = np.inf
-        p = _place(points, i)
-        for k in range(near.shape[1]):
-            for j in range(starts[near[i, k]], starts[near[i, k] + 1]):
-                t = touching[j]
-                a, b, c = (
-                    _place(vertices, triangles[t, 0]),
-                    _place(vertices, triangles[t, 1]),
-                    _place(vertices, triangles[t, 2]),
-                )
-                u, v, w = _within_triangle(p, a, b, c)
-                squared = 0.0
-                for axis in range(3):
-                    off = p[axis] - u * a[axis] - v * b[axis] - w * c[axis]
-                    squared += off * off
-                if squared < best:
-                    best = squared
-                    chosen[i] = t
-                    barycentrics[i, 0], barycentrics[i, 1], barycentrics[i, 2] = u, v, w
-        distance[i] = np.sqrt(best)
+        distance[i], chosen[i] = _nearest(i, points, vertices, triangles, near, starts, touching, barycentrics)
     return distance, chosen, barycentrics
+
+
+@njit(nogil=True, boundscheck=False, error_model="numpy")
+def _closest_of_few(points, vertices, triangles, near, starts, touching):  # type: ignore[no-untyped-def]
+    distance = np.empty(len(points))
+    chosen = np.zeros(len(points), np.intp)
+    barycentrics = np.zeros((len(points), 3))
+    for i in range(len(points)):
+        distance[i], chosen[i] = _nearest(i, points, vertices, triangles, near, starts, touching, barycentrics)
+    return distance, chosen, barycentrics
+
+
+@njit(nogil=True, boundscheck=False, error_model="numpy")
+def _nearest(i, points, vertices, triangles, near, starts, touching, barycentrics):  # type: ignore[no-untyped-def]
+    """The distance of one point, and of which triangle; its barycentrics are written into theirs."""
+    best, triangle = np.inf, 0
+    p = _place(points, i)
+    for k in range(near.shape[1]):
+        for j in range(starts[near[i, k]], starts[near[i, k] + 1]):
+            t = touching[j]
+            a, b, c = (
+                _place(vertices, triangles[t, 0]),
+                _place(vertices, triangles[t, 1]),
+                _place(vertices, triangles[t, 2]),
+            )
+            u, v, w = _within_triangle(p, a, b, c)
+            squared = 0.0
+            for axis in range(3):
+                off = p[axis] - u * a[axis] - v * b[axis] - w * c[axis]
+                squared += off * off
+            if squared < best:
+                best, triangle = squared, t
+                barycentrics[i, 0], barycentrics[i, 1], barycentrics[i, 2] = u, v, w
+    return np.sqrt(best), triangle
 
 
 @njit(nogil=True, error_model="numpy")
