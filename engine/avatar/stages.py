@@ -219,8 +219,8 @@ def stitch_texture(
     size: int,
     check: Callable[[], None],
 ) -> AvatarTexture:
-    """The texture of the fitted template and of what is `worn` off it, `size` texels a side, from the frames of the body's clip, of the head's, where registration has placed it, and of
-    `further` ones in the body's world: section 3.5."""
+    """The texture of the fitted template and of what is `worn` off it, `size` texels a side, from the frames of the body's clip, of
+    the head's, where registration has placed it, and of `further` ones in the body's world: section 3.5."""
     views: list[FrameView] = []
     scans = in_body_s_world([scan for _, scan in clips], fitted)
     placed = [(chosen, scan) for (chosen, _), scan in zip(clips, scans, strict=False)]

@@ -51,28 +51,22 @@ def closest_points(
     starts = np.concatenate([[0], np.cumsum(np.bincount(at.ravel(), minlength=len(used)))])
     count = min(NEAREST_VERTICES, len(used))
     near = cKDTree(places[used]).query(asked, k=count)[1].reshape(len(asked), count)
-    search = _closest_of_few if len(asked) <= FEW_POINTS else _closest
-    return ClosestPoints(*search(asked, places, corners, near, starts, order // 3))
+    found = ClosestPoints(np.empty(len(asked)), np.zeros(len(asked), np.intp), np.zeros((len(asked), 3)))
+    search = _find_few if len(asked) <= FEW_POINTS else _find_many
+    search(asked, places, corners, near, starts, order // 3, found.distance, found.triangle, found.barycentrics)
+    return found
 
 
 @njit(parallel=True, nogil=True, boundscheck=False, error_model="numpy")
-def _closest(points, vertices, triangles, near, starts, touching):  # type: ignore[no-untyped-def]
-    distance = np.empty(len(points))
-    chosen = np.zeros(len(points), np.intp)
-    barycentrics = np.zeros((len(points), 3))
+def _find_many(points, vertices, triangles, near, starts, touching, distance, triangle, barycentrics):  # type: ignore[no-untyped-def]
     for i in prange(len(points)):
-        distance[i], chosen[i] = _nearest(i, points, vertices, triangles, near, starts, touching, barycentrics)
-    return distance, chosen, barycentrics
+        distance[i], triangle[i] = _nearest(i, points, vertices, triangles, near, starts, touching, barycentrics)
 
 
 @njit(nogil=True, boundscheck=False, error_model="numpy")
-def _closest_of_few(points, vertices, triangles, near, starts, touching):  # type: ignore[no-untyped-def]
-    distance = np.empty(len(points))
-    chosen = np.zeros(len(points), np.intp)
-    barycentrics = np.zeros((len(points), 3))
+def _find_few(points, vertices, triangles, near, starts, touching, distance, triangle, barycentrics):  # type: ignore[no-untyped-def]
     for i in range(len(points)):
-        distance[i], chosen[i] = _nearest(i, points, vertices, triangles, near, starts, touching, barycentrics)
-    return distance, chosen, barycentrics
+        distance[i], triangle[i] = _nearest(i, points, vertices, triangles, near, starts, touching, barycentrics)
 
 
 @njit(nogil=True, boundscheck=False, error_model="numpy")

@@ -25,7 +25,7 @@ POINT_SPACING = 0.004
 """Metres between points that are looked at."""
 MEAN_RADIUS, MEAN_POINTS = 0.012, 32
 """Metres about a point, and points there at most, the mean of which says how far off the surface is: single ones scatter."""
-REACH = 0.3
+MAX_WORN_DISTANCE = 0.3
 """Metres from the skin within which anything can be worn."""
 SWAY = 0.006
 """Metres by which a silhouette may be beside where the cloud has the person."""
@@ -52,7 +52,7 @@ def pieces_standing_off(
     """Those of the `points` (N, 3) of a cloud that stand off the skin within the silhouettes, with those about their roots, piece
     by piece, the largest first."""
     points = points[thinning(points, POINT_SPACING)]
-    nearest = np.asarray(cKDTree(body.vertices).query(points, distance_upper_bound=REACH)[1])
+    nearest = np.asarray(cKDTree(body.vertices).query(points, distance_upper_bound=MAX_WORN_DISTANCE)[1])
     asked = np.flatnonzero(nearest < len(body.vertices))
     asked = asked[~body.own[nearest[asked]]]
     if not len(asked):

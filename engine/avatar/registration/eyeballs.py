@@ -15,7 +15,7 @@ SURROUNDINGS = 0.03
 """Metres about the eyeball's middle within which visible skin says about where it is."""
 SURROUNDINGS_SHARE = 0.2
 """What that counts beside the rims' distances from the middle."""
-ROUNDS = 8
+GAUSS_NEWTON_STEPS = 8
 """Of Gauss and Newton's method, for the middle."""
 LID_GAP = 0.0004
 """Metres that lids stay before the eyeball."""
@@ -42,7 +42,7 @@ def placed_eyeball(
     rim = skin.regions[f"{part}_rim"]
     reach = head.scale * np.linalg.norm(own[rim] - middle, axis=1)
     at = about.copy()
-    for _ in range(ROUNDS):
+    for _ in range(GAUSS_NEWTON_STEPS):
         away = at - fitted[rim]
         distance = np.linalg.norm(away, axis=1)
         slopes = away / distance[:, None]

@@ -18,7 +18,7 @@ MIN_DEPTH = 0.0015
 """Metres that the inside stays below the visible skin, at least, but where it comes up to its rim."""
 RIM_SHARE = 0.5
 """Of the depth that it has in the template, which it keeps at least where that is less."""
-ROUNDS = 3
+CLAMPING_ROUNDS = 3
 """In which what sticks out is brought below the skin that is nearest then."""
 
 
@@ -45,7 +45,7 @@ def inner_skin(skin: Skin, before: NDArray[np.floating], after: NDArray[np.float
     out = was + smooth_field(skin.triangles, inner, moved, pull)
     out[~inner] = now[~inner]
     least = np.minimum(MIN_DEPTH, RIM_SHARE * nearest.distance)
-    for _ in range(ROUNDS):
+    for _ in range(CLAMPING_ROUNDS):
         out[inner] = brought_inside(out[inner], out, hull, least)
     return out
 

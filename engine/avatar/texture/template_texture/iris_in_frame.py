@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from engine.performances.modelling.eyes import IRIS_RADIUS
 
-REACH, STEP = 0.55 * IRIS_RADIUS, 0.1 * IRIS_RADIUS
+SEARCH_RADIUS, SEARCH_STEP = 0.55 * IRIS_RADIUS, 0.1 * IRIS_RADIUS
 """Metres to either side within which it is looked for, and between places that are tried."""
 WITHIN, AROUND = 0.8, (1.15, 1.7)
 """Radii of the iris within which it is dark, and between which the white about it is light."""
@@ -23,14 +23,14 @@ def iris_centre(places: NDArray[np.floating], lightness: NDArray[np.floating]) -
     `places` (N, 2) metres across an eyeball of the radius of `engine.performances.modelling.eyes`, those that a frame shows,
     with their `lightness` (N,).
     """
-    steps = np.arange(-REACH, REACH + STEP / 2, STEP)
+    steps = np.arange(-SEARCH_RADIUS, SEARCH_RADIUS + SEARCH_STEP / 2, SEARCH_STEP)
     best, found = 0.0, np.zeros(2)
     for centre in np.stack(np.meshgrid(steps, steps), -1).reshape(-1, 2):
         off = np.hypot(*(places - centre).T) / IRIS_RADIUS
         dark, light = lightness[off < WITHIN], lightness[(off > AROUND[0]) & (off < AROUND[1])]
         if min(len(dark), len(light)) < MIN_SEEN:
             continue
-        contrast = (light.mean() - dark.mean()) * (1 - STRAIGHT_AHEAD * float(centre @ centre) / REACH**2)
+        contrast = (light.mean() - dark.mean()) * (1 - STRAIGHT_AHEAD * float(centre @ centre) / SEARCH_RADIUS**2)
         if contrast > best:
             best, found = contrast, centre
     return found
