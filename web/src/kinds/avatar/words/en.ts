@@ -149,7 +149,7 @@ const english = {
       'Others who walk about in the background.',
       'Dark rooms, hard shadows, zoom.',
       'Bare walls and floors: the cameras are found by patterns.',
-      'Loose hair, hats and wide coats: they become creased skin.',
+      'Loose hair, hats and wide coats: their edges come out ragged.',
     ],
     helpsTitle: 'What helps',
     helps: 'Daylight or many lamps, clothes with a pattern, tied hair, the phone upright and at its highest resolution.',
