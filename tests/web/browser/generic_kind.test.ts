@@ -54,6 +54,23 @@ const makers = (page: Page) => page.getByRole('navigation', { name: 'What to mak
 const chooseImage = (page: Page) =>
   page.getByRole('region', { name: 'Image' }).locator('input[type=file]').setInputFiles(portrait);
 
+/** From now on the page waits with the first bytes of files, until what is returned is called. */
+async function holdReading(page: Page): Promise<() => Promise<void>> {
+  const goOn = await page.evaluateHandle(() => {
+    const read = Blob.prototype.arrayBuffer;
+    let open = (): void => undefined;
+    const opened = new Promise<void>((resolve) => (open = resolve));
+    Blob.prototype.arrayBuffer = function (this: Blob) {
+      return opened.then(() => read.call(this));
+    };
+    return () => {
+      Blob.prototype.arrayBuffer = read;
+      open();
+    };
+  });
+  return () => goOn.evaluate((open) => open());
+}
+
 describe('a kind without a folder of its own', () => {
   it('is ordered by a form that its schemas make, followed, shown, found again and shared', async () => {
     const page = await opened('');
@@ -63,8 +80,10 @@ describe('a kind without a folder of its own', () => {
     const start = page.getByRole('button', { name: 'Start' });
     await expect.poll(() => start.isDisabled()).toBe(true);
     await page.getByText('Choose first: Image.').waitFor();
+    const letRead = await holdReading(page);
     await chooseImage(page);
     await page.getByRole('region', { name: 'Driver' }).getByLabel('Or by name').selectOption({ label: 'Happy' });
+    await letRead(); // the picture comes after the name, and must not lose it
     await page.getByRole('region', { name: 'Options' }).locator('summary').click();
     await page.getByLabel('Level').fill('2.5');
     await page.getByLabel('Polls').uncheck();

@@ -12,9 +12,16 @@ export function DraftsProvider({ children }: { children: ComponentChildren }) {
   return <Held.Provider value={held}>{children}</Held.Provider>;
 }
 
+/** A part of a draft; or what makes it of the draft as it is by then: a file is looked into before it is given. */
+export type Change<T> = Partial<T> | ((draft: T) => Partial<T>);
+
 /** What is chosen in the studio of a kind, at first nothing; and what changes a part of it. */
-export function useDraft<T extends object>(kind: string, nothing: T): readonly [T, (part: Partial<T>) => void] {
+export function useDraft<T extends object>(kind: string, nothing: T): readonly [T, (part: Change<T>) => void] {
   const [drafts, change] = useContext(Held);
-  const alter = (part: Partial<T>): void => change((known) => ({ ...known, [kind]: { ...nothing, ...known[kind], ...part } }));
+  const alter = (part: Change<T>): void =>
+    change((known) => {
+      const draft: T = { ...nothing, ...known[kind] };
+      return { ...known, [kind]: { ...draft, ...(typeof part === 'function' ? part(draft) : part) } };
+    });
   return [(drafts[kind] as T | undefined) ?? nothing, alter];
 }

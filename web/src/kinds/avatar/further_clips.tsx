@@ -14,11 +14,12 @@ interface Props {
   files: readonly File[];
   /** Whether what was given last was no video. */
   refused: boolean;
-  onFiles: (files: File[]) => void;
+  onAdded: (file: File) => void;
+  onRemoved: (file: File) => void;
   onRefused: () => void;
 }
 
-export function FurtherClips({ files, refused, onFiles, onRefused }: Props) {
+export function FurtherClips({ files, refused, onAdded, onRemoved, onRefused }: Props) {
   return (
     <details class="choices further" open={files.length > 0 || refused}>
       <summary>{words.title}</summary>
@@ -27,7 +28,7 @@ export function FurtherClips({ files, refused, onFiles, onRefused }: Props) {
         files={files}
         removeWord={words.removeWord}
         removeLabel={words.remove}
-        onRemove={(file) => onFiles(files.filter((one) => one !== file))}
+        onRemove={onRemoved}
       />
       {files.length < MAX_FURTHER_CLIPS && (
         <Dropzone
@@ -36,7 +37,7 @@ export function FurtherClips({ files, refused, onFiles, onRefused }: Props) {
           accept={videoTypes}
           accepts={isVideo}
           words={{ drop: files.length ? words.another : words.drop, browse: words.browse, chosen: words.remove, wrong: words.wrong }}
-          onFile={(file) => onFiles([...files, file])}
+          onFile={onAdded}
           refused={refused}
           onRefused={onRefused}
         />

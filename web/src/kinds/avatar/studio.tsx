@@ -58,15 +58,19 @@ export default function AvatarStudio({ kind }: StudioProps) {
   const give = (video: Video, file: File | null): void => {
     accept(video);
     // other clips may show somebody else: that has to be said anew
-    change({ [video]: file, ...(video !== 'driver' && draft[video] && { agreed: false }) });
+    change((before) => ({ [video]: file, ...(video !== 'driver' && before[video] && { agreed: false }) }));
   };
   const refuseVideo = (video: Video): void => {
     refuse(video);
     change({ [video]: null });
   };
-  const giveMore = (more: File[]): void => {
+  const addClip = (file: File): void => {
     accept('more');
-    change({ more, ...(more.length > draft.more.length && { agreed: false }) });
+    change(({ more }) => ({ more: [...more, file], agreed: false }));
+  };
+  const removeClip = (file: File): void => {
+    accept('more');
+    change(({ more }) => ({ more: more.filter((one) => one !== file) }));
   };
   // another motion has other joints, and other animations
   const move = (motion: Motion): void => {
@@ -107,7 +111,8 @@ export default function AvatarStudio({ kind }: StudioProps) {
           <FurtherClips
             files={draft.more}
             refused={refused.more === true}
-            onFiles={giveMore}
+            onAdded={addClip}
+            onRemoved={removeClip}
             onRefused={() => refuse('more')}
           />
         </section>

@@ -21,7 +21,8 @@ const anything = { accept: '', accepts: async () => true };
 interface Props {
   input: InputDescription;
   value: Given | undefined;
-  onChange: (value: Given | undefined) => void;
+  /** What is given now, of what was given before. */
+  onChange: (given: (before: Given | undefined) => Given | undefined) => void;
   /** The file that was given last cannot be taken. */
   refused: boolean;
   onRefused: () => void;
@@ -29,21 +30,21 @@ interface Props {
 
 export function InputField({ input, value, onChange, refused, onRefused }: Props) {
   const label = plain(input.name);
-  const files = typeof value === 'object' ? value : [];
+  const files = filesOf(value);
   const last = input.many ? undefined : files[0];
   return (
     <section class="panel" aria-label={label}>
       <h2>{label}</h2>
       <p class="hint">{input.description}</p>
       {input.library && (
-        <LibraryField library={input.library} value={typeof value === 'string' ? value : undefined} onChange={onChange} />
+        <LibraryField library={input.library} value={typeof value === 'string' ? value : undefined} onChange={(name) => onChange(() => name)} />
       )}
       {input.many && (
         <FileList
           files={files}
           removeWord={words.removeWord}
           removeLabel={words.remove}
-          onRemove={(file) => onChange(files.length > 1 ? files.filter((one) => one !== file) : undefined)}
+          onRemove={(file) => onChange((before) => without(filesOf(before), file))}
         />
       )}
       <Dropzone
@@ -56,12 +57,19 @@ export function InputField({ input, value, onChange, refused, onRefused }: Props
           chosen: (name) => words.chosen(label, name),
           wrong: words.wrong,
         }}
-        onFile={(file) => onChange(input.many ? [...files, file] : [file])}
+        onFile={(file) => onChange((before) => (input.many ? [...filesOf(before), file] : [file]))}
         refused={refused}
         onRefused={onRefused}
       />
     </section>
   );
+}
+
+const filesOf = (given: Given | undefined): readonly File[] => (typeof given === 'object' ? given : []);
+
+function without(files: readonly File[], file: File): Given | undefined {
+  const others = files.filter((one) => one !== file);
+  return others.length ? others : undefined;
 }
 
 const AUTO = 'auto';

@@ -42,10 +42,12 @@ function Form({ kind, description }: { kind: Kind; description: KindDescription 
   const required = (description.inputs_schema.required ?? []) as string[];
   const absent = required.find((name) => inputs[name] === undefined);
   const { refused, refuse, accept } = useRefusals(kind.name);
-  const give = (name: string, value: Given | undefined): void => {
+  const give = (name: string, given: (before: Given | undefined) => Given | undefined): void => {
     accept(name);
-    const { [name]: _before, ...others } = inputs;
-    change({ inputs: value === undefined ? others : { ...others, [name]: value } });
+    change(({ inputs: { [name]: before, ...others } }) => {
+      const value = given(before);
+      return { inputs: value === undefined ? others : { ...others, [name]: value } };
+    });
   };
   const many = description.inputs.filter((input) => input.many).map(({ name }) => name);
   const order = () => genericOrder(kind.name, inputs, many, options);
@@ -65,10 +67,10 @@ function Form({ kind, description }: { kind: Kind; description: KindDescription 
           key={input.name}
           input={input}
           value={inputs[input.name]}
-          onChange={(value) => give(input.name, value)}
+          onChange={(given) => give(input.name, given)}
           refused={refused[input.name] === true}
           onRefused={() => {
-            if (!input.many) give(input.name, undefined); // nothing of before is made in its stead
+            if (!input.many) give(input.name, () => undefined); // nothing of before is made in its stead
             refuse(input.name);
           }}
         />
