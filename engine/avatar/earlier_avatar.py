@@ -42,22 +42,16 @@ Array = NDArray[np.float64]
 
 def read_avatar(path: Path) -> Avatar:
     """The avatar of an `avatar.glb`, as `engine.avatar.writing.write_avatar` left it: mesh, morph targets and the pose in which the
-    person was filmed. Its texture has been through a JPEG.
+    person was filmed. Its texture has been through a JPEG; where it is compressed, numbers have been rounded by that.
 
     Raises
     ------
-    InputError : `avatar_compressed`, `avatar_too_large`, `avatar_not_ours`.
+    InputError : `avatar_too_large`, `avatar_not_ours`.
     """
     try:
         file = GltfFile(path)
         return _avatar(file, Accessors(file))
     except InputError as refused:
-        if refused.code == "motion_extension":
-            raise InputError(
-                "avatar_compressed",
-                "The avatar's GLB is compressed, which is not read here: make it again with the compression `none` (a revision"
-                " of its job takes a minute), and give that one.",
-            ) from refused
         if refused.code == "motion_too_large":
             raise InputError(
                 "avatar_too_large", "The avatar's GLB is larger than any that is made here: give an `avatar.glb`."

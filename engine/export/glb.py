@@ -23,7 +23,7 @@ from engine.export.gltf_joints import add_skeleton
 from engine.export.gltf_materials import Material, add_materials
 from engine.export.gltf_morphs import add_morphs
 from engine.export.influences import quantise_influences
-from engine.export.meshopt.compression import compressed
+from engine.export.meshopt_compression import compressed
 from engine.export.synthetic import SOURCE_TYPE, STATEMENT, marked_jpeg
 from engine.geometry.joint_axes import mixamo_axes
 from engine.geometry.morph_target import MorphTarget, MorphTrack
@@ -104,7 +104,7 @@ def write_glb(
     synthetic : whether the file says of itself that it is synthetic (`engine.export.synthetic`).
     most : bytes that the file should have at most, levels included: its texture is written as mildly `TEXTURE_REDUCTIONS`
         as that takes. Where no texture is small enough it stays as it is, and the file is larger.
-    compression : of geometry and animations, which readers must know (`engine.export.meshopt`).
+    compression : of geometry and animations, which readers must know (`engine.export.meshopt_compression`).
     check : called before each of these textures is packed; what it raises ends that, and no file is left.
 
     Raises ValueError where the parts of the model do not fit each other.

@@ -7,10 +7,12 @@ import binascii
 import json
 import re
 import struct
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, cast
 
 from engine.errors import InputError
+from engine.motion.files.gltf_compression import EXTENSION, decompressed
 from engine.motion.files.source_motion import MAX_MOTION_BYTES
 
 MAX_JSON_BYTES = 8 << 20
@@ -27,6 +29,9 @@ MAX_ANIMATIONS = 4096
 
 MAX_CHANNELS = 65_536
 """Channels of all animations of a file together."""
+
+MAX_DECOMPRESSED_BYTES = 4 * MAX_MOTION_BYTES
+"""Of all compressed views together that are read."""
 
 _MAGIC = b"glTF"
 _JSON, _BINARY = 0x4E4F534A, 0x004E4942
@@ -76,21 +81,43 @@ class GltfFile:
         _require_few(self.parts)
         self._required = frozenset(self.parts.extensionsRequired or ())
         self._buffers: dict[int, bytes] = {}
+        self._decompressed: dict[int, bytes] = {}
 
     def view(self, index: Any) -> tuple[memoryview, Part]:
         """The bytes of a buffer view, which are not copied (thousands of accessors may share a view of 64 MB), and what the
-        file says of it.
+        file says of it. What EXT_meshopt_compression has made smaller is as it was.
 
         Raises
         ------
-        InputError : `motion_unreadable`, `motion_extension`.
+        InputError : `motion_unreadable`, `motion_extension`, `motion_too_large`.
         """
         part = self.part("bufferViews", index)
+        extensions = part.extensions if isinstance(part.extensions, dict) else {}
+        if EXTENSION not in self._required or EXTENSION not in extensions:  # the numbers are there, as they were
+            return self._bytes(part), part
+        if index not in self._decompressed:
+            self._decompressed[index] = self._decompress(part, extensions[EXTENSION])
+        return memoryview(self._decompressed[index]), part
+
+    def _bytes(self, part: Part) -> memoryview:
         start, size = natural_number(part.byteOffset, 0), natural_number(part.byteLength)
         data = self._buffer(part.buffer)
         if start + size > len(data):
             raise unreadable("a view reaches beyond its buffer")
-        return memoryview(data)[start : start + size], part
+        return memoryview(data)[start : start + size]
+
+    def _decompress(self, part: Part, packed: Any) -> bytes:
+        if not isinstance(packed, Part):
+            raise unreadable("a view's compression is broken")
+        count, stride = natural_number(packed.count), natural_number(packed.byteStride)
+        if count * stride != natural_number(part.byteLength):
+            raise unreadable("a view's compression is broken")
+        if count * stride + sum(map(len, self._decompressed.values())) > MAX_DECOMPRESSED_BYTES:
+            raise InputError("motion_too_large", "The glTF file's compressed numbers are too many: cut the recording.")
+        try:
+            return decompressed(bytes(self._bytes(packed)), count, stride, packed.mode, packed.get("filter"))
+        except ValueError as broken:
+            raise unreadable("a view's compression is broken") from broken
 
     def part(self, kind: str, index: Any) -> Part:
         """An element of one of the file's lists, of which everything that must be known is known.
@@ -102,11 +129,11 @@ class GltfFile:
         parts = self.parts.get(kind, [])
         if type(index) is not int or not 0 <= index < len(parts):
             raise unreadable(f"one of its {kind} is not there")
-        self.require_known(parts[index])
+        self.require_known(parts[index], (EXTENSION,) if kind == "bufferViews" else ())
         return cast(Part, parts[index])
 
-    def require_known(self, part: Part) -> None:
-        """Refuse a part which is read, and which an extension changes that a reader must know.
+    def require_known(self, part: Part, known: Sequence[str] = ()) -> None:
+        """Refuse a part which is read, and which an extension changes that a reader must know, and which is not `known`.
 
         Extensions of other parts, materials or meshes say, are of no concern, whether a reader must know them or not.
 
@@ -115,7 +142,7 @@ class GltfFile:
         InputError : `motion_extension`.
         """
         for name in part.extensions if isinstance(part.extensions, dict) else ():
-            if name in self._required:
+            if name in self._required and name not in known:
                 raise _extension(name)
 
     def _buffer(self, index: Any) -> bytes:

@@ -159,6 +159,7 @@ def test_only_extensions_of_what_is_read_matter() -> None:
     file.json["accessors"].append({"bufferView": len(file.json["bufferViews"])})
     file.json["bufferViews"].append({"buffer": 1, "byteLength": 1 << 40, "extensions": {name: {}}})
     assert same(file), "a mesh is packed, and no key"
+    name = "KHR_meshopt_compression"
     for kind in ("buffers", "bufferViews", "accessors"):
         packed = File()
         packed.json["extensionsRequired"] = [name]

@@ -45,7 +45,6 @@ const english = {
     person_unseen: 'No frame shows the person',
     cloud_unreadable: 'The points cannot be shown',
     avatar_not_ours: 'The file is no avatar of this service',
-    avatar_compressed: 'The avatar’s file is compressed',
     avatar_too_large: 'The avatar’s file is too large',
     avatar_and_clips: 'There are both an avatar and clips of a person',
     too_many_clips: 'There are too many further clips',

@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.export.meshopt.attribute_codec import encode_attributes
-from engine.export.meshopt.exponential_filter import encode_exponential, rounded
-from engine.export.meshopt.index_codec import encode_indices, encode_triangles
+from engine.meshopt.attribute_codec import encode_attributes
+from engine.meshopt.filters import encode_exponential, rounded
+from engine.meshopt.index_codec import encode_indices
+from engine.meshopt.triangle_codec import encode_triangles
 
 EXTENSION = "EXT_meshopt_compression"
 FLOAT = 5126

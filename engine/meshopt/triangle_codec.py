@@ -1,7 +1,7 @@
-"""Indices as streams of EXT_meshopt_compression: triangles by the edges and vertices that were used last, and sequences.
+"""Triangles as streams of EXT_meshopt_compression: by the edges and vertices that were used last.
 
-Specification: Khronos, EXT_meshopt_compression, "Mode 1: triangles" and "Mode 2: indices". The way of triangles is that of
-Fabian Giesen (Simple lossless index buffer compression, 2013).
+Specification: Khronos, EXT_meshopt_compression, "Mode 1: triangles"; the way is that of Fabian Giesen (Simple lossless index
+buffer compression, 2013).
 """
 
 from __future__ import annotations
@@ -10,17 +10,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
+from engine.meshopt.varint import BROKEN, MAX_BYTES, get_number, put_number, signed, zigzag
 
-TRIANGLES_HEADER, INDICES_HEADER = 0xE1, 0xD1
+HEADER = 0xE1
 RECENT = 16
 """Edges, and vertices, that are remembered."""
 EXPLICIT = 15
 """Says that a vertex is told by its difference to the one told last, an edge that none is shared."""
 BELOW_LAST, ABOVE_LAST = 13, 14
 """Say that a vertex is next to the one told last."""
+OLD = -1
+"""Of a vertex that is remembered, and is not remembered anew."""
 FREE_TRIANGLES = (0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xA9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69)
 """Pairs of where the second and third vertex of a triangle without a shared edge come from, that one byte tells."""
-MAX_NUMBER_BYTES = 5
+TAIL_BYTES = 16
+"""Of the table of such pairs."""
 
 
 def encode_triangles(triangles: NDArray[np.integer]) -> bytes:
@@ -29,44 +33,20 @@ def encode_triangles(triangles: NDArray[np.integer]) -> bytes:
     table = np.zeros(RECENT, np.uint8)
     table[: len(FREE_TRIANGLES)] = FREE_TRIANGLES
     codes = np.empty(len(triangles), np.uint8)
-    more = np.empty(len(triangles) * (1 + 3 * MAX_NUMBER_BYTES), np.uint8)
-    used = _encode_triangles(np.ascontiguousarray(triangles, np.int64), table, codes, more)
-    return bytes([TRIANGLES_HEADER]) + codes.tobytes() + more[:used].tobytes() + table.tobytes()
+    more = np.empty(len(triangles) * (1 + 3 * MAX_BYTES), np.uint8)
+    used = _encode(np.ascontiguousarray(triangles, np.int64), table, codes, more)
+    return bytes([HEADER]) + codes.tobytes() + more[:used].tobytes() + table.tobytes()
 
 
-def encode_indices(indices: NDArray[np.integer]) -> bytes:
-    """The stream of any numbers (N,) from 0 to 2^29, small where each is near the one before."""
-    out = np.empty(len(indices) * MAX_NUMBER_BYTES, np.uint8)
-    used = _encode_sequence(np.ascontiguousarray(indices, np.int64), out)
-    return bytes([INDICES_HEADER]) + out[:used].tobytes() + bytes(4)
-
-
-@njit(nogil=True)
-def _put_number(out: np.ndarray, end: int, number: int) -> int:
-    """Seven bits a byte, the lowest first; where it ends."""
-    while number > 127:
-        out[end] = (number & 127) | 128
-        number >>= 7
-        end += 1
-    out[end] = number
-    return end + 1
-
-
-@njit(nogil=True)
-def _put_difference(out: np.ndarray, end: int, difference: int) -> int:
-    return _put_number(out, end, 2 * difference if difference >= 0 else -2 * difference - 1)
-
-
-@njit(nogil=True)
-def _encode_sequence(indices: np.ndarray, out: np.ndarray) -> int:
-    end = 0
-    last = 0
-    for index in indices:
-        difference = index - last
-        # the lowest bit says to which of two it is the difference: always the first
-        end = _put_number(out, end, 2 * (2 * difference if difference >= 0 else -2 * difference - 1))
-        last = index
-    return end
+def decode_triangles(stream: bytes, count: int) -> NDArray[np.uint32]:
+    """(count, 3) the triangles of a stream. Raises ValueError where it is none of so many, or its tail is broken."""
+    if len(stream) < 1 + count + TAIL_BYTES or stream[0] != HEADER:
+        raise ValueError(f"no stream of {count} triangles")
+    data = np.frombuffer(stream, np.uint8)
+    triangles = np.empty((count, 3), np.uint32)
+    if not _decode(data[1 : 1 + count], data[1 + count : -TAIL_BYTES], data[-TAIL_BYTES:], triangles):
+        raise ValueError("a stream of triangles is broken")
+    return triangles
 
 
 @njit(nogil=True)
@@ -90,7 +70,7 @@ def _shared_edge(edges: np.ndarray, place: int, triangle: np.ndarray) -> tuple[i
 
 
 @njit(nogil=True)
-def _encode_triangles(triangles: np.ndarray, table: np.ndarray, codes: np.ndarray, out: np.ndarray) -> int:
+def _encode(triangles: np.ndarray, table: np.ndarray, codes: np.ndarray, out: np.ndarray) -> int:
     edges, vertices = np.full((RECENT, 2), -1, np.int64), np.full(RECENT, -1, np.int64)
     edge_place = vertex_place = end = 0
     new = last = 0  # the number that a vertex not seen before has; the vertex told last
@@ -110,7 +90,7 @@ def _encode_triangles(triangles: np.ndarray, table: np.ndarray, codes: np.ndarra
                 code = BELOW_LAST if c < last else ABOVE_LAST
                 last = c
             elif code == EXPLICIT:
-                end = _put_difference(out, end, c - last)
+                end = put_number(out, end, zigzag(c - last))
                 last = c
             codes[t] = age << 4 | code
             if code == 0 or code >= BELOW_LAST:
@@ -137,7 +117,7 @@ def _encode_triangles(triangles: np.ndarray, table: np.ndarray, codes: np.ndarra
                 end += 1
             for k, vertex in enumerate((a, b, c)):
                 if whence[k] == EXPLICIT:
-                    end = _put_difference(out, end, vertex - last)
+                    end = put_number(out, end, zigzag(vertex - last))
                     last = vertex
                 if whence[k] == 0 or whence[k] == EXPLICIT:
                     vertices[vertex_place] = vertex
@@ -148,3 +128,61 @@ def _encode_triangles(triangles: np.ndarray, table: np.ndarray, codes: np.ndarra
         edges[(edge_place + 1) % RECENT] = a, c
         edge_place = (edge_place + 2) % RECENT
     return end
+
+
+@njit(nogil=True)
+def _decode(codes: np.ndarray, data: np.ndarray, table: np.ndarray, triangles: np.ndarray) -> bool:
+    """Read all triangles; whether the data held them and nothing else."""
+    edges, vertices = np.zeros((RECENT, 2), np.int64), np.zeros(RECENT, np.int64)
+    edge_place = vertex_place = place = 0
+    new = last = 0
+    whence, corners = np.empty(3, np.int64), np.empty(3, np.int64)
+    for t in range(len(codes)):
+        age, code = np.int64(codes[t]) >> 4, np.int64(codes[t]) & 15
+        if age < EXPLICIT:
+            edge = edges[(edge_place - 1 - age) % RECENT]
+            corners[0], corners[1] = edge[0], edge[1]
+            whence[:2] = OLD  # both are remembered
+            whence[2] = code if code == 0 or code >= BELOW_LAST else OLD
+            if whence[2] == OLD:
+                corners[2] = vertices[(vertex_place - 1 - code) % RECENT]
+        else:
+            both = np.int64(table[code])
+            if code >= len(FREE_TRIANGLES):  # no pair of the table: the next byte
+                if place >= len(data):
+                    return False
+                both = np.int64(data[place])
+                place += 1
+                new = 0 if both == 0 else new
+            whence[0] = EXPLICIT if code == EXPLICIT else 0
+            whence[1], whence[2] = both >> 4, both & 15
+            for k in range(1, 3):
+                if 0 < whence[k] < EXPLICIT:
+                    corners[k] = vertices[(vertex_place - whence[k]) % RECENT]
+                    whence[k] = OLD
+        for k in range(3):
+            if whence[k] == 0:
+                corners[k] = new
+                new += 1
+            elif whence[k] == EXPLICIT:
+                number, place = get_number(data, place)
+                if place == BROKEN:
+                    return False
+                last = (last + signed(number)) & 0xFFFFFFFF
+                corners[k] = last
+            elif whence[k] != OLD:
+                last = (last + (1 if whence[k] == ABOVE_LAST else -1)) & 0xFFFFFFFF
+                corners[k] = last
+        a, b, c = corners
+        if age == EXPLICIT:
+            edges[edge_place] = b, a
+            edge_place = (edge_place + 1) % RECENT
+        edges[edge_place] = c, b
+        edges[(edge_place + 1) % RECENT] = a, c
+        edge_place = (edge_place + 2) % RECENT
+        for k in range(3):
+            if whence[k] != OLD:
+                vertices[vertex_place] = corners[k]
+                vertex_place = (vertex_place + 1) % RECENT
+        triangles[t] = corners.astype(np.uint32)
+    return place == len(data)

@@ -18,6 +18,9 @@ BLOCK_BYTES, BLOCK_ROWS = 8192, 256
 """A block has as many whole groups as fit into both."""
 TAIL_BYTES = 32
 """Of what follows the last block, at least: zeros, then the first row."""
+MAX_RATIO = 4 * GROUP
+"""Bytes that a byte of a stream can stand for: four groups without a difference."""
+BROKEN = -1
 
 
 def encode_attributes(rows: NDArray[np.uint8]) -> bytes:
@@ -30,9 +33,26 @@ def encode_attributes(rows: NDArray[np.uint8]) -> bytes:
         raise ValueError(f"{count} rows of {stride} bytes cannot be coded: rows have 4, 8 ... 256 bytes")
     room = np.empty(1 + 2 * rows.size + count // 4 * stride + 2 * BLOCK_ROWS * stride, np.uint8)
     room[0] = HEADER
-    block = min(BLOCK_BYTES // stride & ~(GROUP - 1), BLOCK_ROWS)
-    length = _encode(np.ascontiguousarray(rows), block, room)
+    length = _encode(np.ascontiguousarray(rows), _block_rows(stride), room)
     return room[:length].tobytes() + bytes(max(TAIL_BYTES - stride, 0)) + rows[0].tobytes()
+
+
+def decode_attributes(stream: bytes, count: int, stride: int) -> NDArray[np.uint8]:
+    """(count, stride) the rows of a stream. Raises ValueError where it is none of so many rows of so many bytes."""
+    if not count or stride % 4 or not 0 < stride <= 256:
+        raise ValueError(f"there is no stream of {count} rows of {stride} bytes")
+    data = np.frombuffer(stream, np.uint8)
+    tail = len(data) - max(TAIL_BYTES, stride)
+    if tail < 1 or data[0] != HEADER or count * stride > MAX_RATIO * (len(data) + BLOCK_ROWS):
+        raise ValueError(f"no stream of {count} rows of {stride} bytes")
+    rows = np.empty((count, stride), np.uint8)
+    if _decode(data[1:tail], data[len(data) - stride :], _block_rows(stride), rows) != tail - 1:
+        raise ValueError("a stream of rows is broken")
+    return rows
+
+
+def _block_rows(stride: int) -> int:
+    return min(BLOCK_BYTES // stride & ~(GROUP - 1), BLOCK_ROWS)
 
 
 @njit(nogil=True)
@@ -82,3 +102,58 @@ def _encode_group(codes: np.ndarray, out: np.ndarray, end: int) -> tuple[int, in
             out[further] = codes[k]
             further += 1
     return bits // 2, further
+
+
+@njit(nogil=True)
+def _decode(data: np.ndarray, first: np.ndarray, block: int, rows: np.ndarray) -> int:
+    """Read all blocks; where they end, or `BROKEN` where the data end before."""
+    count, stride = rows.shape
+    place = 0
+    codes = np.empty(GROUP, np.uint8)
+    for start in range(0, count, block):
+        size = min(block, count - start)
+        groups = (size + GROUP - 1) // GROUP
+        for byte in range(stride):
+            value = first[byte] if start == 0 else rows[start - 1, byte]
+            head = place
+            place += (groups + 3) // 4
+            if place > len(data):
+                return BROKEN
+            for group in range(groups):
+                kind = data[head + group // 4] >> (group % 4 * 2) & 3
+                place = _decode_group(data, place, kind, codes)
+                if place == BROKEN:
+                    return BROKEN
+                for k in range(min(GROUP, size - group * GROUP)):
+                    code = codes[k]
+                    value = np.uint8(value + ((code >> 1) ^ (255 if code & 1 else 0)))
+                    rows[start + group * GROUP + k, byte] = value
+    return place
+
+
+@njit(nogil=True)
+def _decode_group(data: np.ndarray, place: int, kind: int, codes: np.ndarray) -> int:
+    """Read one group that is coded in one of the four ways; where it ends, or `BROKEN`."""
+    if kind == 0:
+        codes[:] = 0
+        return place
+    if kind == 3:
+        if place + GROUP > len(data):
+            return BROKEN
+        codes[:] = data[place : place + GROUP]
+        return place + GROUP
+    bits = 2 * kind
+    escape = (1 << bits) - 1
+    each = 8 // bits
+    further = place + GROUP // each
+    if further > len(data):
+        return BROKEN
+    for k in range(GROUP):
+        code = data[place + k // each] >> ((each - 1 - k % each) * bits) & escape
+        if code == escape:
+            if further == len(data):
+                return BROKEN
+            code = data[further]
+            further += 1
+        codes[k] = code
+    return further

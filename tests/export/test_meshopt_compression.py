@@ -12,11 +12,13 @@ from numpy.typing import NDArray
 from template_character import still, template_character, walk
 
 from engine.export.glb import CharacterModel, write_glb
-from engine.export.meshopt.attribute_codec import encode_attributes
-from engine.export.meshopt.compression import EXTENSION, STEPS
-from engine.export.meshopt.exponential_filter import encode_exponential
-from engine.export.meshopt.index_codec import encode_indices, encode_triangles
+from engine.export.meshopt_compression import EXTENSION, STEPS
 from engine.geometry.morph_target import morph_target
+from engine.meshopt.attribute_codec import encode_attributes
+from engine.meshopt.filters import encode_exponential
+from engine.meshopt.index_codec import encode_indices
+from engine.meshopt.triangle_codec import encode_triangles
+from engine.motion.files.gltf_motion import read_gltf_motion
 
 
 def through(tmp_path: Path, stream: bytes, count: int, stride: int, mode: str, filter_: str = "NONE") -> bytes:
@@ -133,6 +135,13 @@ def test_a_compressed_character_is_the_same_to_a_hair(files: tuple[Path, Path, P
 def test_what_is_decoded_is_valid_and_its_bounds_are_right(files: tuple[Path, Path, Path]) -> None:
     issues = validate(files[2])["messages"]
     assert [issue for issue in issues if issue["severity"] == 0] == []
+
+
+def test_it_is_read_here_too(files: tuple[Path, Path, Path]) -> None:
+    plain, small, _ = (read_gltf_motion(path, "walk") for path in files)
+    assert small.names == plain.names
+    assert np.abs(small.rotations - plain.rotations).max() < 2.0 ** STEPS["rotation"]
+    assert np.abs(small.translations - plain.translations).max() < 2.0 ** STEPS["translation"]
 
 
 def test_the_extension_is_required_and_pays(files: tuple[Path, Path, Path]) -> None:

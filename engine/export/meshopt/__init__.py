@@ -1,1 +1,0 @@
-"""GLB files made smaller by the codecs of EXT_meshopt_compression."""

@@ -1,0 +1,1 @@
+"""Streams and filters of EXT_meshopt_compression, written and read."""
