@@ -1,4 +1,4 @@
-"""The texture of an avatar: stitched from frames, with eyes, mouth and hands of the template's own."""
+"""The texture of an avatar: stitched from frames, with eyes and mouth of the template's own, and hands where frames show little."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def avatar_texture(
     """
     fitted = surface.fitted(vertices)
     found = stitch_texture(fitted, views, size)
-    place_hands(found.texture, found.seen, surface, found.raster, rig)
+    place_hands(found.texture, found.resolution, surface, found.raster, rig)
     place_mouth(found.texture, surface, found.raster)
     eyes_seen = place_eyes(found.texture, surface, vertices, views, found.gains)
     areas = triangle_areas(fitted.vertices, fitted.triangles) * fitted.stitched

@@ -14,7 +14,7 @@ from engine.avatar.texture.labels import UNSEEN, FaceLabels, best_views, stitche
 from engine.avatar.texture.levelling import level_seams
 from engine.avatar.texture.painting import paint
 from engine.avatar.texture.photo_consistency import consistent
-from engine.avatar.texture.view_samples import sample_views
+from engine.avatar.texture.view_samples import ViewSamples, sample_views
 from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.geometry.surface import triangle_areas
 from engine.render.rasteriser import Raster
@@ -26,16 +26,21 @@ TEXTURE_SIZE = 4096
 
 @dataclass(frozen=True)
 class StitchedTexture:
-    """`texture` (S, S, 3) uint8 sRGB, whole but beside its charts. `seen` (S, S) bool: texels whose colours a frame gave.
-    `raster` (S, S): what each texel shows. `gains` (N, 3) of the frames. `labels` of the faces, and `best`, by the frames that
-    show each best, to compare with."""
+    """`texture` (S, S, 3) uint8 sRGB, whole but beside its charts. `resolution` (T,): pixels per metre at which the frame that each
+    face took shows it, 0 where none does. `raster` (S, S): what each texel shows. `gains` (N, 3) of the frames. `labels` of the
+    faces, and `best`, by the frames that show each best, to compare with."""
 
     texture: NDArray[np.uint8]
-    seen: NDArray[np.bool_]
+    resolution: NDArray[np.float32]
     raster: Raster
     gains: NDArray[np.float32]
     labels: FaceLabels
     best: FaceLabels
+
+    @property
+    def seen(self) -> NDArray[np.bool_]:
+        """(S, S) texels whose colours a frame gave."""
+        return np.asarray((self.raster.triangle >= 0) & (self.resolution[self.raster.triangle] > 0))
 
 
 def stitch_texture(surface: ChartedSurface, views: Sequence[FrameView], size: int = TEXTURE_SIZE) -> StitchedTexture:
@@ -50,6 +55,7 @@ def stitch_texture(surface: ChartedSurface, views: Sequence[FrameView], size: in
     samples = consistent(samples, gains)
     areas = triangle_areas(surface.vertices, surface.triangles)
     best, labels = best_views(samples, gains, areas), stitched(samples, gains, areas)
+    resolution = _resolution(samples, labels)
     del samples
     if (labels.labels == UNSEEN).all():
         raise ValueError("no view shows any of the surface")
@@ -57,4 +63,11 @@ def stitch_texture(surface: ChartedSurface, views: Sequence[FrameView], size: in
     painted = paint(surface, raster, labels.labels, views, gains)
     level_seams(painted, charts_of(surface.atlas, raster))
     fill_over_surface(painted.colours, painted.known, raster, surface.vertices, surface.triangles)
-    return StitchedTexture(painted.colours, painted.known, raster, gains, labels, best)
+    return StitchedTexture(painted.colours, resolution, raster, gains, labels, best)
+
+
+def _resolution(samples: ViewSamples, labels: FaceLabels) -> NDArray[np.float32]:
+    """(T,) pixels per metre, in the mean of both directions, at which frames show the faces that took them."""
+    taken = labels.labels[:, None]
+    density = np.take_along_axis(samples.density * np.sqrt(samples.cosine), np.maximum(taken, 0), 1)
+    return np.where(taken == UNSEEN, 0, density)[:, 0]

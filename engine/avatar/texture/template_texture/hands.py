@@ -93,7 +93,7 @@ def painted_hand(
         for shift, depth in ((-0.0028, 0.5), (0.0026, 0.5), (-0.0052, 0.25)) if bone.number == 2 else ():
             folds = np.exp(-0.5 * ((from_joint - shift) / CREASE_WIDTH) ** 2)
             crease = np.maximum(crease, depth * folds * (towards > 0))
-        melanin[own] += 0.24 * crease * (0.5 + 0.5 * np.abs(towards))
+        melanin[own] += 0.14 * crease * (0.5 + 0.5 * np.abs(towards))
         knuckle = np.exp(-0.5 * (from_joint / 0.006) ** 2) * _ramp(towards, 0.1, 0.7)
         blood[own] += 0.22 * knuckle
         # between fingers less light comes in
@@ -109,9 +109,9 @@ def painted_hand(
     blood, melanin = np.maximum(blood, 0.02), np.maximum(melanin, 0.02)
     skin = BASE_REFLECTANCE * np.exp(-blood[:, None] * BLOOD_ABSORBANCE - melanin[:, None] * MELANIN_ABSORBANCE)
     bed = BASE_REFLECTANCE * np.exp(-0.34 * BLOOD_ABSORBANCE - 0.06 * MELANIN_ABSORBANCE)
-    free_edge = np.array([0.72, 0.66, 0.58])
+    free_edge = np.array([0.69, 0.48, 0.40])
     shell = bed + tip[:, None] * (free_edge - bed)
-    albedo = (skin + nail[:, None] * (shell - skin)) * (1 - 0.30 * rim)[:, None]
+    albedo = (skin + nail[:, None] * (shell - skin)) * (1 - 0.15 * rim)[:, None]
     return np.asarray(255 * srgb_code(np.clip(albedo, 0, 1)), np.float32)
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from engine.avatar.texture.template_surface import TemplateSurface
 from engine.avatar.texture.template_texture.eyes import Eyeballs, eye_samples, painted_eyes, persons_eyes
 from engine.avatar.texture.template_texture.hand_colours import face_skin, hand_tone, like_skin, toned
+from engine.avatar.texture.template_texture.hand_joining import HandSurface, joined_hand
 from engine.avatar.texture.template_texture.hands import HandBones, hand_bones, painted_hand, past_wrist
 from engine.avatar.texture.template_texture.lid_shadow import lid_shadow
 from engine.avatar.texture.template_texture.mouth import painted_lining, painted_teeth, painted_tongue
@@ -23,7 +24,7 @@ from engine.performances.modelling.eyes import EYEBALL_RADIUS
 from engine.render.rasteriser import Raster
 
 WRIST_LENGTH, CUFF_LENGTH = 0.03, 0.004
-"""Metres past the wrist over which the frames' colours become the template's: along bare skin, and where a sleeve ends."""
+"""Metres past the wrist over which what the arm's colours are filled with becomes the hand's: along bare skin, and where a sleeve ends."""
 SLEEVE = (-0.025, 0.0)
 """Metres past the wrist between which it is looked what the arm wears ..."""
 ARM_RADIUS = 0.08
@@ -72,14 +73,15 @@ def place_eyes(
 
 
 def place_hands(
-    texture: NDArray[np.uint8], seen: NDArray[np.bool_], surface: TemplateSurface, raster: Raster, rig: Rig
+    texture: NDArray[np.uint8], resolution: NDArray[np.floating], surface: TemplateSurface, raster: Raster, rig: Rig
 ) -> None:
-    """Paint the hands, in the tone of the person's own skin as a stitched `texture` (S, S, 3) shows it, where it was `seen` (S, S):
-    gloves stay as frames show them."""
+    """Paint what a stitched `texture` (S, S, 3) lacks of the hands, in place, in the person's own colours. `resolution` (T,): pixels
+    per metre at which frames show each face, 0 where none does. Gloves stay as frames show them."""
     normals = vertex_normals(surface.rest, surface.triangles)
-    flat, shown = texture.reshape(-1, 3), seen.ravel()
+    flat = texture.reshape(-1, 3)
+    seen = (raster.triangle >= 0) & (resolution[raster.triangle] > 0)
     face = face_skin(texture, seen, surface, raster)
-    arms = PartTexels.of(raster, surface.of("body") & ~surface.mouth)
+    middles = surface.rest[surface.triangles].mean(1)
     for side in SIDES:
         texels = PartTexels.of(raster, surface.hands[side])
         if not len(texels.texels):
@@ -87,17 +89,21 @@ def place_hands(
         bones = hand_bones(rig, surface.rest, side)
         places = texels.blend(surface.rest, surface.triangles)
         hand = past_wrist(bones, places, CUFF_LENGTH) == 1
-        own = flat[texels.texels]
-        sleeve = flat[arms.texels[_before_wrist(bones, arms.blend(surface.rest, surface.triangles))]]
-        tone = hand_tone(face, own[hand], shown[texels.texels][hand], sleeve)
+        own, shown = flat[texels.texels], resolution[texels.triangles] > 0
+        about = np.linalg.norm(middles - bones.wrist, axis=1) < 2 * ARM_RADIUS
+        arm = PartTexels.of(raster, surface.of("body") & about)
+        sleeve = flat[arm.texels[_before_wrist(bones, arm.blend(surface.rest, surface.triangles))]]
+        tone = hand_tone(face, own[hand], shown[hand], sleeve)
         if tone is None:
             continue
-        bare = len(sleeve) and like_skin(to_lab(sleeve), tone).mean() > 0.5
-        share = past_wrist(bones, places, WRIST_LENGTH if bare else CUFF_LENGTH)[:, None]
         facing = texels.blend(normals, surface.triangles)
         facing /= np.maximum(np.linalg.norm(facing, axis=1, keepdims=True), 1e-9)
         painted = toned(painted_hand(bones, places, facing), tone)
-        texels.put(texture, own + share * (painted - own))
+        alone = HandSurface.of(surface.rest, surface.triangles, surface.hands[side])
+        joined = joined_hand(alone, texels, own, painted, resolution, tone)
+        bare = len(sleeve) and like_skin(to_lab(sleeve), tone).mean() > 0.5
+        share = past_wrist(bones, places, WRIST_LENGTH if bare else CUFF_LENGTH)[:, None]
+        texels.put(texture, own + share * (joined - own))
 
 
 def _before_wrist(bones: HandBones, places: NDArray[np.float64]) -> NDArray[np.bool_]:
