@@ -15,6 +15,7 @@ from engine.avatar.capture.cameras import CaptureCameras, ClipCameras, solve_cam
 from engine.avatar.capture.captured_view import CapturedView
 from engine.avatar.capture.chosen_frames import ChosenFrames
 from engine.avatar.capture.dense import DenseCloud, dense_cloud
+from engine.avatar.capture.foot_masks import FootFrame, feet_of, told_from_floor
 from engine.avatar.capture.limb_masks import limbs_of, shown_limbs, with_limbs
 from engine.avatar.capture.person_frame import USUAL_HEIGHT
 from engine.avatar.landmarks.detection import spatial_landmarks
@@ -131,17 +132,21 @@ def find_landmarks(chosen: ChosenFrames, found: ClipCameras, tick: Tick) -> Clip
         picture = chosen.picture(int(k), LANDMARK_SIDE)
         seen.append(frame_landmarks(picture).scaled(chosen.size[0] / picture.shape[0]))
         tick(number / len(placed))
-    limbs = limbs_of(spatial_landmarks(list(zip(cameras, seen, strict=True))))
-    believed = [found.masks[k] for k in placed]
-    small_cameras = [
-        _resized(camera, (mask.shape[0], mask.shape[1])) for camera, mask in zip(cameras, believed, strict=True)
-    ]
-    limbs = shown_limbs(limbs, believed, small_cameras)
-    masks = []
-    for k, mask, camera in zip(placed, believed, small_cameras, strict=True):
-        small = resized(chosen.picture(int(k)), (mask.shape[1], mask.shape[0]))
-        masks.append(with_limbs(small, mask, camera, limbs))
+    landmarks = spatial_landmarks(list(zip(cameras, seen, strict=True)))
+    frames = [_foot_frame(chosen, found, int(k)) for k in placed]
+    believed = [frame.mask for frame in frames]
+    limbs = shown_limbs(limbs_of(landmarks), believed, [frame.person for frame in frames])
+    with_hands = [replace(one, mask=with_limbs(one.image, one.mask, one.person, limbs)) for one in frames]
+    masks = told_from_floor(with_hands, feet_of(landmarks))
     return ClipLandmarks(placed, tuple(seen), tuple(masks))
+
+
+def _foot_frame(chosen: ChosenFrames, found: ClipCameras, k: int) -> FootFrame:
+    """A frame as small as its mask."""
+    mask, camera, room = found.masks[k], found.cameras[k], found.room[k]
+    assert camera is not None and room is not None
+    size = (mask.shape[0], mask.shape[1])
+    return FootFrame(resized(chosen.picture(k), size[::-1]), mask, _resized(camera, size), _resized(room, size))
 
 
 def measure_cloud(chosen: ChosenFrames, found: ClipCameras, landmarks: ClipLandmarks, tick: Tick) -> DenseCloud:

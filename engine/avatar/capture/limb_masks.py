@@ -1,4 +1,4 @@
-"""Hands and feet, arms and legs in the masks of a person: what networks lose first, and what colours cannot tell from a dark floor.
+"""Hands, arms and legs in the masks of a person: what networks lose first, and what colours cannot tell from a dark floor.
 
 Where they are is known in space, by landmarks on which views agree: that marks them in every frame, also in those that show them
 blurred, small or from behind, and colours near by tell how far they reach.
@@ -19,14 +19,14 @@ from engine.geometry.camera import Camera
 from engine.geometry.joint_names import SIDES
 from engine.imaging.masks.colour_segmentation import grab_cut
 
-FOOT, PALM = ("Ankle", "Heel", "FootIndex"), ("Wrist", "Index", "Pinky")
-"""The corners of a foot and of a palm, without their side."""
+PALM = ("Wrist", "Index", "Pinky")
+"""The corners of a palm, without their side."""
 BONES = (("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Hip", "Knee"), ("Knee", "Ankle"))
 """Both ends of what is long, without their side."""
 MAX_LOST_SHARE = 0.2
 """The same in the mean of all frames, beyond which it is the landmarks that are wrong: networks do not lose a limb so often."""
 REACH_SHARE, BONE_REACH_SHARE = 0.35, 0.2
-"""How far a hand or a foot, and how far an arm or a leg may reach beyond its marks, in lengths of what is marked."""
+"""How far a hand, and how far an arm or a leg may reach beyond its marks, in lengths of what is marked."""
 LOST_SHARE = 0.1
 """Of the marks of an arm or a leg, which networks mostly find: where fewer are outside of a mask, it stays as it is."""
 SURE_SHARE = 0.03
@@ -52,18 +52,17 @@ class Limb:
 
 
 def limbs_of(landmarks: SpatialLandmarks) -> list[Limb]:
-    """The person's arms and legs, feet and hands, as far as they are known."""
+    """The person's arms, legs and hands, as far as they are known."""
     limbs = []
     for k, side in enumerate(SIDES):
         for ends in BONES:
             both = [landmarks.body.get(f"{side}{end}") for end in ends]
             if all(place is not None for place in both):
                 limbs.append(Limb(np.array([both], np.float64), BONE_REACH_SHARE, LOST_SHARE))
-        for corners in (FOOT, PALM):
-            named = [landmarks.body.get(f"{side}{corner}") for corner in corners]
-            if all(place is not None for place in named):
-                a, b, c = (np.asarray(place) for place in named)
-                limbs.append(Limb(np.array([[a, b], [b, c], [c, a]])))
+        named = [landmarks.body.get(f"{side}{corner}") for corner in PALM]
+        if all(place is not None for place in named):
+            a, b, c = (np.asarray(place) for place in named)
+            limbs.append(Limb(np.array([[a, b], [b, c], [c, a]])))
         hand = landmarks.hands[k]
         bones = np.array([[hand[a], hand[b]] for a, b in HAND_BONES])
         known = np.isfinite(bones).all((1, 2))
@@ -73,8 +72,8 @@ def limbs_of(landmarks: SpatialLandmarks) -> list[Limb]:
 
 
 def shown_limbs(limbs: Sequence[Limb], masks: Sequence[NDArray[np.bool_]], cameras: Sequence[Camera]) -> list[Limb]:
-    """Those of the limbs that the masks (h, w) mostly show, of frames of `cameras` of their size; hands and feet, which networks
-    lose anywhere, are all kept."""
+    """Those of the limbs that the masks (h, w) mostly show, of frames of `cameras` of their size; hands, which networks lose
+    anywhere, are all kept."""
     kept = []
     for limb in limbs:
         shares = [_lost_share(mask, lines) for mask, lines in _seen_lines(limb, masks, cameras)] if limb.lost else []
