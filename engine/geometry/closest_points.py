@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from engine.compiled import njit
+from engine.geometry.surface import vertex_normals
 
 NEAREST_VERTICES = 3
 """Vertices whose triangles are looked at for each point."""
@@ -31,6 +32,22 @@ class ClosestPoints:
     distance: NDArray[np.float64]
     triangle: NDArray[np.intp]
     barycentrics: NDArray[np.float64]
+
+    def __getitem__(self, which: NDArray[np.bool_] | NDArray[np.integer]) -> ClosestPoints:
+        """Those of some of the points."""
+        return ClosestPoints(self.distance[which], self.triangle[which], self.barycentrics[which])
+
+    def interpolated(self, values: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+        """(N, C) `values` (V, C) of the surface's vertices where its nearest points are."""
+        return np.einsum("nk,nkc->nc", self.barycentrics, np.asarray(values, np.float64)[triangles[self.triangle]])
+
+    def beneath(
+        self, depth: NDArray[np.floating], vertices: NDArray[np.floating], triangles: NDArray[np.integer]
+    ) -> NDArray[np.float64]:
+        """(N, 3) points `depth` (N,) below the nearest ones, along the surface's smoothed normals."""
+        normals = self.interpolated(vertex_normals(vertices, triangles), triangles)
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+        return self.interpolated(vertices, triangles) - depth[:, None] * normals
 
 
 def closest_points(

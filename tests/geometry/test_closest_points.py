@@ -42,8 +42,9 @@ def test_points_lifted_from_a_sheet_are_found_where_they_came_from() -> None:
     places = np.einsum("nk,nkc->nc", shares, sheet[triangles[which]])
     heights = random.uniform(-0.5, 0.5, 400)
     found = closest_points(places + heights[:, None] * [0, 0, 1], sheet, triangles)
-    assert np.allclose(np.einsum("nk,nkc->nc", found.barycentrics, sheet[triangles[found.triangle]]), places)
+    assert np.allclose(found.interpolated(sheet, triangles), places)
     assert np.allclose(found.distance, np.abs(heights))
+    assert np.allclose(found[5:9].beneath(np.full(4, 0.25), sheet, triangles), places[5:9] - [0, 0, 0.25])
 
 
 def test_without_triangles_nothing_is_near() -> None:

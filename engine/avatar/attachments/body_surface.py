@@ -26,10 +26,9 @@ class BodySurface:
         """(N,) metres from the skin to `points` (N, 3), negative within it."""
         asked = np.asarray(points, np.float64)
         near = closest_points(asked, self.vertices, self.triangles)
-        corners = self.triangles[near.triangle]
         foot, normal = (
-            np.einsum("nk,nkd->nd", near.barycentrics, of[corners])
-            for of in (self.vertices, vertex_normals(self.vertices, self.triangles).astype(np.float64))
+            near.interpolated(of, self.triangles)
+            for of in (self.vertices, vertex_normals(self.vertices, self.triangles))
         )
         inside = np.einsum("nd,nd->n", asked - foot, normal) < 0
         return np.where(inside, -near.distance, near.distance)

@@ -29,7 +29,7 @@ def influences(
     piece that lies mostly on the head is rigid.
     """
     near = closest_points(vertices, body.vertices, body.triangles)
-    own = np.einsum("nk,nkj->nj", near.barycentrics, joint_weights[body.triangles[near.triangle]])
+    own = near.interpolated(joint_weights, body.triangles)
     if own[:, head].sum(1).mean() > 0.5:
         own = np.zeros_like(own)
         own[:, np.flatnonzero(head)[0]] = 1

@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 from engine.avatar.registration.skin import Skin
 from engine.avatar.registration.smooth_field import smooth_field
 from engine.geometry.closest_points import closest_points
-from engine.geometry.surface import vertex_normals
 from engine.geometry.winding_number import winding_numbers
 
 LINING_DEPTH = 0.006
@@ -31,15 +30,8 @@ def inner_skin(skin: Skin, before: NDArray[np.floating], after: NDArray[np.float
     was, now = np.asarray(before, np.float64), np.asarray(after, np.float64)
     hull = skin.triangles[skin.visible]
     nearest = closest_points(was[inner], was, hull)
-    corners, shares = hull[nearest.triangle], nearest.barycentrics
-
-    def under(vertices: NDArray[np.float64], depth: NDArray[np.float64]) -> NDArray[np.float64]:
-        normals = np.einsum("nk,nkc->nc", shares, vertex_normals(vertices, hull)[corners])
-        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
-        return np.asarray(np.einsum("nk,nkc->nc", shares, vertices[corners]) - depth[:, None] * normals)
-
     moved = now - was
-    moved[inner] = under(now, nearest.distance) - under(was, nearest.distance)
+    moved[inner] = nearest.beneath(nearest.distance, now, hull) - nearest.beneath(nearest.distance, was, hull)
     pull = np.zeros(len(inner))
     pull[inner] = np.exp(-((nearest.distance / LINING_DEPTH) ** 2))
     out = was + smooth_field(skin.triangles, inner, moved, pull)
@@ -61,9 +53,6 @@ def brought_inside(
     nearest = closest_points(points, vertices, hull)
     inside = winding_numbers(points, vertices, hull) > 0.5
     shallow = ~inside | (nearest.distance < depth)
-    corners, shares = hull[nearest.triangle[shallow]], nearest.barycentrics[shallow]
-    normals = np.einsum("nk,nkc->nc", shares, vertex_normals(vertices, hull)[corners])
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     out = points.copy()
-    out[shallow] = np.einsum("nk,nkc->nc", shares, vertices[corners]) - depth[shallow, None] * normals
+    out[shallow] = nearest[shallow].beneath(depth[shallow], vertices, hull)
     return out

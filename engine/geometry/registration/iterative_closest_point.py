@@ -38,9 +38,7 @@ def rigid_onto_surface(
         used = nearest.distance < gate
         if used.sum() < 6:
             break
-        there = np.einsum(
-            "nk,nkc->nc", nearest.barycentrics[used], surface[np.asarray(triangles)[nearest.triangle[used]]]
-        )
+        there = nearest[used].interpolated(surface, np.asarray(triangles))
         found = _onto_planes(moved[used], there, normals[nearest.triangle[used]], found)
     return found
 
