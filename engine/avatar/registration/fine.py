@@ -30,8 +30,6 @@ LIP_STIFFNESS = 30.0
 """Of lips in the head's cloud ..."""
 LID_STIFFNESS = 10.0
 """... and of lids."""
-HAND_TRUST = 0.2
-"""What points of hands count: fingers drift while others are filmed."""
 ANCHOR = 0.003
 """What the coarse fit's place of the skin counts beside the points': nothing where there are some, all where there are none."""
 POINT_NOISE = 0.0015
@@ -114,14 +112,15 @@ def _smooth_sheet(skin: Skin, vertices: NDArray[np.float64], drawn: NDArray[np.b
 
 
 def _elastic(skin: Skin, rest: NDArray[np.float64], stiffness: NDArray[np.float64]) -> ElasticSurface:
-    """The skin (S, 3) at rest, its mouth closed, as what is laid on a cloud; soles and toes stay where they are."""
+    """The skin (S, 3) at rest, its mouth closed, as what is laid on a cloud. Soles and toes stay where they are,
+    and so do hands: what their joints and size say is all that a cloud of them tells, and no point draws skin off a finger's bone."""
     return ElasticSurface(
         closed_mouth(rest, skin.triangles, skin.lip_contact, skin.regions["lips"] | skin.regions["inner"]),
         skin.triangles,
         skin.visible,
         stiffness,
         _trust(skin),
-        held=skin.regions["lower_feet"],
+        held=skin.regions["lower_feet"] | skin.regions["whole_hands"],
         noise=np.where(skin.regions["face"], np.inf, POINT_NOISE),
         anchor=ANCHOR,
         contact=skin.lip_contact,
@@ -140,4 +139,4 @@ def _trust(skin: Skin) -> NDArray[np.float64]:
     """(S,) what points near each vertex count: none of lips, where hair grows, and of lids' rims, between which they are of the
     eye."""
     untold = skin.regions["lips"] | skin.regions["left_eye_lids"] | skin.regions["right_eye_lids"]
-    return np.where(untold, 0.0, np.where(skin.regions["hands"], HAND_TRUST, 1.0))
+    return np.where(untold, 0.0, 1.0)

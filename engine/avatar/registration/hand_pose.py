@@ -1,4 +1,4 @@
-"""Hands as they were held: their turn, fingers and size from landmarks, set upon the coarse fit of the body."""
+"""Hands as they were held: their turn, fingers and size from landmarks and points, set upon the coarse fit of the body."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.models import HumanModels
+from engine.body.fitting.articulated_hand import TURNED_LANDMARKS
 from engine.body.fitting.hand_in_space import fit_hand_in_space
+from engine.body.fitting.hand_on_points import HandSkin
 from engine.geometry.joint_names import SIDES
+from engine.geometry.point_cloud import PointCloud
 from engine.geometry.skinning import skin as blend
-
-MAX_MEDIAN_ERROR = 0.015
-"""Metres by which landmarks are off in the median: beyond, they are not those of a hand."""
 
 
 @dataclass(frozen=True)
@@ -35,8 +35,14 @@ class CoarseBody:
     hands: tuple[str, ...]
 
 
-def with_hands(models: HumanModels, parameters: NDArray[np.float64], landmarks: SpatialLandmarks) -> CoarseBody:
-    """The body of the coarse fit's `parameters` (P,), its hands as their landmarks have them; a hand without stays as it is."""
+def with_hands(
+    models: HumanModels,
+    parameters: NDArray[np.float64],
+    landmarks: SpatialLandmarks,
+    cloud: PointCloud | None = None,
+) -> CoarseBody:
+    """The body of the coarse fit's `parameters` (P,), its hands as their landmarks, and a `cloud`, have them; a hand without landmarks
+    stays as it is."""
     posed = models.body.poser(parameters[None])
     rest, joints, rotations = posed.rest[0], posed.joints[0].copy(), posed.world_rotations[0].copy()
     scales = np.ones(len(joints))
@@ -44,8 +50,9 @@ def with_hands(models: HumanModels, parameters: NDArray[np.float64], landmarks: 
     found = []
     for side, seen in zip(SIDES, landmarks.hands, strict=True):
         wrist, forearm = (models.space.names.index(f"{side}{name}") for name in ("Hand", "ForeArm"))
-        fit = fit_hand_in_space(models.hands[side], coefficients, rotations[forearm], joints[wrist], seen)
-        if fit is None or fit.median_error > MAX_MEDIAN_ERROR:
+        skin = None if cloud is None else _hand_skin(models, side, parameters, rest[wrist], cloud)
+        fit = fit_hand_in_space(models.hands[side], coefficients, rotations[forearm], joints[wrist], seen, skin)
+        if fit is None:
             continue
         found.append(side)
         joints[wrist] += fit.shift
@@ -62,3 +69,22 @@ def with_hands(models: HumanModels, parameters: NDArray[np.float64], landmarks: 
     shaped = models.space.vertices(coefficients)
     whole = blend(shaped, models.rig.bones, models.rig.weights, transforms).astype(np.float64)
     return CoarseBody(whole[models.skin.vertices], whole, joints, rotations, tuple(found))
+
+
+def _hand_skin(
+    models: HumanModels, side: str, parameters: NDArray[np.float64], wrist: NDArray[np.float64], cloud: PointCloud
+) -> HandSkin:
+    """The skin of the body of `parameters` (P,), and which of it a hand moves; `wrist` (3,) is where that is at rest."""
+    skin = models.skin
+    number = np.zeros(len(models.space.names), np.intp)
+    number[models.hands[side].joints[TURNED_LANDMARKS]] = np.arange(1, len(TURNED_LANDMARKS) + 1)
+    moved = np.flatnonzero(((skin.weights > 0) & (number[skin.bones] > 0)).any(1))
+    return HandSkin(
+        cloud,
+        models.body.vertices(parameters),
+        skin.triangles,
+        moved,
+        models.body.rest(parameters)[moved] - wrist,
+        number[skin.bones[moved]],
+        skin.weights[moved].astype(np.float64),
+    )

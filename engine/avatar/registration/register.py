@@ -73,7 +73,7 @@ def register(
     parameters = fit_to_points(models.body, models.landmarks, believed, cloud, by_landmarks.parameters)
     check()
     coefficients = parameters[-models.body.coefficients :]
-    body_fit = with_hands(models, parameters, believed)
+    body_fit = with_hands(models, parameters, believed, cloud)
     shoes = not seen_barefoot(models.feet, body_fit.vertices, cloud, believed.face)
     body_fit = with_feet(models, body_fit, coefficients, believed, cloud, shoes)
     coarse = body_fit.vertices

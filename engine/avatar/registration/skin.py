@@ -44,6 +44,8 @@ NIPPLE_BOX = np.array([[-0.25, 1.0, 0.03], [0.25, 1.6, 1.0]])
 FINE_EDGE = 0.009
 """Vertices of the trunk whose edges are shorter in the mean, metres, are nipples (or the navel), which no clothes show."""
 
+MIN_WHOLE = 0.99
+"""What joints of a hand share at least in a vertex that the forearm does not bend."""
 LOWER_FOOT = 0.2
 """Of a foot's length: so far above the ground it is the lower foot."""
 
@@ -56,7 +58,8 @@ class Skin:
     triangles : (T, 3) into them, counter-clockwise from outside.
     visible : (T,) seen from outside; the mouth's inside and the eyes' sockets are not.
     bones, weights : (S, K) the joints that move each, and by how much, summing to one.
-    regions : masks (S,) by name: `head`, `face`, `lips` (with the skin around), `lids`, `hands`, `feet`, `lower_feet` (what
+    regions : masks (S,) by name: `head`, `face`, `lips` (with the skin around), `lids`, `hands`, `whole_hands` (those that no forearm moves),
+        `feet`, `lower_feet` (what
         a shoe covers at least), `inner` (part of no visible triangle), `hidden_by_cloth` (nipples, navel), `left_eye_rim` and
         `right_eye_rim` (where lids end before the eyeball), `left_eye_lids` and `right_eye_lids` (close to there).
     face_points : (68,) the face landmarks, all of them vertices that are seen from the front.
@@ -92,6 +95,8 @@ def load_skin(template: Template, space: BodySpace, rig: Rig) -> Skin:
     mean = space.mean[vertices].astype(np.float64)
     regions = _regions(template, space.mean[vertices], vertices, triangles, strongest)
     regions["head"] = head
+    of_hands = np.char.find(np.array(rig.names), "Hand") >= 0
+    regions["whole_hands"] = (rig.weights[vertices] * of_hands[rig.bones[vertices]]).sum(1) > MIN_WHOLE
     shown = np.zeros(len(vertices), np.bool_)
     shown[triangles[seen]] = True
     regions["inner"] = ~shown

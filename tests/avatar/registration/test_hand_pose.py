@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from known_person import KnownPerson
+from known_person import KnownPerson, sampled
 from scipy.spatial.transform import Rotation
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
@@ -67,3 +67,18 @@ def test_a_few_landmarks_are_no_hand(models: HumanModels, person: KnownPerson) -
     found = with_hands(models, person.parameters, SpatialLandmarks({}, hands=hands))
     assert found.hands == ()
     np.testing.assert_array_equal(found.vertices, body.vertices)
+
+
+def test_points_tell_how_a_hand_is_held_where_landmarks_are_off(models: HumanModels, person: KnownPerson) -> None:
+    _, seen = held(models, person, fist())
+    hands = np.full((2, 21, 3), np.nan)
+    hands[0] = seen
+    truth = with_hands(models, person.parameters, SpatialLandmarks({}, hands=hands)).vertices
+    hand = models.skin.regions["whole_hands"] & (truth[:, 0] > 0)
+    cloud = sampled(models, truth, 20000, 0.001, "hands")
+    hands[0] += np.random.default_rng(5).normal(0, 0.006, seen.shape)
+    off = []
+    for points in (None, cloud):
+        found = with_hands(models, person.parameters, SpatialLandmarks({}, hands=hands), points).vertices
+        off.append(np.linalg.norm((found - truth)[hand], axis=1))
+    assert off[1].mean() < 0.5 * off[0].mean() and off[1].mean() < 0.002

@@ -52,6 +52,15 @@ def test_hands_that_no_landmarks_tell_of_are_named(fitted: FittedTemplate) -> No
     assert "left and the right hand" in notice.message
 
 
+def test_hands_in_t_pose_are_those_of_the_body_s_space(models: HumanModels, fitted: FittedTemplate) -> None:
+    hands = models.skin.vertices[models.skin.regions["whole_hands"]]
+    flat = models.space.vertices(fitted.coefficients)
+    for side in (-1, 1):
+        own = hands[flat[hands, 0] * side > 0]
+        found, known = (one[own] - one[own].mean(0) for one in (fitted.rest, flat))
+        assert np.linalg.norm(found - known, axis=1).max() < 0.003
+
+
 def test_too_few_points_are_refused(models: HumanModels, person: KnownPerson) -> None:
     none = np.zeros((10, 3), np.float32)
     with pytest.raises(InputError) as raised:
