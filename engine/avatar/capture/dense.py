@@ -37,6 +37,8 @@ SOURCES, ASKED = 4, 12
 """Views that a view is measured against, and those that are asked about its points."""
 ALIGNMENT_ROUNDS = 2
 """Rounds of laying views on the fused cloud."""
+ALIGNMENT_STEP = 3
+"""Of a view's rows and of its columns one in so many is fused to the cloud on which views are laid."""
 ALIGNED_POINTS = 1500
 """Points of a view, at most, that are laid on the cloud."""
 ALIGNMENT_GATE = 0.02
@@ -97,12 +99,12 @@ def dense_cloud(
     asked = [[int(v) for v in np.argsort(-row)[:ASKED] if row[v] > 0] for row in shared]
     maps = _measured(straight, hull, sources, told)
     images = [view.image for view in straight]
-    fused = fuse_depth_maps(maps, cameras, images, asked, agreement)
     for _ in range(ALIGNMENT_ROUNDS):
-        if not len(fused.cloud):
+        thin = fuse_depth_maps(maps, cameras, images, asked, agreement, ALIGNMENT_STEP)
+        if not len(thin.cloud):
             raise _not_measured()
-        cameras = _aligned(maps, cameras, fused)
-        fused = fuse_depth_maps(maps, cameras, images, asked, agreement)
+        cameras = _aligned(maps, cameras, thin)
+    fused = fuse_depth_maps(maps, cameras, images, asked, agreement)
     cloud, support = _with_rims(*_cleaned(fused), straight, hull)
     told(1.0)
     moved = [replace(v.camera, eye=c.eye, axes=c.axes) for c, v in zip(cameras, views, strict=True)]
@@ -152,6 +154,7 @@ def _measured(
 def _aligned(maps: Sequence[DepthMap], cameras: Sequence[Camera], fused: FusedPoints) -> list[Camera]:
     """The cameras, each moved with its view's depth as that lies best on what all views say."""
     surface = fused.cloud[thinning(fused.cloud.points, ALIGNMENT_SPACING)]
+    tree = cKDTree(surface.points)
     moved = []
     for measured, camera in zip(maps, cameras, strict=True):
         y, x = np.nonzero((measured.depth > 0) & (measured.cost < ALIGNED_COST))
@@ -159,7 +162,7 @@ def _aligned(maps: Sequence[DepthMap], cameras: Sequence[Camera], fused: FusedPo
         y, x = y[::step], x[::step]
         points = camera.unproject(np.stack([x, y], axis=-1).astype(np.float64), measured.depth[y, x])
         normals = measured.normals[y, x]
-        motion = align_to_surface(points, normals, surface.points, surface.normals, ALIGNMENT_GATE)
+        motion = align_to_surface(points, normals, tree, surface.normals, ALIGNMENT_GATE)
         moved.append(camera.moved(motion))
     return moved
 

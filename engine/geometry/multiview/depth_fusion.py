@@ -56,6 +56,7 @@ def fuse_depth_maps(
     images: Sequence[NDArray[np.uint8]],
     neighbours: Sequence[Sequence[int]],
     agreement: Agreement,
+    step: int = 1,
 ) -> FusedPoints:
     """Points on which views agree, each moved along its normal to the median of what they say.
 
@@ -63,6 +64,7 @@ def fuse_depth_maps(
     ----------
     maps, cameras, images : of all views, of one size (H, W), images (H, W, 3) sRGB; cameras without distortion.
     neighbours : for each view the numbers of those that are asked about its points.
+    step : of the views' rows and of their columns one in so many gives points.
 
     A place that many views confirm is given once by each of them: `thinned` leaves one.
     """
@@ -73,7 +75,7 @@ def fuse_depth_maps(
     limits = np.array([agreement.distance, agreement.seen_through])
     points, directions, colours, support, view = [], [], [], [], []
     for number, (camera, asked) in enumerate(zip(cameras, neighbours, strict=True)):
-        y, x = np.nonzero(depths[number])
+        y, x = step * np.array(np.nonzero(depths[number, ::step, ::step]))
         found = camera.unproject(np.stack([x, y], axis=-1).astype(np.float64), depths[number, y, x])
         normal = normals[number, y, x]
         median, agreeing = _confirmed(found, normal, depths, normals, projections, np.array(asked, np.int64), limits)
@@ -100,7 +102,7 @@ def _confirmed(
     """Points (N, 3) at the median of what views say, and how many agree (N,), 0 where more look through the point."""
     median, agreeing = points.copy(), np.ones(len(points), np.int64)
     for n in prange(len(points)):
-        heights = np.empty(len(asked) + 1)
+        heights, ordered = np.empty(len(asked) + 1), np.empty(len(asked) + 1)
         moved = 0.0  # along the normal, from where the point's own view has it
         for _ in range(FUSION_ROUNDS):
             count, denied = 1, 0
@@ -112,14 +114,29 @@ def _confirmed(
                     count += 1
                 elif seen < 0:
                     denied += 1
-            shift = np.median(heights[:count])
+            shift = _median(heights, count, ordered)
             moved += shift
             for k in range(3):
                 median[n, k] += directions[n, k] * shift
-        agreeing[n] = (np.abs(heights[:count] - shift) <= limits[0]).sum()
+        agreed = 0
+        for k in range(count):
+            agreed += abs(heights[k] - shift) <= limits[0]
+        agreeing[n] = agreed
         if denied >= agreeing[n]:
             agreeing[n] = 0
     return median, agreeing
+
+
+@njit(boundscheck=False, error_model="numpy")
+def _median(values: np.ndarray, count: int, ordered: np.ndarray) -> float:
+    """Of the first `count` of a few values, which `ordered` takes in their order."""
+    for k in range(count):
+        place = k
+        while place > 0 and ordered[place - 1] > values[k]:
+            ordered[place] = ordered[place - 1]
+            place -= 1
+        ordered[place] = values[k]
+    return 0.5 * (ordered[(count - 1) // 2] + ordered[count // 2])
 
 
 @njit(boundscheck=False, error_model="numpy")

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.geometry.camera import Camera
-from engine.geometry.multiview.window_matching import WINDOW_RADIUS, WINDOW_STEP, Plane, Ray, fill_window, plane_cost
+from engine.geometry.multiview.window_matching import SAMPLES, WINDOW_MEMORY, Plane, Ray, fill_window, plane_cost
 
 FIRST_ROUNDS, FINER_ROUNDS = 5, 2
 """Rounds over all pixels in the coarsest pictures and in each finer one."""
@@ -109,7 +109,7 @@ def _searched(
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """The planes (H, W, 4) improved, and their costs (H, W)."""
     lens = np.array([view.camera.focal, view.camera.focal * view.camera.aspect, *view.camera.centre], np.float32)
-    greys = np.stack([source.grey for source in sources])
+    greys = np.concatenate([source.grey.ravel() for source in sources])
     figures = np.stack([source.figure for source in sources])
     relative = np.stack([_relative(view.camera, source.camera) for source in sources])
     cost = np.full(view.grey.shape, np.inf, np.float32)
@@ -170,17 +170,17 @@ def _visit(
     """Try at every second pixel the planes of its neighbours and changes of its own; keep the best."""
     height, width = grey.shape
     for y in prange(height):
-        window = np.empty((3, ((2 * WINDOW_RADIUS) // WINDOW_STEP + 1) ** 2), np.float32)
+        window, places = np.empty(WINDOW_MEMORY, np.float32), np.empty(SAMPLES, np.int32)
         for x in range((y + visit) % 2, width, 2):
             if not measured[y, x]:
                 continue
             ray = (np.float32(x) - lens[2]) / lens[0], (np.float32(y) - lens[3]) / lens[1]
             near, far = bounds[y, x, 0], bounds[y, x, 1]
-            samples, variance = fill_window(grey, figure, x, y, window)
+            count, variance = fill_window(grey, figure, x, y, window)
             best = planes[y, x, 0], planes[y, x, 1], planes[y, x, 2], planes[y, x, 3]
             least = cost[y, x]
             if least == np.inf:
-                least = plane_cost(best, ray, lens, window, samples, variance, greys, figures, relative)
+                least = plane_cost(best, ray, lens, window, places, count, variance, greys, figures, relative)
             for attempt in range(7):
                 if attempt < 4:
                     trial = _fetched(planes, cost, measured, x, y, attempt, ray, lens)
@@ -188,7 +188,7 @@ def _visit(
                     row = draws[((y * width + x) * 3 + attempt + visit * 7919) % RANDOM_NUMBERS]
                     trial = _changed(best, row, attempt, np.float32(spread), far - near, ray)
                 if near <= trial[0] <= far:
-                    found = plane_cost(trial, ray, lens, window, samples, variance, greys, figures, relative)
+                    found = plane_cost(trial, ray, lens, window, places, count, variance, greys, figures, relative)
                     if found < least:
                         least, best = found, trial
             planes[y, x, 0], planes[y, x, 1], planes[y, x, 2], planes[y, x, 3] = best

@@ -22,27 +22,28 @@ REST_WEIGHT = 1e-3
 def align_to_surface(
     points: NDArray[np.floating],
     normals: NDArray[np.floating],
-    surface: NDArray[np.floating],
+    surface: cKDTree,
     surface_normals: NDArray[np.floating],
     gate: float,
 ) -> Similarity:
-    """The rigid motion of `points` (N, 3) with `normals` that lays them on the surface (M, 3), metres, of unit normals (M, 3).
+    """The rigid motion of `points` (N, 3) with `normals` that lays them on the surface, a tree of M points, metres, with unit normals
+    (M, 3).
 
     Points count that have a point of the surface within `gate` metres whose normal is within 60 degrees of theirs.
     """
-    tree = cKDTree(surface)
+    places: NDArray[np.float64] = surface.data
     rotation, shift = np.eye(3), np.zeros(3)
     centre = points.mean(axis=0)
     for _ in range(CLOSEST_POINT_ROUNDS):
         moved = points @ rotation.T + shift
-        distance, nearest = (np.asarray(found) for found in tree.query(moved, distance_upper_bound=gate))
+        distance, nearest = (np.asarray(found) for found in surface.query(moved, distance_upper_bound=gate))
         near = np.flatnonzero(np.isfinite(distance))
         across = surface_normals[nearest[near]]
         near_enough = ((normals[near] @ rotation.T) * across).sum(axis=1) > 0.5
         near, across = near[near_enough], across[near_enough]
         if len(near) < 6:
             break
-        residual = ((moved[near] - surface[nearest[near]]) * across).sum(axis=1)
+        residual = ((moved[near] - places[nearest[near]]) * across).sum(axis=1)
         weights = (1 - (residual / gate) ** 2) ** 2
         arm = moved[near] - centre
         slope = np.hstack([np.cross(arm, across), across])  # by turns about the centre, and by shifts

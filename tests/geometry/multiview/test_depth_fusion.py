@@ -18,9 +18,9 @@ def true_map(number: int) -> DepthMap:
     return DepthMap(depth, normals.astype(np.float32), np.zeros(depth.shape, np.float32))
 
 
-def fused(maps: list[DepthMap], agreement: Agreement | None = None) -> FusedPoints:
+def fused(maps: list[DepthMap], agreement: Agreement | None = None, step: int = 1) -> FusedPoints:
     images = [np.full((*camera.size, 3), number, np.uint8) for number, camera in enumerate(CAMERAS)]
-    return fuse_depth_maps(maps, CAMERAS, images, NEIGHBOURS, agreement or Agreement())
+    return fuse_depth_maps(maps, CAMERAS, images, NEIGHBOURS, agreement or Agreement(), step)
 
 
 def test_true_depths_give_points_of_the_sphere_with_their_normals_and_colours() -> None:
@@ -32,6 +32,13 @@ def test_true_depths_give_points_of_the_sphere_with_their_normals_and_colours() 
     assert (found.cloud.normals * (found.cloud.points - CENTRE)).sum(axis=1).min() > 0
     assert (found.cloud.colours[:, 0] == found.view).all()
     assert found.support.max() == 5
+
+
+def test_of_a_third_of_rows_and_columns_the_same_points_come() -> None:
+    maps = [true_map(i) for i in range(24)]
+    every, some = (fused(maps, step=step).cloud.points for step in (1, 3))
+    assert len(every) / 10 < len(some) < len(every) / 8
+    assert {tuple(point) for point in some} <= {tuple(point) for point in every}
 
 
 def test_noise_is_less_where_views_agree() -> None:
