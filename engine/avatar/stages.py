@@ -24,6 +24,7 @@ from engine.avatar.landmarks.in_frames import FrameLandmarks, frame_landmarks
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.options import KnownLens
 from engine.avatar.registration.fitted_template import FittedTemplate
+from engine.avatar.registration.foot_outlines import Silhouette
 from engine.avatar.registration.models import load_models
 from engine.avatar.registration.register import Scan, register
 from engine.avatar.texture.avatar_texture import AvatarTexture, avatar_texture
@@ -75,7 +76,15 @@ class ClipScan:
 
     def scan(self) -> Scan:
         """What registration takes of it; both clips' worlds are of one size."""
-        return Scan(self.dense.cloud, self.landmarks, sized=True)
+        return Scan(self.dense.cloud, self.landmarks, True, self.silhouettes)
+
+    @property
+    def silhouettes(self) -> tuple[Silhouette, ...]:
+        """Where its frames have the person."""
+        return tuple(
+            Silhouette(mask, _resized(camera, (mask.shape[0], mask.shape[1])))
+            for camera, mask in zip(self.cameras, self.masks, strict=True)
+        )
 
     def without(self, off: NDArray[np.floating]) -> ClipScan:
         """All of it but the cloud's points around those that are `off` (M, 3) the body."""
@@ -210,10 +219,7 @@ def _sighting(fitted: FittedTemplate, body: ClipScan, head: ClipScan | None) -> 
         points = well_supported(near.cloud.points, near.support)
         nearest = cKDTree(fitted.vertices[skin.vertices]).query(points)[1]
         measured.append(points[skin.regions["head"][nearest]])
-    cameras = [
-        _resized(camera, (mask.shape[0], mask.shape[1])) for camera, mask in zip(body.cameras, body.masks, strict=True)
-    ]
-    return Sighting(np.concatenate(measured), body.masks, cameras)
+    return Sighting(np.concatenate(measured), body.masks, [one.camera for one in body.silhouettes])
 
 
 def stitch_texture(

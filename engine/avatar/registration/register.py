@@ -15,6 +15,7 @@ from engine.avatar.registration.eyeballs import lids_on_eyes
 from engine.avatar.registration.face_parts import head_change, place_parts
 from engine.avatar.registration.fine import fit_body, fit_head
 from engine.avatar.registration.fitted_template import FittedTemplate
+from engine.avatar.registration.foot_outlines import Silhouette
 from engine.avatar.registration.footwear import seen_barefoot
 from engine.avatar.registration.hand_pose import CoarseBody, with_hands
 from engine.avatar.registration.head_cloud import head_to_body, one_cloud
@@ -43,11 +44,12 @@ MIN_POINTS = 2000
 @dataclass(frozen=True)
 class Scan:
     """What one clip gave: a cloud in its own world, metres, and the landmarks there; of a head's, whether it is `sized` as the
-    body's is, or its scale is to be found."""
+    body's is, or its scale is to be found; of a body's, the person's `silhouettes`."""
 
     cloud: PointCloud
     landmarks: SpatialLandmarks
     sized: bool = False
+    silhouettes: tuple[Silhouette, ...] = ()
 
 
 def register(
@@ -75,7 +77,7 @@ def register(
     coefficients = parameters[-models.body.coefficients :]
     body_fit = with_hands(models, parameters, believed, cloud)
     shoes = not seen_barefoot(models.feet, body_fit.vertices, cloud, believed.face)
-    body_fit = with_feet(models, body_fit, coefficients, believed, cloud, shoes)
+    body_fit = with_feet(models, body_fit, coefficients, believed, cloud, shoes, body.silhouettes)
     coarse = body_fit.vertices
     fitted = fit_body(models.skin, coarse, cloud, body.landmarks.face)
     check()

@@ -6,12 +6,15 @@ on the ground and its length, width and height, cannot follow them into claws.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
+from engine.avatar.registration.foot_outlines import FootSight, Silhouette, foot_sights, outline_points
 from engine.avatar.registration.footwear import in_shoes
 from engine.avatar.registration.hand_pose import CoarseBody
 from engine.avatar.registration.models import HumanModels
@@ -29,7 +32,7 @@ ANKLE_SIGMA = 0.015
 """Metres on the ground by which the ankle is off where the coarse fit has it, usually ..."""
 LANDMARK_SIGMA = 0.03
 """... heel and tip from where landmarks have them ..."""
-GROUND_SIGMA = 0.01
+GROUND_SIGMA = 0.002
 """... and soles from the ground."""
 TURN_SIGMA = 0.25
 """Radians by which a foot is turned otherwise than the coarse fit has it, usually."""
@@ -45,8 +48,18 @@ MIN_FACING = 0.4
 """The cosine between the normals of a point and of the foot there, at least."""
 FLOOR_REACH = 0.008
 """Metres above the sole up to which points may be the floor's."""
+OUTLINE_SIGMA = 0.002
+"""Metres by which outlines are off, at least; ..."""
+HIDDEN_SHARE, HIDDEN_GATE = 0.5, 0.5
+"""... up to so much of the way from the ankle to the tip trousers may hide them: there, within the person's silhouette, they are
+matched within so much of the gate; ..."""
+INDEPENDENT_OUTLINES = 12.0
+"""... so many points of them count as independent: a few in each of the frames."""
 MAX_POINTS = 1500
 """Of a foot, that are matched in one round."""
+
+Residuals = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+"""From parameters (N, 7) to what is to be small, (N, R)."""
 
 
 @dataclass(frozen=True)
@@ -79,9 +92,10 @@ def with_feet(
     landmarks: SpatialLandmarks,
     cloud: PointCloud,
     shoes: bool,
+    silhouettes: Sequence[Silhouette] = (),
 ) -> CoarseBody:
-    """The coarse fit `body`, of a person with these `coefficients` (K,), with its feet flat on the ground where landmarks and cloud
-    have them, in `shoes` or bare; its legs follow."""
+    """The coarse fit `body`, of a person with these `coefficients` (K,), with its feet flat on the ground where landmarks, cloud and
+    silhouettes have them, in `shoes` or bare; its legs follow."""
     skin = models.skin
     bare = np.asarray(models.space.vertices(coefficients)[skin.vertices], np.float64)
     rest = in_shoes(skin, models.feet, bare) if shoes else bare
@@ -91,7 +105,10 @@ def with_feet(
     for side, mask in zip(SIDES, models.feet.masks, strict=True):
         foot = _foot(models, side, np.flatnonzero(mask & whole), rest, joints)
         ankle, toes = (models.space.names.index(f"{side}{name}") for name in ("Foot", "ToeBase"))
-        found = _laid(foot, _start(foot, places[ankle], turns[ankle]), side, landmarks, cloud)
+        start = _start(foot, places[ankle], turns[ankle])
+        elsewhere = skin.triangles[~np.isin(skin.triangles, foot.numbers).any(1)]
+        sights = foot_sights(silhouettes, foot.moved(foot.places, start[None])[0], body.vertices, elsewhere)
+        found = _laid(foot, start, side, landmarks, cloud, sights)
         moved[foot.numbers] = foot.moved(foot.places, found[None])[0]
         ground = np.array([joints[ankle, 0], rest[mask, 1].min(), joints[ankle, 2]])
         places[[ankle, toes]] = foot.moved(joints[[ankle, toes]] - ground, found[None])[0]
@@ -132,9 +149,14 @@ def _start(foot: _Foot, ankle: NDArray[np.float64], turned: NDArray[np.float64])
 
 
 def _laid(
-    foot: _Foot, start: NDArray[np.float64], side: str, landmarks: SpatialLandmarks, cloud: PointCloud
+    foot: _Foot,
+    start: NDArray[np.float64],
+    side: str,
+    landmarks: SpatialLandmarks,
+    cloud: PointCloud,
+    sights: Sequence[FootSight],
 ) -> NDArray[np.float64]:
-    """The parameters (7,) for which the foot is where landmarks, ground and points have it."""
+    """The parameters (7,) for which the foot is where landmarks, ground, points and outlines have it."""
     named = [name for name in ("Heel", "FootIndex") if f"{side}{name}" in landmarks.body]
     seen = np.array([landmarks.body[f"{side}{name}"] for name in named]).reshape(-1, 3)
     at_rest = np.array([foot.marks[name] for name in named]).reshape(-1, 3)
@@ -148,23 +170,50 @@ def _laid(
 
     found = levenberg_marquardt(prior, start)
     for gate in GATES:
-        matched = _matched(foot, found, cloud, gate)
-        if matched is None:
-            continue
-        own, normals, points, scale = matched
-
-        def both(
-            parameters: NDArray[np.float64],
-            own: NDArray[np.float64] = own,
-            normals: NDArray[np.float64] = normals,
-            points: NDArray[np.float64] = points,
-            scale: NDArray[np.float64] = scale,
-        ) -> NDArray[np.float64]:
-            off = np.einsum("nmc,mc->nm", foot.moved(own, parameters) - points, normals)
-            return np.concatenate([prior(parameters), off * scale], axis=1)
-
-        found = levenberg_marquardt(both, found, steps=5)
+        terms = [
+            term for term in (_points_term(foot, found, cloud, gate), _outlines_term(foot, found, sights, gate)) if term
+        ]
+        if terms:
+            found = levenberg_marquardt(partial(_together, (prior, *terms)), found, steps=5)
     return found
+
+
+def _together(terms: Sequence[Residuals], parameters: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.concatenate([term(parameters) for term in terms], axis=1)
+
+
+def _points_term(foot: _Foot, found: NDArray[np.float64], cloud: PointCloud, gate: float) -> Residuals | None:
+    """How far the foot is off the cloud's points within a gate of where it was `found`; None where there are none."""
+    matched = _matched(foot, found, cloud, gate)
+    if matched is None:
+        return None
+    own, normals, points, scale = matched
+    return lambda parameters: np.einsum("nmc,mc->nm", foot.moved(own, parameters) - points, normals) * scale
+
+
+def _outlines_term(
+    foot: _Foot, found: NDArray[np.float64], sights: Sequence[FootSight], gate: float
+) -> Residuals | None:
+    """The same of its outlines, from those of the person in the sights. Trousers may hide them, nothing can lay them bare."""
+    vertices = foot.moved(foot.places, found[None])[0]
+    outlines = [outline_points(sight, vertices, foot.triangles, foot.places) for sight in sights]
+    outlines = [outline for outline in outlines if len(outline.places)]
+    if not outlines:
+        return None
+
+    def off(parameters: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.concatenate([outline.off(foot.moved, parameters) for outline in outlines], axis=1)
+
+    now = off(found[None])[0]
+    ahead = np.concatenate([outline.places for outline in outlines]) @ foot.axes[2]
+    hidden = (now < 0) & (ahead < HIDDEN_SHARE * (foot.marks["FootIndex"] @ foot.axes[2]))
+    reach = np.where(hidden, HIDDEN_GATE * gate, gate)
+    weights = np.where(np.abs(now) < reach, (1 - (now / reach) ** 2) ** 2, 0.0)
+    if not weights.any():
+        return None
+    sigma = max(float(np.sqrt((weights * now**2).sum() / weights.sum())), OUTLINE_SIGMA)
+    scale = np.sqrt(weights * min(1.0, INDEPENDENT_OUTLINES / weights.sum())) / sigma
+    return lambda parameters: off(parameters) * scale
 
 
 def _matched(

@@ -11,10 +11,13 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
+from engine.avatar.registration.foot_outlines import Silhouette
 from engine.avatar.registration.hand_pose import CoarseBody, with_hands
 from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.standing_feet import with_feet
+from engine.geometry.camera import Camera
 from engine.geometry.point_cloud import PointCloud
+from engine.render.rasteriser import rasterise
 
 NOBODY = SpatialLandmarks({})
 
@@ -25,10 +28,15 @@ def body(models: HumanModels, person: KnownPerson) -> CoarseBody:
 
 
 def standing(
-    models: HumanModels, person: KnownPerson, body: CoarseBody, cloud: PointCloud, shoes: bool = True
+    models: HumanModels,
+    person: KnownPerson,
+    body: CoarseBody,
+    cloud: PointCloud,
+    shoes: bool = True,
+    silhouettes: tuple[Silhouette, ...] = (),
 ) -> CoarseBody:
     coefficients = person.parameters[-models.body.coefficients :]
-    return with_feet(models, body, coefficients, NOBODY, cloud, shoes)
+    return with_feet(models, body, coefficients, NOBODY, cloud, shoes, silhouettes)
 
 
 def affine(before: NDArray[np.float64], after: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
@@ -58,6 +66,26 @@ def test_a_longer_foot_that_is_turned_is_found(
     assert off.mean() < 0.005 < 0.015 < np.linalg.norm(stood.vertices[left] - truth[left], axis=1).mean()
     by = found.rotations[models.rig.index("LeftFoot")] @ stood.rotations[models.rig.index("LeftFoot")].T
     assert Rotation.from_matrix(by).magnitude() == pytest.approx(0.2, abs=0.03)
+
+
+def test_silhouettes_alone_tell_where_a_shoe_ends(models: HumanModels, person: KnownPerson, body: CoarseBody) -> None:
+    nothing = sampled(models, body.vertices, 500, 0.0, part="head")
+    stood = standing(models, person, body, nothing)
+    left = models.feet.masks[0] & models.skin.regions["lower_feet"]
+    ankle = stood.joints[models.space.names.index("LeftFoot")] * [1, 0, 1]
+    turn = Rotation.from_rotvec([0, 0.15, 0]).as_matrix()
+    truth = stood.vertices.copy()
+    truth[left] = [1.06, 1, 1.05] * (stood.vertices[left] - ankle) @ turn.T + ankle + [0.012, 0, -0.015]
+    silhouettes = []
+    for angle in np.arange(12) * np.pi / 6:
+        lens = Camera((0.0, 0.0, 0.0), 420.0, (134.5, 239.5), (480, 270))
+        camera = lens.aimed((2.2 * np.sin(angle), 1.4, 2.2 * np.cos(angle)), (0.0, 0.7, 0.0))
+        raster = rasterise(camera.project(truth), models.skin.triangles, camera.size, perspective=True)
+        silhouettes.append(Silhouette(raster.triangle >= 0, camera))
+    found = standing(models, person, body, nothing, True, tuple(silhouettes))
+    off = np.linalg.norm(found.vertices[left] - truth[left], axis=1)
+    assert off.mean() < 0.004 < 0.012 < np.linalg.norm(stood.vertices[left] - truth[left], axis=1).mean()
+    assert abs(found.vertices[left, 1].min()) < 0.003
 
 
 def test_whatever_the_points_are_a_foot_keeps_its_shape(

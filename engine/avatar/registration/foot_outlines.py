@@ -1,0 +1,107 @@
+"""How far the outline of a foot, as views show it, is off the outlines of the person there.
+
+Where silhouettes end at the ground is known in every frame, from all around; points of stereo are few at feet and stand off them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.geometry.camera import Camera
+from engine.imaging.masks.mask_distance import distance_inside, distance_to
+from engine.render.rasteriser import rasterise
+from engine.render.sampling import bilinear
+
+REACH = 0.12
+"""Metres around a foot within which its outline may be."""
+COVER_PIXELS = 2
+"""From what else a view shows of the body, within which an outline is not the foot's alone."""
+MIN_PIXELS = 12
+"""Of a view about a foot, along both sides: fewer tell nothing."""
+
+Moved = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
+"""Where places (M, 3) of the foot at rest are for parameters (N, P): (N, M, 3)."""
+
+
+@dataclass(frozen=True)
+class Silhouette:
+    """The person's `mask` (H, W) bool as a `camera` of its size sees them."""
+
+    mask: NDArray[np.bool_]
+    camera: Camera
+
+
+@dataclass(frozen=True)
+class FootSight:
+    """What a silhouette has about a foot: the `camera` of that part, how far each pixel (h, w, 1) is outside the mask, negative
+    within, 0 along its own rim, metres at the foot; and where the rest of the body is `beside` (h, w)."""
+
+    camera: Camera
+    outside: NDArray[np.float32]
+    beside: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class OutlinePoints:
+    """Points of a foot on its outline in one sight: the `places` (M, 3) of the foot at rest."""
+
+    sight: FootSight
+    places: NDArray[np.float64]
+
+    def off(self, moved: Moved, parameters: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(N, M) metres by which they are outside of the person's silhouette, for parameters (N, P)."""
+        where = moved(self.places, parameters)
+        pixels = self.sight.camera.project(where.reshape(-1, 3))
+        return np.asarray(bilinear(self.sight.outside, pixels), np.float64).reshape(where.shape[:2])
+
+
+def foot_sights(
+    silhouettes: Sequence[Silhouette],
+    foot: NDArray[np.floating],
+    body: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+) -> list[FootSight]:
+    """What silhouettes have about a foot's places (F, 3), beside the rest of the `body` (S, 3), its `triangles` (T, 3) without the
+    foot's."""
+    corners = np.stack(np.meshgrid(*np.stack([foot.min(0) - REACH, foot.max(0) + REACH], 1)), -1).reshape(-1, 3)
+    found = []
+    for one in silhouettes:
+        if one.camera.depth(corners).min() <= 0:
+            continue
+        seen = one.camera.project(corners)[:, :2]
+        height, width = one.camera.size
+        left, top = np.clip(np.floor(seen.min(0)), 0, [width, height]).astype(int).tolist()
+        right, bottom = np.clip(np.ceil(seen.max(0)) + 1, 0, [width, height]).astype(int).tolist()
+        if min(right - left, bottom - top) < MIN_PIXELS:
+            continue
+        camera = one.camera.cropped(left, top, (bottom - top, right - left))
+        pixel = float(camera.depth(foot.mean(0))) / camera.focal
+        mask = one.mask[top:bottom, left:right]
+        if not mask.any():
+            continue
+        outside = pixel * np.where(mask, 1 - distance_inside(mask), distance_to(mask))
+        rest = rasterise(camera.project(body), triangles, camera.size, perspective=True).triangle >= 0
+        found.append(FootSight(camera, outside[..., None].astype(np.float32), _grown(rest, COVER_PIXELS)))
+    return found
+
+
+def outline_points(
+    sight: FootSight, vertices: NDArray[np.float64], triangles: NDArray[np.integer], rest: NDArray[np.float64]
+) -> OutlinePoints:
+    """The points of a foot, `vertices` (F, 3) where it is and `rest` (F, 3) where it is at rest, on its outline in a sight where that
+    ends neither at the rest of the body nor at the picture's border."""
+    raster = rasterise(sight.camera.project(vertices), triangles, sight.camera.size, perspective=True)
+    shown = raster.triangle >= 0
+    rim = shown & ~(cv2.erode(shown.astype(np.uint8), np.ones((3, 3), np.uint8), borderValue=1) > 0) & ~sight.beside
+    rim[[0, -1]] = rim[:, [0, -1]] = False
+    corners = rest[triangles[raster.triangle[rim]]]
+    return OutlinePoints(sight, np.einsum("mk,mkc->mc", raster.barycentrics[rim].astype(np.float64), corners))
+
+
+def _grown(mask: NDArray[np.bool_], pixels: int) -> NDArray[np.bool_]:
+    return np.asarray(cv2.dilate(mask.astype(np.uint8), np.ones((2 * pixels + 1,) * 2, np.uint8)) > 0)
