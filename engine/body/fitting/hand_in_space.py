@@ -89,7 +89,7 @@ def fit_hand_in_space(
 def _by_landmarks(hand: ArticulatedHand, seen: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
     """The parameters (P,) by the landmarks that are `seen` (21, 3) around the wrist, and metres by which these are off in the median:
     NaN where they are too few."""
-    known = np.isfinite(seen).all(1)
+    known = np.asarray(np.isfinite(seen).all(1))
     palm = [k for k in PALM if known[k]]
     start = np.zeros(7 + ANGLES)
     if known.sum() < MIN_LANDMARKS or len(palm) < MIN_PALM:

@@ -45,6 +45,15 @@ class HandSurface:
     faces: NDArray[np.intp]
     rim: NDArray[np.bool_]
 
+    @property
+    def areas(self) -> NDArray[np.float64]:
+        """(T,) square metres of the triangles."""
+        return np.asarray(triangle_areas(self.vertices, self.triangles), np.float64)
+
+    def spread(self, amounts: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(V,) what each triangle has, (T,), in equal parts at its corners."""
+        return np.bincount(self.triangles.ravel(), amounts.repeat(3) / 3, len(self.vertices)).astype(np.float64)
+
     @staticmethod
     def of(vertices: NDArray[np.floating], triangles: NDArray[np.integer], part: NDArray[np.bool_]) -> HandSurface:
         """That of the triangles `part` (F,) of a surface's `triangles` (F, 3) into its `vertices` (N, 3)."""
@@ -57,7 +66,7 @@ class HandSurface:
 def joined_hand(
     hand: HandSurface,
     texels: PartTexels,
-    filmed: NDArray[np.floating],
+    filmed: NDArray[np.number],
     painted: NDArray[np.floating],
     resolution: NDArray[np.floating],
     tone: NDArray[np.floating],
@@ -75,31 +84,49 @@ def joined_hand(
     shown = resolution[hand.faces] > 0
     skin = shown & like_skin(to_lab(_means(filmed, number, len(hand.faces))), tone)
     sleeve = _out_of_the_arm(hand, shown & ~skin)
-    areas = triangle_areas(hand.vertices, hand.triangles)
-    stiff = cotangent_laplacian(hand.vertices, hand.triangles)
-
-    corners = hand.triangles[number]
-    told = texels.shares * (skin * areas / np.maximum(np.bincount(number, minlength=len(areas)), 1))[number][:, None]
-    off = np.asarray(filmed, np.float64) - painted
-    size = len(hand.vertices)
-    mass = np.bincount(corners.ravel(), told.ravel(), size)
-    pulls = np.stack([np.bincount(corners.ravel(), (told * off[:, [k]]).ravel(), size) for k in range(3)], 1)
-    whole = np.bincount(hand.triangles.ravel(), areas.repeat(3) / 3, size)
-    change = _smooth(stiff, mass + UNTOLD * whole, pulls, TONE_LENGTH)
-
-    trusted = _at_vertices(hand, areas, skin | sleeve)
-    inner = np.clip(2 * _smooth(stiff, whole, whole * trusted, RIM_LENGTH) - 1, 0, 1)
     few, enough = FINGER_PIXELS
     sharp = np.clip((resolution[hand.faces] * FINGER_WIDTH - few) / (enough - few), 0, 1)
-    detail = inner * _smooth(stiff, whole, whole * _at_vertices(hand, areas, np.where(sleeve, 1.0, sharp)), RIM_LENGTH)
+    stiff = cotangent_laplacian(hand.vertices, hand.triangles)
+    detail = _details(hand, stiff, skin | sleeve, np.where(sleeve, 1.0, sharp))
+    change = _change_of_tone(hand, stiff, texels, number, np.asarray(filmed, np.float64) - painted, skin)
 
+    corners = hand.triangles[number]
     toned = painted + np.einsum("nk,nkc->nc", texels.shares, change[corners])
     share = np.einsum("nk,nk->n", texels.shares, detail[corners])
     share = np.where(sleeve[number], 1.0, np.where(skin[number], share, 0.0))[:, None]
     return np.asarray(toned + share * (filmed - toned))
 
 
-def _means(colours: NDArray[np.floating], number: NDArray[np.intp], count: int) -> NDArray[np.float64]:
+def _change_of_tone(
+    hand: HandSurface,
+    laplacian: sp.csr_array,
+    texels: PartTexels,
+    number: NDArray[np.intp],
+    off: NDArray[np.float64],
+    skin: NDArray[np.bool_],
+) -> NDArray[np.float64]:
+    """(V, 3) what takes painted colours to filmed ones: close to what texels, of the faces `number` (N,), are `off` (N, 3) where these
+    show `skin` (T,), and harmonic between."""
+    areas = hand.areas
+    corners, size = hand.triangles[number], len(hand.vertices)
+    each = skin * areas / np.maximum(np.bincount(number, minlength=len(areas)), 1)
+    told = texels.shares * each[number][:, None]
+    mass = np.bincount(corners.ravel(), told.ravel(), size)
+    pulls = np.stack([np.bincount(corners.ravel(), (told * off[:, [k]]).ravel(), size) for k in range(3)], 1)
+    return _smooth(laplacian, mass + UNTOLD * hand.spread(areas), np.asarray(pulls, np.float64), TONE_LENGTH)
+
+
+def _details(
+    hand: HandSurface, laplacian: sp.csr_array, trusted: NDArray[np.bool_], sharp: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(V,) the share of filmed details: none at the rim of what is `trusted` (T,), and where frames are not `sharp` (T,)."""
+    areas = hand.areas
+    whole = hand.spread(areas)
+    inside = _smooth(laplacian, whole, hand.spread(areas * trusted), RIM_LENGTH)
+    return np.clip(2 * inside - 1, 0, 1) * _smooth(laplacian, whole, hand.spread(areas * sharp), RIM_LENGTH)
+
+
+def _means(colours: NDArray[np.number], number: NDArray[np.intp], count: int) -> NDArray[np.float64]:
     """(T, 3) the mean of the colours (N, 3) of each of `count` faces, by their `number` (N,); black of those without."""
     total = np.maximum(np.bincount(number, minlength=count), 1)
     return np.stack([np.bincount(number, colours[:, k], count) / total for k in range(3)], 1)
@@ -114,13 +141,6 @@ def _out_of_the_arm(hand: HandSurface, other: NDArray[np.bool_]) -> NDArray[np.b
     piece = connected_components(links, directed=False)[1]
     beginning = other & hand.rim[hand.triangles].any(1)
     return other & np.isin(piece, piece[beginning])
-
-
-def _at_vertices(hand: HandSurface, areas: NDArray[np.float64], values: NDArray[np.generic]) -> NDArray[np.float64]:
-    """(V,) the means of what the faces (T,) around each vertex have, by their areas."""
-    corners, size = hand.triangles.ravel(), len(hand.vertices)
-    total = np.bincount(corners, areas.repeat(3), size)
-    return np.bincount(corners, (areas * values).repeat(3), size) / np.maximum(total, 1e-12)
 
 
 def _smooth(
