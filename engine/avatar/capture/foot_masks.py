@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,6 +18,7 @@ from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.geometry.camera import Camera
 from engine.geometry.joint_names import SIDES
 from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, ColourMixture, ContrastGraph
+from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, near_lines
 from engine.imaging.masks.mask_pieces import without_small_pieces
 
 CORNERS = ("Ankle", "Heel", "FootIndex")
@@ -35,6 +35,8 @@ ROUNDS = 3
 """How often masks and floor are found from each other."""
 COVER_PIXELS = 2
 """Around a mask, that are not taken for the floor's."""
+INNER_PIXELS = 1.5
+"""From a mask's outline, beyond which it surely shows the person."""
 SPECK_SHARE = 0.02
 """Of a square as wide as a foot is long: smaller pieces, and holes, are nobody's."""
 MIN_DEPTH = 0.1
@@ -113,8 +115,8 @@ def told_from_floor(frames: Sequence[FootFrame], feet: Sequence[Foot]) -> list[N
         for n, (frame, part) in enumerate(zip(frames, parts, strict=True)):
             if part is not None:
                 masks[n][part.rows, part.columns] = _told_apart(frame, part, masks[n], floor, person, floor.gains[n])
-                ours[n] = part.sure | _shrunk(masks[n][part.rows, part.columns] & part.area)
-        covered = [_grown(mask, COVER_PIXELS) for mask in masks]
+                ours[n] = part.sure | (distance_inside(masks[n][part.rows, part.columns] & part.area) > INNER_PIXELS)
+        covered = [dilate_mask(mask, COVER_PIXELS) for mask in masks]
     return masks
 
 
@@ -132,8 +134,8 @@ def _near(frame: FootFrame, feet: Sequence[Foot]) -> _Near | None:
         pixels_per_metre = frame.person.focal / float(frame.person.depth(foot.corners.mean(0)))
         length = pixels_per_metre * float(np.linalg.norm(foot.corners[1] - foot.corners[2]))
         lines = frame.person.project(foot.lines.reshape(-1, 3), np.float64)[:, :2].reshape(-1, 2, 2)
-        area |= _around(area.shape, corners[[[0, 1], [1, 2], [2, 0]]], REACH_SHARE * length)
-        sure |= _around(area.shape, lines, SURE_SHARE * length)
+        area |= near_lines(area.shape, corners[[[0, 1], [1, 2], [2, 0]]], REACH_SHARE * length)
+        sure |= near_lines(area.shape, lines, SURE_SHARE * length)
         lengths.append(length)
     if not area.any():
         return None
@@ -144,7 +146,7 @@ def _near(frame: FootFrame, feet: Sequence[Foot]) -> _Near | None:
 
 def _covered(mask: NDArray[np.bool_], part: _Near | None) -> NDArray[np.bool_]:
     """Where the person may be, before anything is known of the floor."""
-    covered = _grown(mask, 2 * COVER_PIXELS)
+    covered = dilate_mask(mask, 2 * COVER_PIXELS)
     if part is not None:
         covered[part.rows, part.columns] |= part.area
     return covered
@@ -187,19 +189,3 @@ def _told_apart(
     least = SPECK_SHARE * part.foot_pixels**2
     found = without_small_pieces(~without_small_pieces(~found, least), least)
     return np.where(part.area, found, before)
-
-
-def _around(shape: tuple[int, ...], lines: NDArray[np.float64], radius: float) -> NDArray[np.bool_]:
-    """(h, w): within so many pixels of lines (L, 2, 2)."""
-    drawn = np.ones(shape, np.uint8)
-    for first, second in np.rint(lines).astype(int).tolist():
-        cv2.line(drawn, first, second, (0,), 1)
-    return np.asarray(cv2.distanceTransform(drawn, cv2.DIST_L2, 5) <= max(radius, 0.5))
-
-
-def _grown(mask: NDArray[np.bool_], pixels: int) -> NDArray[np.bool_]:
-    return np.asarray(cv2.dilate(mask.astype(np.uint8), np.ones((2 * pixels + 1,) * 2, np.uint8)) > 0)
-
-
-def _shrunk(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    return np.asarray(cv2.erode(mask.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)

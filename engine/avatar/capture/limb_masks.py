@@ -18,6 +18,7 @@ from engine.body.fitting.hand_fitting import HAND_BONES
 from engine.geometry.camera import Camera
 from engine.geometry.joint_names import SIDES
 from engine.imaging.masks.colour_segmentation import grab_cut
+from engine.imaging.masks.mask_distance import near_lines
 
 PALM = ("Wrist", "Index", "Pinky")
 """The corners of a palm, without their side."""
@@ -120,7 +121,7 @@ def with_limbs(
 
 def _lost_share(mask: NDArray[np.bool_], lines: NDArray[np.float64]) -> float:
     """Of lines (L, 2, 2), which share of what is in the picture a mask lacks."""
-    marks = _around(mask.shape, lines, 0.5)
+    marks = near_lines(mask.shape, lines, 0.5)
     return float((marks & ~mask).sum() / max(marks.sum(), 1))
 
 
@@ -128,8 +129,8 @@ def _limb(
     rgb: NDArray[np.uint8], mask: NDArray[np.bool_], lines: NDArray[np.float64], length: float, reach: float
 ) -> NDArray[np.bool_]:
     """The mask of what is around a limb, which is free within the limb's reach alone."""
-    near = _around(mask.shape, lines, reach * length)
-    sure = _around(mask.shape, lines, SURE_SHARE * length)
+    near = near_lines(mask.shape, lines, reach * length)
+    sure = near_lines(mask.shape, lines, SURE_SHARE * length)
     kernel = np.ones((2 * SETTLED_PIXELS + 1,) * 2, np.uint8)
     inner = cv2.erode(mask.astype(np.uint8), kernel) > 0
     ours = sure | inner
@@ -138,11 +139,3 @@ def _limb(
         return mask | sure
     found = grab_cut(rgb, ours, others & ~ours, mask | sure, rounds=3)
     return np.where(near, found | sure, mask)
-
-
-def _around(shape: tuple[int, ...], lines: NDArray[np.float64], radius: float) -> NDArray[np.bool_]:
-    """(h, w): within so many pixels of lines (L, 2, 2)."""
-    drawn = np.ones(shape, np.uint8)
-    for first, second in np.rint(lines).astype(int).tolist():
-        cv2.line(drawn, first, second, (0,), 1)
-    return np.asarray(cv2.distanceTransform(drawn, cv2.DIST_L2, 5) <= max(radius, 0.5))

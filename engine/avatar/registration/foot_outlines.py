@@ -8,12 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
-from engine.imaging.masks.mask_distance import distance_inside, distance_to
+from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
 from engine.render.rasteriser import rasterise
 from engine.render.sampling import bilinear
 
@@ -86,7 +85,7 @@ def foot_sights(
             continue
         outside = pixel * np.where(mask, 1 - distance_inside(mask), distance_to(mask))
         rest = rasterise(camera.project(body), triangles, camera.size, perspective=True).triangle >= 0
-        found.append(FootSight(camera, outside[..., None].astype(np.float32), _grown(rest, COVER_PIXELS)))
+        found.append(FootSight(camera, outside[..., None].astype(np.float32), dilate_mask(rest, COVER_PIXELS)))
     return found
 
 
@@ -97,11 +96,7 @@ def outline_points(
     ends neither at the rest of the body nor at the picture's border."""
     raster = rasterise(sight.camera.project(vertices), triangles, sight.camera.size, perspective=True)
     shown = raster.triangle >= 0
-    rim = shown & ~(cv2.erode(shown.astype(np.uint8), np.ones((3, 3), np.uint8), borderValue=1) > 0) & ~sight.beside
+    rim = shown & dilate_mask(~shown, 1) & ~sight.beside
     rim[[0, -1]] = rim[:, [0, -1]] = False
     corners = rest[triangles[raster.triangle[rim]]]
     return OutlinePoints(sight, np.einsum("mk,mkc->mc", raster.barycentrics[rim].astype(np.float64), corners))
-
-
-def _grown(mask: NDArray[np.bool_], pixels: int) -> NDArray[np.bool_]:
-    return np.asarray(cv2.dilate(mask.astype(np.uint8), np.ones((2 * pixels + 1,) * 2, np.uint8)) > 0)

@@ -1,4 +1,4 @@
-"""Distances from a mask's edge, and masks that have grown by some."""
+"""Distances from a mask's edge and from lines, and masks that have grown by some."""
 
 from __future__ import annotations
 
@@ -21,3 +21,11 @@ def distance_to(mask: NDArray[np.bool_]) -> NDArray[np.float32]:
 def dilate_mask(mask: NDArray[np.bool_], pixels: int) -> NDArray[np.bool_]:
     """A mask (H, W) and what is beside it, up to so many pixels in each direction."""
     return np.asarray(cv2.dilate(mask.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=pixels) > 0)
+
+
+def near_lines(shape: tuple[int, ...], lines: NDArray[np.floating], radius: float) -> NDArray[np.bool_]:
+    """(h, w) of `shape`: the pixels within so many of lines (L, 2, 2), each by both its ends, x and y; half a pixel at least."""
+    drawn = np.zeros(shape, np.uint8)
+    for first, second in np.rint(lines).astype(int).tolist():
+        cv2.line(drawn, first, second, (1,), 1)
+    return np.asarray(distance_to(drawn > 0) <= max(radius, 0.5))
