@@ -36,6 +36,7 @@ REQUIRED_PACKAGES = {
     "numba": "numba",
     "opencv-contrib-python-headless": "cv2",
     "mediapipe": "mediapipe",
+    "dlib-bin": "dlib",
     "av": "av",
     "pillow": "PIL",
     "pi-heif": "pi_heif",

@@ -42,7 +42,7 @@ from engine.kind import Given
 from engine.media.image import over_white, write_image
 from engine.motion.clip import Clip
 from engine.motion.retargeting.joint_map import lost_warning
-from engine.perception.models import matting_model
+from engine.perception.matting import matting_model
 from engine.render.character import film_cast
 from engine.render.ground_shadow import GroundShadow
 from engine.run import Run

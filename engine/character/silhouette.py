@@ -22,7 +22,7 @@ from engine.imaging.masks.mask_pieces import bounding_box, largest_piece
 from engine.imaging.resample import resized
 from engine.media.limits import Limits
 from engine.perception.body import BODY_LANDMARKS
-from engine.perception.models import MattingModel
+from engine.perception.matting import MattingModel
 from engine.perception.person import DOUBTFUL_BELIEF, LIKELY_BELIEF, person_mask
 from engine.perception.segmentation import people_confidence
 

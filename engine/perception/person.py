@@ -19,7 +19,7 @@ from engine.imaging.masks.mask_pieces import pieces_touching
 from engine.imaging.resample import resized, size_within
 from engine.media.image import is_cut_out
 from engine.perception.figure import figure_on_plain_ground
-from engine.perception.models import MattingModel
+from engine.perception.matting import MattingModel
 from engine.perception.segmentation import WORKING_SIZE, Mask, people_confidence
 
 CUT_SIZE = 480

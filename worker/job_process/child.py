@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from engine.kind import Kind
-from engine.perception.models import MATTING_SETTING
+from engine.perception.models import MODEL_SETTINGS
 from service.catalogue.registry import load_kinds
 from worker.compilation.rehearsal import compiled_folders, load_compiled
 from worker.job_process import exit_reason
@@ -188,7 +188,7 @@ def main() -> None:
             kind.prepare()
     load_compiled(kinds)
     _compile_without_keeping()
-    models = [Path(os.environ[MATTING_SETTING])] if MATTING_SETTING in os.environ else []
+    models = [Path(os.environ[setting]) for setting in MODEL_SETTINGS if setting in os.environ]
     ready = Ready(kinds, limits, [*program_paths(), *compiled_folders(), *models])
     wire.send("ready")
     while True:

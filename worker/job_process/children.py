@@ -18,7 +18,7 @@ from typing import Any
 
 import structlog
 
-from engine.perception.models import MATTING_SETTING
+from engine.perception.models import MODEL_SETTINGS
 from service.settings import MEGABYTE, Settings
 from worker.programs.interpreter import module_command, module_environment
 from worker.programs.niceness import lower_priority
@@ -297,7 +297,7 @@ def _environment(settings: Settings) -> dict[str, str]:
 
 
 def _is_the_engines(name: str) -> bool:
-    return not name.startswith(("GALATEA_", "AWS_", "PG", "OTEL_")) or name.startswith(MATTING_SETTING)
+    return not name.startswith(("GALATEA_", "AWS_", "PG", "OTEL_")) or name.startswith(MODEL_SETTINGS)
 
 
 def _no_number(name: str) -> None:

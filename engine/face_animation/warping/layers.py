@@ -15,7 +15,7 @@ from engine.imaging.alpha.matting import estimate_layers, reconcile_with_plate
 from engine.imaging.filling.background_plate import background_plate
 from engine.media.image import is_cut_out, over_grey
 from engine.perception.landmarks import FACE_OVAL
-from engine.perception.models import MattingModel
+from engine.perception.matting import MattingModel
 from engine.perception.person import person_mask
 
 

@@ -11,7 +11,8 @@ from tiny_onnx import brightness_model
 
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.layers import separate_layers
-from engine.perception.models import MATTING_SETTING, ModelError, ModelFile, load_matting_model, matting_model
+from engine.perception.matting import load_matting_model, matting_model
+from engine.perception.models import MATTING_SETTING, ModelError, ModelFile
 from engine.perception.person import DOUBTFUL_BELIEF, person_mask
 
 

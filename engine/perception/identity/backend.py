@@ -1,0 +1,24 @@
+"""Which backend tells people apart: the operator's, or dlib's."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from engine.perception.identity.descriptor import FaceDescriptor
+from engine.perception.identity.dlib_descriptor import DlibDescriptor
+from engine.perception.identity.operator_descriptor import OperatorDescriptor
+from engine.perception.models import DESCRIPTOR_SETTING, named_model
+
+
+def face_descriptor(settings: Mapping[str, str]) -> FaceDescriptor:
+    """The operator's own where `settings` (as a rule the environment) name one, else dlib's.
+
+    Raises
+    ------
+    ModelError : the operator's model cannot be used.
+    IncompleteInstallation : dlib's model file is not there, or is another.
+    """
+    named = named_model(settings, DESCRIPTOR_SETTING)
+    if named is not None:
+        return OperatorDescriptor.load(named, settings)
+    return DlibDescriptor.load()
