@@ -51,7 +51,7 @@ def hand() -> KnownHand:
     surface = template_surface(load_template(), rig)
     bones = hand_bones(rig, surface.rest, "Left")
     texels = PartTexels.of(texel_raster(surface.atlas, 1024), surface.hands["Left"])
-    alone = HandSurface.of(surface.rest, surface.triangles, surface.hands["Left"])
+    alone = HandSurface.of(surface.rest, surface.triangles, surface.hands["Left"], bones)
     along = (surface.rest[surface.triangles].mean(1) - bones.wrist) @ bones.along
     return KnownHand(surface, bones, alone, texels, along)
 
@@ -81,3 +81,11 @@ def test_a_sleeve_over_the_wrist_stays_and_a_lawn_behind_fingers_does_not(hand: 
     found = hand.joined(filmed, painted, np.full(len(hand.along), FINE))
     np.testing.assert_allclose(found[at < 0.027], filmed[at < 0.027], atol=1)
     assert np.abs(found[at > 0.04] - SKIN).max() < 8
+
+
+def test_a_pocket_before_one_side_of_the_palm_is_no_sleeve(hand: KnownHand) -> None:
+    places = hand.texels.blend(hand.surface.rest, hand.surface.triangles)
+    across = (places - hand.bones.wrist) @ np.cross(hand.bones.along, hand.bones.back)
+    filmed = np.where(((hand.at < 0.06) & (across > 0.01))[:, None], BLUE, SKIN)
+    found = hand.joined(filmed, np.tile(SKIN, (len(filmed), 1)), np.full(len(hand.along), FINE))
+    assert np.abs(found[hand.at > 0.02] - SKIN).max() < 8

@@ -71,7 +71,12 @@ def hand_tone(
 
 def like_skin(lab: NDArray[np.floating], tone: NDArray[np.floating]) -> NDArray[np.bool_]:
     """(N,) which colours (N, 3) are, but for shading, of a skin's tone (3,); both CIELAB."""
-    return np.asarray(np.linalg.norm((lab - tone) * [0.5, 1, 1], axis=1) < SKIN_DISTANCE)
+    return skin_likeness(lab, tone) == 1
+
+
+def skin_likeness(lab: NDArray[np.floating], tone: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) in [0, 1]: the same, not as yes or no; nothing from twice the distance on."""
+    return np.clip(2 - np.linalg.norm((lab - tone) * [0.5, 1, 1], axis=1) / SKIN_DISTANCE, 0, 1).astype(np.float64)
 
 
 def toned(colours: NDArray[np.floating], tone: NDArray[np.floating]) -> NDArray[np.float32]:

@@ -13,12 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import splu
 
-from engine.avatar.texture.template_texture.hand_colours import like_skin
+from engine.avatar.texture.template_texture.hand_colours import like_skin, skin_likeness
+from engine.avatar.texture.template_texture.hands import HandBones
 from engine.avatar.texture.template_texture.part_texels import PartTexels
-from engine.geometry.adjacency import edge_table
 from engine.geometry.deformation.cotangent_laplacian import cotangent_laplacian
 from engine.geometry.surface import triangle_areas
 from engine.imaging.histogram_matching import to_lab
@@ -31,19 +30,23 @@ TONE_LENGTH = 0.008
 """Metres over which the difference of filmed and painted colours is a matter of tone, and not of detail."""
 RIM_LENGTH = 0.004
 """Metres over which details pass from filmed to painted ones."""
+RING = 0.005
+"""Metres along the hand in which it is looked whether a sleeve covers it ..."""
+CUFF_SLANT = 0.005
+"""... and by how much a cuff reaches farther on one side."""
 UNTOLD = 1e-4
 """Of an area that frames do not show, against one that they do: what holds a tone where they show nothing."""
 
 
 @dataclass(frozen=True)
 class HandSurface:
-    """A hand by itself: `triangles` (T, 3) into its `vertices` (V, 3), metres, and which of the whole surface's `faces` (T,) these
-    are, ascending; `rim` (V,) bool: those at which the arm goes on."""
+    """A hand by itself: `triangles` (T, 3) into its `vertices` (V, 3), metres; which of the whole surface's `faces` (T,) these are,
+    ascending; and how far `along` the hand they are, (T,) metres past the wrist."""
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.intp]
     faces: NDArray[np.intp]
-    rim: NDArray[np.bool_]
+    along: NDArray[np.float64]
 
     @property
     def areas(self) -> NDArray[np.float64]:
@@ -55,12 +58,14 @@ class HandSurface:
         return np.bincount(self.triangles.ravel(), amounts.repeat(3) / 3, len(self.vertices)).astype(np.float64)
 
     @staticmethod
-    def of(vertices: NDArray[np.floating], triangles: NDArray[np.integer], part: NDArray[np.bool_]) -> HandSurface:
+    def of(
+        vertices: NDArray[np.floating], triangles: NDArray[np.integer], part: NDArray[np.bool_], bones: HandBones
+    ) -> HandSurface:
         """That of the triangles `part` (F,) of a surface's `triangles` (F, 3) into its `vertices` (N, 3)."""
         faces = np.flatnonzero(part)
         used, corners = np.unique(triangles[faces], return_inverse=True)
-        others = np.isin(used, triangles[~part])
-        return HandSurface(np.asarray(vertices, np.float64)[used], corners.reshape(-1, 3), faces, others)
+        own, corners = np.asarray(vertices, np.float64)[used], corners.reshape(-1, 3)
+        return HandSurface(own, corners, faces, (own[corners].mean(1) - bones.wrist) @ bones.along)
 
 
 def joined_hand(
@@ -78,22 +83,23 @@ def joined_hand(
     texels : N of them, of the whole surface's faces.
     filmed, painted : (N, 3) 0 to 255.
     resolution : (F,) pixels per metre at which the frame that each face of the whole surface took shows it; 0 where none does.
-    tone : (3,) CIELAB, of the person's skin: what is shown of another colour is no hand, unless it comes out of the arm.
+    tone : (3,) CIELAB, of the person's skin: what is shown of another colour is no hand, but a sleeve or what lies behind.
     """
     number = np.searchsorted(hand.faces, texels.triangles)
     shown = resolution[hand.faces] > 0
     skin = shown & like_skin(to_lab(_means(filmed, number, len(hand.faces))), tone)
-    sleeve = _out_of_the_arm(hand, shown & ~skin)
+    sleeve = shown & ~skin & (hand.along < _sleeve_length(hand, shown, skin))
     few, enough = FINGER_PIXELS
     sharp = np.clip((resolution[hand.faces] * FINGER_WIDTH - few) / (enough - few), 0, 1)
     stiff = cotangent_laplacian(hand.vertices, hand.triangles)
     detail = _details(hand, stiff, skin | sleeve, np.where(sleeve, 1.0, sharp))
-    change = _change_of_tone(hand, stiff, texels, number, np.asarray(filmed, np.float64) - painted, skin)
+    like = skin_likeness(to_lab(filmed), tone) * skin[number]
+    change = _change_of_tone(hand, stiff, texels, number, np.asarray(filmed, np.float64) - painted, like)
 
     corners = hand.triangles[number]
     toned = painted + np.einsum("nk,nkc->nc", texels.shares, change[corners])
     share = np.einsum("nk,nk->n", texels.shares, detail[corners])
-    share = np.where(sleeve[number], 1.0, np.where(skin[number], share, 0.0))[:, None]
+    share = np.where(sleeve[number], 1.0, like * share)[:, None]
     return np.asarray(toned + share * (filmed - toned))
 
 
@@ -103,14 +109,14 @@ def _change_of_tone(
     texels: PartTexels,
     number: NDArray[np.intp],
     off: NDArray[np.float64],
-    skin: NDArray[np.bool_],
+    like: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """(V, 3) what takes painted colours to filmed ones: close to what texels, of the faces `number` (N,), are `off` (N, 3) where these
-    show `skin` (T,), and harmonic between."""
+    are `like` (N,) skin, and harmonic between."""
     areas = hand.areas
     corners, size = hand.triangles[number], len(hand.vertices)
-    each = skin * areas / np.maximum(np.bincount(number, minlength=len(areas)), 1)
-    told = texels.shares * each[number][:, None]
+    each = areas / np.maximum(np.bincount(number, minlength=len(areas)), 1)
+    told = texels.shares * (like * each[number])[:, None]
     mass = np.bincount(corners.ravel(), told.ravel(), size)
     pulls = np.stack([np.bincount(corners.ravel(), (told * off[:, [k]]).ravel(), size) for k in range(3)], 1)
     return _smooth(laplacian, mass + UNTOLD * hand.spread(areas), np.asarray(pulls, np.float64), TONE_LENGTH)
@@ -132,15 +138,13 @@ def _means(colours: NDArray[np.number], number: NDArray[np.intp], count: int) ->
     return np.stack([np.bincount(number, colours[:, k], count) / total for k in range(3)], 1)
 
 
-def _out_of_the_arm(hand: HandSurface, other: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(T,) those of the faces that are `other` (T,) than skin which hang together with the arm's: of a sleeve, or a glove."""
-    table = edge_table(np.ascontiguousarray(hand.triangles, np.int32), np.arange(len(hand.vertices), dtype=np.int32))
-    pairs = table[table[:, 3] >= 0, 2:]
-    pairs = pairs[other[pairs].all(1)]
-    links = sp.csr_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), (len(other), len(other)))
-    piece = connected_components(links, directed=False)[1]
-    beginning = other & hand.rim[hand.triangles].any(1)
-    return other & np.isin(piece, piece[beginning])
+def _sleeve_length(hand: HandSurface, shown: NDArray[np.bool_], skin: NDArray[np.bool_]) -> float:
+    """Metres past the wrist to where a sleeve, or a glove, may reach: it goes all around, so most of what frames have `shown` (T,) up to
+    there is no `skin` (T,), ring for ring."""
+    ring = np.maximum(hand.along / RING, 0).astype(np.intp)
+    seen = np.bincount(ring, hand.areas * shown)
+    bare = np.flatnonzero((np.bincount(ring, hand.areas * skin) >= seen / 2) & (seen > 0))
+    return float(RING * (bare[0] if len(bare) else len(seen)) + CUFF_SLANT)
 
 
 def _smooth(

@@ -99,7 +99,7 @@ def place_hands(
         facing = texels.blend(normals, surface.triangles)
         facing /= np.maximum(np.linalg.norm(facing, axis=1, keepdims=True), 1e-9)
         painted = toned(painted_hand(bones, places, facing), tone)
-        alone = HandSurface.of(surface.rest, surface.triangles, surface.hands[side])
+        alone = HandSurface.of(surface.rest, surface.triangles, surface.hands[side], bones)
         joined = joined_hand(alone, texels, own, painted, resolution, tone)
         bare = len(sleeve) and like_skin(to_lab(sleeve), tone).mean() > 0.5
         share = past_wrist(bones, places, WRIST_LENGTH if bare else CUFF_LENGTH)[:, None]
