@@ -1,0 +1,90 @@
+"""The faces of a photograph, and what decides whether one is of use."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.imaging.blur import blur_effect
+from engine.imaging.resample import resized, size_within
+from engine.perception.faces import find_faces
+from engine.perception.head_pose import head_pose
+from engine.perception.identity.descriptor import FaceDescriptor
+from engine.perception.identity.face_chip import ARCFACE_LAYOUT, face_chip
+
+LONGEST_SIDE = 1600
+"""Pixels at which photographs are looked at: faces of people who had their picture taken are large in them by then."""
+MAX_FACES_OF_PHOTO = 12
+"""Faces of one photograph that are looked at, the largest first: of a group, whoever is meant is among them."""
+JUDGED_EYE_DISTANCE = 40.0
+"""Pixels between the eyes at which blur is told: a large face is shrunk to it, so that what is told is of the face and not of the
+file's size."""
+CHIP = ARCFACE_LAYOUT
+EYES = ((33, 133), (263, 362))
+
+
+@dataclass(frozen=True)
+class PhotoFace:
+    """A face of a photograph.
+
+    photo : which one. mesh : (478, 3) float32, pixels of the photograph as it is looked at (`as_looked_at`). eye_distance : pixels
+    between the middles of the eyes. yaw, pitch : degrees by which it is turned to the picture's right, and down. blur : in [0, 1],
+    as `engine.imaging.blur` tells. size_share : its width, in shares of that of the photograph's largest face. descriptor : (D,)
+    float32. chip : (C, C) uint8 grey, the face laid on fixed places.
+    """
+
+    photo: int
+    mesh: NDArray[np.float32]
+    eye_distance: float
+    yaw: float
+    pitch: float
+    blur: float
+    size_share: float
+    descriptor: NDArray[np.float32]
+    chip: NDArray[np.uint8]
+
+
+def as_looked_at(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """A photograph (H, W, 3), shrunk where it is larger than faces ask for."""
+    return resized(rgb, size_within(rgb.shape, LONGEST_SIDE)) if max(rgb.shape[:2]) > LONGEST_SIDE else rgb
+
+
+def faces_of(rgb: NDArray[np.uint8], photo: int, describe: FaceDescriptor) -> list[PhotoFace]:
+    """The faces of a photograph `rgb` (H, W, 3) uint8, as `as_looked_at` gives it, the largest first."""
+    meshes = find_faces(rgb, MAX_FACES_OF_PHOTO)
+    widest = max((float(np.ptp(mesh[:, 0])) for mesh in meshes), default=1.0)
+    return [_face(rgb, photo, mesh, widest, describe) for mesh in meshes]
+
+
+def _face(
+    rgb: NDArray[np.uint8], photo: int, mesh: NDArray[np.float32], widest: float, describe: FaceDescriptor
+) -> PhotoFace:
+    right, left = (mesh[list(eye)].mean(axis=0) for eye in EYES)
+    pose = head_pose(mesh, (rgb.shape[1], rgb.shape[0]))
+    # eyes of a turned face are seen nearer to each other than they are
+    distance = float(np.linalg.norm(left[:2] - right[:2])) / max(np.cos(pose.yaw), 0.5)
+    return PhotoFace(
+        photo,
+        mesh,
+        distance,
+        float(np.degrees(pose.yaw)),
+        float(np.degrees(pose.pitch)),
+        _blur(rgb, mesh, distance),
+        float(np.ptp(mesh[:, 0])) / widest,
+        describe(rgb, mesh),
+        cv2.cvtColor(face_chip(rgb, mesh, CHIP), cv2.COLOR_RGB2GRAY).astype(np.uint8),
+    )
+
+
+def _blur(rgb: NDArray[np.uint8], mesh: NDArray[np.float32], eye_distance: float) -> float:
+    low = np.maximum(np.floor(mesh[:, :2].min(axis=0)), 0).astype(int)
+    high = np.minimum(np.ceil(mesh[:, :2].max(axis=0)), np.array(rgb.shape[1::-1])).astype(int)
+    if (high - low < 8).any():
+        return 1.0
+    grey = np.asarray(cv2.cvtColor(rgb[low[1] : high[1], low[0] : high[0]], cv2.COLOR_RGB2GRAY), np.uint8)
+    scale = min(JUDGED_EYE_DISTANCE / max(eye_distance, 1.0), 1.0)
+    small = resized(grey, (max(round(grey.shape[1] * scale), 8), max(round(grey.shape[0] * scale), 8)))
+    return blur_effect(small)
