@@ -39,7 +39,9 @@ from engine.imaging.resample import enlarged_mask, resized
 FEATURE_SIDE = 1280
 """Pixels of the longer side of frames in which features are found."""
 STEREO_SIDE = 960
-"""The same of frames between which stereo measures: a millimetre and a half of somebody who fills them."""
+"""The same, at most, of frames between which stereo measures: a millimetre and a half of somebody who fills them."""
+FINEST_PIXEL = 0.001
+"""Metres of the person that a pixel of these shows at least: clouds are smoothed over eight."""
 LANDMARK_SIDE = 1280
 """The same of frames in which landmarks are found."""
 HEAD_VIEW_REACH = 1.5
@@ -161,11 +163,19 @@ def _foot_frame(chosen: ChosenFrames, found: ClipCameras, k: int) -> FootFrame:
 def measure_cloud(chosen: ChosenFrames, found: ClipCameras, landmarks: ClipLandmarks, tick: Tick) -> DenseCloud:
     """The person's cloud from one clip: section 3.2's second half. Raises what `dense_cloud` raises."""
     views = []
+    side = stereo_side(found)
     for k, mask in zip(landmarks.placed, landmarks.masks, strict=True):
-        image = chosen.picture(int(k), STEREO_SIDE)
+        image = chosen.picture(int(k), side)
         figure = enlarged_mask(mask, (image.shape[1], image.shape[0]))
         views.append(CapturedView(image, figure, _camera_of(found, int(k), (image.shape[0], image.shape[1]))))
     return dense_cloud(views, told=tick)
+
+
+def stereo_side(found: ClipCameras) -> int:
+    """The longer side, pixels, of the pictures that stereo takes: at the median camera's distance from the person's axis."""
+    cameras = [camera for camera in found.cameras if camera is not None]
+    shown = [float(np.hypot(camera.eye[0], camera.eye[2])) * max(camera.size) / camera.focal for camera in cameras]
+    return min(STEREO_SIDE, round(float(np.median(shown)) / FINEST_PIXEL))
 
 
 def scan_clip(

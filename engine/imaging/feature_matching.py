@@ -49,10 +49,22 @@ def guided_matches(
     ----------
     fundamental : (3, 3), from pixels of the first picture to lines of the second.
     """
-    likeness = a.descriptors @ b.descriptors.T
+    return _guided(a.descriptors @ b.descriptors.T, a, b, fundamental, max_error, max_ratio)
+
+
+def _guided(
+    likeness: NDArray[np.float32],
+    a: Features,
+    b: Features,
+    fundamental: NDArray[np.float64],
+    max_error: float,
+    max_ratio: float,
+) -> NDArray[np.intp]:
+    """`guided_matches` by the descriptors' `likeness` (A, B), which is overwritten."""
     lines = np.concatenate([a.pixels, np.ones((len(a), 1))], axis=1) @ fundamental.T
     lines /= np.maximum(np.linalg.norm(lines[:, :2], axis=1, keepdims=True), 1e-12)
-    _keep_near(likeness, lines, b.pixels.astype(np.float64), max_error)
+    x, y = np.ascontiguousarray(b.pixels.T)
+    _keep_near(likeness, lines.astype(np.float32), x, y, np.float32(max_error))
     matches = np.asarray(_mutual(likeness, max_ratio), np.intp)
     return matches[likeness[matches[:, 0], matches[:, 1]] >= MIN_LIKENESS]
 
@@ -64,8 +76,11 @@ def verified_matches(a: Features, b: Features, length: float, max_ratio: float =
     ----------
     length : the pictures' longer side, pixels.
     """
-    matches = match_features(a, b, max_ratio)
     none = np.zeros((0, 2), np.intp)
+    if len(a) < 2 or len(b) < 2:
+        return none
+    likeness = a.descriptors @ b.descriptors.T
+    matches = np.asarray(_mutual(likeness, max_ratio), np.intp)
     if len(matches) < MIN_MATCHES:
         return none
     first, second = a.pixels[matches[:, 0]].astype(np.float64), b.pixels[matches[:, 1]].astype(np.float64)
@@ -81,7 +96,7 @@ def verified_matches(a: Features, b: Features, length: float, max_ratio: float =
         return none
     if agreed.sum() >= MANY_MATCHES:
         return matches[agreed]
-    return guided_matches(a, b, np.asarray(fundamental, np.float64)[:3], error, max_ratio)
+    return _guided(likeness, a, b, np.asarray(fundamental, np.float64)[:3], error, max_ratio)
 
 
 def overlaps(pictures: Sequence[Features], max_ratio: float = MAX_RATIO) -> NDArray[np.intp]:
@@ -94,13 +109,14 @@ def overlaps(pictures: Sequence[Features], max_ratio: float = MAX_RATIO) -> NDAr
     return found
 
 
-@njit(nogil=True)
-def _keep_near(likeness: np.ndarray, lines: np.ndarray, pixels: np.ndarray, max_error: float) -> None:
+@njit(nogil=True, boundscheck=False, fastmath=True)
+def _keep_near(likeness: np.ndarray, lines: np.ndarray, x: np.ndarray, y: np.ndarray, max_error: np.float32) -> None:
     """Give up, as unlike, what is farther from a line (a, b, c) than this."""
     for i in range(likeness.shape[0]):
+        across, along, away = lines[i]
         for j in range(likeness.shape[1]):
-            if abs(lines[i, 0] * pixels[j, 0] + lines[i, 1] * pixels[j, 1] + lines[i, 2]) > max_error:
-                likeness[i, j] = -1
+            near = abs(across * x[j] + along * y[j] + away) <= max_error
+            likeness[i, j] = likeness[i, j] if near else np.float32(-1)
 
 
 @njit(nogil=True)

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
+from engine.avatar.capture.cameras import ClipCameras
 from engine.avatar.capture.dense import DenseCloud
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.options import KnownLens
-from engine.avatar.stages import ClipScan, lens_of_frames
+from engine.avatar.stages import STEREO_SIDE, ClipScan, lens_of_frames, stereo_side
 from engine.geometry.camera import Camera
 from engine.geometry.point_cloud import PointCloud
 
@@ -36,3 +37,12 @@ def test_a_scan_without_what_stands_off_the_body_has_the_other_points_with_their
     left = scan.without(np.array([[0, 0.1, 0.001]])).dense
     assert left.support.tolist() == [3, 6]
     np.testing.assert_array_equal(left.cloud.points, points[[0, 3]])
+
+
+def test_stereo_takes_no_finer_pictures_than_show_a_millimetre_of_the_person() -> None:
+    near, far = (Camera((0.0, 1.6, away), 1200.0, (359.5, 639.5), (1280, 720)) for away in (0.6, 2.0))
+    none = np.zeros((0, 3))
+    close_up = ClipCameras((near, None, near, far), (near, None, near, far), np.zeros(4, np.bool_), (), none)
+    assert stereo_side(close_up) == 640  # a pixel of a frame is half a millimetre wide
+    whole = ClipCameras((far, far), (far, far), np.zeros(2, np.bool_), (), none)
+    assert stereo_side(whole) == STEREO_SIDE

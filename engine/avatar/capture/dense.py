@@ -37,6 +37,8 @@ SOURCES, ASKED = 4, 12
 """Views that a view is measured against, and those that are asked about its points."""
 ALIGNMENT_ROUNDS = 2
 """Rounds of laying views on the fused cloud."""
+FUSED_STEP = 2
+"""Of a view's rows and of its columns one in so many gives points of the cloud: others show the same places."""
 ALIGNMENT_STEP = 3
 """Of a view's rows and of its columns one in so many is fused to the cloud on which views are laid."""
 ALIGNED_POINTS = 1500
@@ -104,7 +106,7 @@ def dense_cloud(
         if not len(thin.cloud):
             raise _not_measured()
         cameras = _aligned(maps, cameras, thin)
-    fused = fuse_depth_maps(maps, cameras, images, asked, agreement)
+    fused = fuse_depth_maps(maps, cameras, images, asked, agreement, FUSED_STEP)
     cloud, support = _with_rims(*_cleaned(fused), straight, hull)
     told(1.0)
     moved = [replace(v.camera, eye=c.eye, axes=c.axes) for c, v in zip(cameras, views, strict=True)]
