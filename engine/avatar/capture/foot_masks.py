@@ -31,7 +31,7 @@ SHIN = 0.5
 """Of the way to the knee, how much is surely a leg."""
 SURE_SHARE = 0.04
 """Half the width of what surely is, in lengths of the foot."""
-ROUNDS = 3
+ROUNDS = 2
 """How often masks and floor are found from each other."""
 COVER_PIXELS = 2
 """Around a mask, that are not taken for the floor's."""
