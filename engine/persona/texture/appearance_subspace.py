@@ -1,0 +1,85 @@
+"""What all photographs of a face have in common, in whatever light: a subspace of few dimensions, and where one does not lie in it.
+
+Source: section 5, "appearance subspaces"; I. Kemelmacher-Shlizerman, S. M. Seitz, Collection flow, CVPR 2012, which it follows: rank 4. Ours is
+robust: spectacles, hands, caps and hard shadows are left out of the fit, and told.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+RANK = 4
+"""A convex face under any light is a mixture of four pictures to within a few hundredths (R. Basri, D. W. Jacobs, PAMI 2003)."""
+ROUNDS = 3
+RESIDUAL_SIGMA = 14.0
+"""Grey levels off the subspace, of a face of mean grey, at which a pixel counts half."""
+EXPOSED_GREY = 120.0
+"""Mean grey of the face to which every photograph is exposed before it is compared."""
+FINE_SIGMA, COARSE_SIGMA = 1.0, 2.0
+"""Pixels of a frame 194 wide: finer residuals are noise, and pixels count with those about them."""
+REFERENCE_WIDTH = 194
+"""Pixels of the paper's textures, for which sigmas are told."""
+
+
+@dataclass(frozen=True)
+class Appearance:
+    """N photographs (H, W) as their subspace has them.
+
+    exposed : (N, H, W) float32, the photographs' greys, each of the same mean. projected : (N, H, W), these in the subspace, which is
+    each photograph's light on the common face. weights : (N, H, W) in [0, 1], how far each pixel can be believed.
+    """
+
+    exposed: NDArray[np.float32]
+    projected: NDArray[np.float32]
+    weights: NDArray[np.float32]
+
+
+def exposed(grey: NDArray[np.float32], face: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """Greys (N, H, W), each scaled so that its mean over the `face` (H, W) is `EXPOSED_GREY`."""
+    means = np.maximum(grey[:, face].mean(axis=1), 1.0)
+    return grey * (EXPOSED_GREY / means)[:, None, None].astype(np.float32)
+
+
+def appearance(
+    grey: NDArray[np.float32],
+    shown: NDArray[np.float32],
+    area: NDArray[np.bool_],
+    start: NDArray[np.float32] | None = None,
+) -> Appearance:
+    """The subspace of photographs `grey` (N, H, W), exposed alike, over the pixels of `area` (H, W); `shown` (N, H, W) in [0, 1] is how
+    well each pixel is shown, `start` the weights to begin with.
+
+    Iteratively reweighted: a pixel that is not believed is replaced by what the subspace has there before it is fitted again.
+    """
+    seen = grey[:, area]
+    weights = (shown if start is None else start)[:, area]
+    filled = seen.copy()
+    projected = grey.copy()
+    whole = weights
+    for _ in range(ROUNDS):
+        low = _low_rank(filled)
+        projected[:, area] = low
+        whole = _believed(grey - projected) * shown
+        weights = whole[:, area]
+        filled = weights * seen + (1 - weights) * low
+    return Appearance(grey, projected, np.asarray(whole, np.float32))
+
+
+def _low_rank(rows: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The nearest rows (N, P) that span `RANK` dimensions, by the eigenvectors of their products."""
+    _, vectors = np.linalg.eigh((rows @ rows.T).astype(np.float64))
+    basis = vectors[:, -RANK:].astype(np.float32)
+    return basis @ (basis.T @ rows)
+
+
+def _believed(residual: NDArray[np.float32]) -> NDArray[np.float32]:
+    unit = residual.shape[2] / REFERENCE_WIDTH
+    out = np.empty_like(residual)
+    for one, weight in zip(residual, out, strict=True):
+        off = cv2.GaussianBlur(np.abs(cv2.GaussianBlur(one, (0, 0), FINE_SIGMA * unit)), (0, 0), COARSE_SIGMA * unit)
+        weight[:] = 1 / (1 + (np.asarray(off) / RESIDUAL_SIGMA) ** 4)
+    return out
