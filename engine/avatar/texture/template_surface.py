@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
@@ -19,6 +20,10 @@ from engine.geometry.joint_names import SIDES, Side
 from engine.geometry.surface import triangulate
 from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv
 
+HAND_DRIFT = 0.025
+"""Metres from a hand within which frames may show it in place of what is there ..."""
+GROWN_TOGETHER = 0.12
+"""... and within which, in the template, what is there is the hand itself, or its arm."""
 ATTACHED = len(AVATAR_PARTS)
 """The part of triangles that stand off the body."""
 
@@ -40,9 +45,20 @@ class TemplateSurface:
 
     def fitted(self, vertices: NDArray[np.floating]) -> ChartedSurface:
         """The surface of the person whose template vertices are (V, 3), metres: all of the body's skin but the mouth's bag is
-        stitched from frames, and so is what stands off it."""
-        stitched = np.isin(self.part, [AVATAR_PARTS.index("body"), ATTACHED]) & ~self.mouth
-        return ChartedSurface(np.asarray(vertices, np.float64), self.triangles, self.atlas, stitched)
+        stitched from frames, and so is what stands off it; but not what a hand lies on."""
+        places = np.asarray(vertices, np.float64)
+        stitched = np.isin(self.part, [AVATAR_PARTS.index("body"), ATTACHED]) & ~self.mouth & ~self._under_hands(places)
+        return ChartedSurface(places, self.triangles, self.atlas, stitched)
+
+    def _under_hands(self, vertices: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """(T,) what is close to a hand in the pose of the vertices (V, 3), and not by growth: frames show the hand there, too, as it
+        drifts."""
+        hand = np.unique(self.triangles[np.any(list(self.hands.values()), axis=0)])
+        posed, rest = (
+            cKDTree(places[hand]).query(places[self.triangles].mean(1), distance_upper_bound=reach)[0]
+            for places, reach in ((vertices, HAND_DRIFT), (self.rest, GROWN_TOGETHER))
+        )
+        return np.isfinite(posed) & ~np.isfinite(rest)
 
     def wearing(self, worn: Attachments) -> TemplateSurface:
         """The surface with what stands off the body, whose vertices and places on the texture come after its own."""

@@ -52,6 +52,19 @@ def test_the_surface_knows_its_parts(surface: TemplateSurface) -> None:
     assert not stitched[surface.mouth].any() and stitched[surface.hands["Left"]].all()
 
 
+def test_what_a_hand_lies_on_is_not_taken_from_frames(surface: TemplateSurface) -> None:
+    hand = np.unique(surface.triangles[surface.hands["Left"]])
+    posed = surface.rest.copy()
+    middles = surface.rest[surface.triangles].mean(1)
+    thigh = np.array([0.2, -0.25, 0.05])
+    posed[hand] += thigh - posed[hand].mean(0)
+    lost = surface.fitted(surface.rest).stitched & ~surface.fitted(posed).stitched
+    assert lost.any() and not lost[surface.hands["Left"] | surface.hands["Right"]].any()
+    assert (np.linalg.norm(middles[lost] - thigh, axis=1) < 0.15).all()
+    near = np.linalg.norm(middles[:, None] - posed[hand][None, ::20], axis=2).min(1) < 0.01
+    assert lost[near & (middles[:, 1] < 0)].all()
+
+
 def test_an_eye_is_black_then_coloured_then_white() -> None:
     eyes = eyeball()
     lightness, off = painted_eyes(eyes).mean(1), eyes.off_axis
