@@ -78,7 +78,7 @@ def _opposite(frame: TextureFrame) -> NDArray[np.float32]:
 def _within(lookup: NDArray[np.float32], shape: tuple[int, ...]) -> NDArray[np.float32]:
     """(H, W) one where a photograph of `shape` (h, w, 3) reaches, zero beyond its edge."""
     inside = (lookup >= 0) & (lookup <= np.array(shape[1::-1]) - 1)
-    return inside.all(axis=-1).astype(np.float32)
+    return np.asarray(inside.all(axis=-1), np.float32)
 
 
 def _rotation(frame: TextureFrame, mesh: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -14,9 +14,18 @@ from numpy.typing import NDArray
 
 RANK = 4
 """A convex face under any light is a mixture of four pictures to within a few hundredths (R. Basri, D. W. Jacobs, PAMI 2003)."""
-ROUNDS = 3
+MIN_BELIEF = 0.01
+"""Weight of all pixels as they are, so that a photograph of which next to nothing is believed has a light, too."""
 RESIDUAL_SIGMA = 14.0
 """Grey levels off the subspace, of a face of mean grey, at which a pixel counts half."""
+ROUNDS = (
+    (1, 4 * RESIDUAL_SIGMA),
+    (2, 3 * RESIDUAL_SIGMA),
+    (3, 2 * RESIDUAL_SIGMA),
+    (RANK, RESIDUAL_SIGMA),
+    (RANK, RESIDUAL_SIGMA),
+)
+"""Rank and sigma of each in which the subspace is fitted: begun with all dimensions, one would be what covers some of the faces."""
 EXPOSED_GREY = 120.0
 """Mean grey of the face to which every photograph is exposed before it is compared."""
 FINE_SIGMA, COARSE_SIGMA = 1.0, 2.0
@@ -53,33 +62,42 @@ def appearance(
     """The subspace of photographs `grey` (N, H, W), exposed alike, over the pixels of `area` (H, W); `shown` (N, H, W) in [0, 1] is how
     well each pixel is shown, `start` the weights to begin with.
 
-    Iteratively reweighted: a pixel that is not believed is replaced by what the subspace has there before it is fitted again.
+    Iteratively reweighted: each photograph's light is told by the pixels that are believed, and those that are not are replaced by
+    what the subspace has there before it is fitted again.
     """
     seen = grey[:, area]
     weights = (shown if start is None else start)[:, area]
     filled = seen.copy()
     projected = grey.copy()
     whole = weights
-    for _ in range(ROUNDS):
-        low = _low_rank(filled)
+    for rank, sigma in ROUNDS:
+        low = _low_rank(filled, seen, weights, rank)
         projected[:, area] = low
-        whole = _believed(grey - projected) * shown
+        whole = _believed(grey - projected, sigma) * shown
         weights = whole[:, area]
         filled = weights * seen + (1 - weights) * low
     return Appearance(grey, projected, np.asarray(whole, np.float32))
 
 
-def _low_rank(rows: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The nearest rows (N, P) that span `RANK` dimensions, by the eigenvectors of their products."""
-    _, vectors = np.linalg.eigh((rows @ rows.T).astype(np.float64))
-    basis = vectors[:, -RANK:].astype(np.float32)
-    return basis @ (basis.T @ rows)
+def _low_rank(
+    filled: NDArray[np.float32], seen: NDArray[np.float32], weights: NDArray[np.float32], rank: int
+) -> NDArray[np.float32]:
+    """(N, P) rows of the `rank` dimensions that rows `filled` (N, P) span best, each nearest to its row of `seen` where `weights` (N, P)
+    believe it."""
+    _, vectors = np.linalg.eigh((filled @ filled.T).astype(np.float64))
+    basis = vectors[:, -rank:].astype(np.float32).T @ filled
+    basis /= np.linalg.norm(basis, axis=1, keepdims=True)
+    products = (basis[:, None] * basis[None]).reshape(rank * rank, -1)
+    normal = (weights @ products.T).reshape(-1, rank, rank).astype(np.float64)
+    normal += MIN_BELIEF * np.eye(rank)
+    wanted = (weights * seen) @ basis.T + MIN_BELIEF * (filled @ basis.T)
+    return np.asarray(np.linalg.solve(normal, wanted[..., None].astype(np.float64))[..., 0], np.float32) @ basis
 
 
-def _believed(residual: NDArray[np.float32]) -> NDArray[np.float32]:
+def _believed(residual: NDArray[np.float32], sigma: float) -> NDArray[np.float32]:
     unit = residual.shape[2] / REFERENCE_WIDTH
     out = np.empty_like(residual)
     for one, weight in zip(residual, out, strict=True):
         off = cv2.GaussianBlur(np.abs(cv2.GaussianBlur(one, (0, 0), FINE_SIGMA * unit)), (0, 0), COARSE_SIGMA * unit)
-        weight[:] = 1 / (1 + (np.asarray(off) / RESIDUAL_SIGMA) ** 4)
+        weight[:] = 1 / (1 + (np.asarray(off) / sigma) ** 4)
     return out
