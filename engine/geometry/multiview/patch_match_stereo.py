@@ -20,12 +20,14 @@ from engine.compiled import njit
 from engine.geometry.camera import Camera
 from engine.geometry.multiview.window_matching import SAMPLES, WINDOW_MEMORY, Plane, Ray, fill_window, plane_cost
 
-FIRST_ROUNDS, FINER_ROUNDS = 5, 2
-"""Rounds over all pixels in the coarsest pictures and in each finer one."""
+FIRST_ROUNDS, FINER_ROUNDS = 3, 2
+"""Rounds over all pixels in the coarsest pictures and in each finer one. By trial on films: what a round changes far enough is worth
+more than further rounds."""
 PROPAGATION_STEPS = (1, 3, 5)
 """Pixels away in which a plane is fetched, in each of four directions: odd, so that they are of the other colour."""
 REDRAWN_SHARE = 0.35
-"""Share of the depth's range at which depths are drawn anew in the first round; it halves from round to round."""
+"""Share of the depth's range at which depths are drawn anew in the first round; it halves from round to round. The next finer pictures
+begin with a quarter of it, and those after with half as much."""
 RANDOM_NUMBERS = 1 << 16
 """Random numbers drawn for one run; pixels take theirs in turn."""
 LIMIT_OF_TILT = 0.17
@@ -92,7 +94,7 @@ def patch_match_stereo(
             bounds = np.asarray(cv2.resize(reach, size[::-1], interpolation=cv2.INTER_NEAREST), np.float32)
         measured = finer.figure & (bounds[..., 0] > 0)
         planes = _first_planes(measured, bounds, finer.camera, draws) if planes is None else _enlarged(planes, size)
-        planes, cost = _searched(finer, others, planes, bounds, measured, draws, level == levels - 1)
+        planes, cost = _searched(finer, others, planes, bounds, measured, draws, levels - 1 - level)
     assert planes is not None
     depth = np.where(measured, planes[..., 0], 0).astype(np.float32)
     return DepthMap(depth, np.asarray(planes[..., 1:] @ view.camera.rotation, np.float32), cost)
@@ -105,17 +107,17 @@ def _searched(
     bounds: NDArray[np.float32],
     measured: NDArray[np.bool_],
     draws: NDArray[np.float32],
-    coarsest: bool,
+    enlargements: int,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """The planes (H, W, 4) improved, and their costs (H, W)."""
+    """The planes (H, W, 4) improved, and their costs (H, W); the pictures are the coarsest ones after so many `enlargements`."""
     lens = np.array([view.camera.focal, view.camera.focal * view.camera.aspect, *view.camera.centre], np.float32)
     greys = np.concatenate([source.grey.ravel() for source in sources])
     figures = np.stack([source.figure for source in sources])
     relative = np.stack([_relative(view.camera, source.camera) for source in sources])
     cost = np.full(view.grey.shape, np.inf, np.float32)
-    rounds = FIRST_ROUNDS if coarsest else FINER_ROUNDS
+    rounds, begun = (FINER_ROUNDS, enlargements + 1) if enlargements else (FIRST_ROUNDS, 0)
     for turn in range(rounds):
-        spread = REDRAWN_SHARE * 0.5**turn if coarsest else REDRAWN_SHARE * 0.5 ** (FIRST_ROUNDS + turn)
+        spread = REDRAWN_SHARE * 0.5 ** (begun + turn)
         for colour in (0, 1):
             _visit(
                 view.grey, view.figure, measured, bounds, lens, greys, figures, relative,
@@ -167,7 +169,7 @@ def _visit(
     spread: float,
     visit: int,
 ) -> None:
-    """Try at every second pixel the planes of its neighbours and changes of its own; keep the best."""
+    """Try at every second pixel the planes of its neighbours and one near its own; keep the best."""
     height, width = grey.shape
     for y in prange(height):
         window, places = np.empty(WINDOW_MEMORY, np.float32), np.empty(SAMPLES, np.int32)
@@ -181,12 +183,12 @@ def _visit(
             least = cost[y, x]
             if least == np.inf:
                 least = plane_cost(best, ray, lens, window, places, count, variance, greys, figures, relative)
-            for attempt in range(7):
+            for attempt in range(5):
                 if attempt < 4:
                     trial = _fetched(planes, cost, measured, x, y, attempt, ray, lens)
                 else:
-                    row = draws[((y * width + x) * 3 + attempt + visit * 7919) % RANDOM_NUMBERS]
-                    trial = _changed(best, row, attempt, np.float32(spread), far - near, ray)
+                    row = draws[(y * width + x + visit * 7919) % RANDOM_NUMBERS]
+                    trial = _changed(best, row, np.float32(spread), far - near, ray)
                 if near <= trial[0] <= far:
                     found = plane_cost(trial, ray, lens, window, places, count, variance, greys, figures, relative)
                     if found < least:
@@ -223,25 +225,15 @@ def _fetched(
 
 
 @njit(boundscheck=False, error_model="numpy", fastmath=True)
-def _changed(
-    plane: Plane,
-    row: np.ndarray,
-    attempt: int,
-    spread: np.float32,
-    span: np.float32,
-    ray: Ray,
-) -> Plane:
-    """A plane with another depth (attempt 4), another normal (5) or both; depth 0 where it turns away from the camera."""
+def _changed(plane: Plane, row: np.ndarray, spread: np.float32, span: np.float32, ray: Ray) -> Plane:
+    """A plane with another depth and another normal; depth 0 where it turns away from the camera."""
     half, width = np.float32(0.5), np.float32(4) * spread
-    depth, a, b, c = plane
-    if attempt != 5:
-        depth += spread * span * (row[0] - half)
-    if attempt != 4:
-        a, b, c = a + width * (row[1] - half), b + width * (row[2] - half), c + width * (row[3] - half)
-        length = np.sqrt(a * a + b * b + c * c)
-        a, b, c = a / length, b / length, c / length
-        if _turned_away(a, b, c, ray):
-            depth = np.float32(0)
+    depth = plane[0] + spread * span * (row[0] - half)
+    a, b, c = plane[1] + width * (row[1] - half), plane[2] + width * (row[2] - half), plane[3] + width * (row[3] - half)
+    length = np.sqrt(a * a + b * b + c * c)
+    a, b, c = a / length, b / length, c / length
+    if _turned_away(a, b, c, ray):
+        depth = np.float32(0)
     return depth, a, b, c
 
 
