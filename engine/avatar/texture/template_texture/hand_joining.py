@@ -93,13 +93,17 @@ def joined_hand(
     sharp = np.clip((resolution[hand.faces] * FINGER_WIDTH - few) / (enough - few), 0, 1)
     stiff = cotangent_laplacian(hand.vertices, hand.triangles)
     detail = _details(hand, stiff, skin | sleeve, np.where(sleeve, 1.0, sharp))
+    whole = hand.spread(hand.areas)
+    cover = _smooth(
+        stiff, hand.spread(hand.areas * shown) + UNTOLD * whole, hand.spread(hand.areas * sleeve), RIM_LENGTH
+    )
     like = skin_likeness(to_lab(filmed), tone) * skin[number]
     change = _change_of_tone(hand, stiff, texels, number, np.asarray(filmed, np.float64) - painted, like)
 
     corners = hand.triangles[number]
     toned = painted + np.einsum("nk,nkc->nc", texels.shares, change[corners])
-    share = np.einsum("nk,nk->n", texels.shares, detail[corners])
-    share = np.where(sleeve[number], 1.0, like * share)[:, None]
+    share, covered = (np.einsum("nk,nk->n", texels.shares, field[corners]) for field in (detail, cover))
+    share = np.maximum(like * share, np.clip(4 * covered - 1, 0, 1))[:, None]
     return np.asarray(toned + share * (filmed - toned))
 
 
