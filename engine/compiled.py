@@ -4,9 +4,16 @@
 
 from __future__ import annotations
 
+import hashlib
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from types import CodeType
 from typing import Any
+
+import numpy as np
+
+CONSTANTS = (bool, int, float, str, tuple, np.generic)
+"""What a compiled function holds as it was when it was compiled."""
 
 UNUSED_MODULES = [name for name in ("coverage", "yaml") if name not in sys.modules]
 """What numba loads only because it is there; its settings come from the environment here, not from a file."""
@@ -44,3 +51,38 @@ class _Kept(FunctionCache):
         if kept is not None:
             return kept
         return super().load_overload(sig, target_context)  # type: ignore[no-untyped-call]
+
+    def _index_key(self, sig: Any, codegen: Any) -> Any:
+        """Numba looks at the function's own file alone; but what it calls is compiled into it, and constants of other files are."""
+        key = super()._index_key(sig, codegen)  # type: ignore[no-untyped-call]
+        return (*key, _fingerprint(self._py_func))
+
+
+def _fingerprint(function: Any) -> str:
+    """Of a function's code, of all compiled functions that it calls, and of the constants that they are compiled with."""
+    digest = hashlib.sha256()
+    seen: set[Any] = set()
+    open_ends = [function]
+    while open_ends:
+        one = open_ends.pop()
+        if one in seen:
+            continue
+        seen.add(one)
+        for code in _codes(one.__code__):
+            digest.update(code.co_code + repr([c for c in code.co_consts if not isinstance(c, CodeType)]).encode())
+            for name in code.co_names:
+                value = one.__globals__.get(name)
+                if isinstance(value, numba.core.dispatcher.Dispatcher):
+                    open_ends.append(value.py_func)
+                elif isinstance(value, CONSTANTS):
+                    digest.update(f"{name}={value!r}".encode())
+                elif isinstance(value, np.ndarray):
+                    digest.update(name.encode() + value.tobytes())
+    return digest.hexdigest()
+
+
+def _codes(code: CodeType) -> Iterator[CodeType]:
+    yield code
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            yield from _codes(constant)

@@ -60,3 +60,41 @@ def test_a_process_that_loaded_one_still_compiles_for_other_types(run) -> None:
 def test_what_numba_has_no_use_for_is_not_loaded_and_can_be_afterwards(run) -> None:
     assert run("import sys, engine.compiled; print('coverage' in sys.modules or 'yaml' in sys.modules)") == ["False"]
     assert run("import engine.compiled, yaml; print(yaml.safe_load('1'))") == ["1"]
+
+
+CALLED = """
+from engine.compiled import njit
+
+RATE = {rate}
+
+@njit()
+def scaled(value):
+    return value * RATE
+"""
+
+CALLING = """
+from called import OFFSET, scaled
+from engine.compiled import njit
+
+@njit()
+def both(value):
+    return inner(value) + OFFSET
+
+@njit()
+def inner(value):
+    return scaled(value)
+"""
+
+CALL = "from calling import both; print(both(10), dict(both.stats.cache_hits) != {})"
+
+
+def test_what_it_calls_and_what_it_holds_count_too(run, tmp_path: Path) -> None:
+    (tmp_path / "calling.py").write_text(CALLING)
+    (tmp_path / "called.py").write_text(CALLED.format(rate=2) + "OFFSET = 1\n")
+    assert run(CALL) == ["21", "False"]
+    assert run(CALL) == ["21", "True"]
+    (tmp_path / "called.py").write_text(CALLED.format(rate=3) + "OFFSET = 1\n")
+    assert run(CALL) == ["31", "False"], "the file of `both` is as it was"
+    (tmp_path / "called.py").write_text(CALLED.format(rate=3) + "OFFSET = 5\n")
+    assert run(CALL) == ["35", "False"]
+    assert run(CALL) == ["35", "True"]
