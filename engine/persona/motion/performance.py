@@ -1,0 +1,69 @@
+"""A driver's performance as the puppet plays it: "B's shape, B's texture, A's motion (adjusted to B's face)"."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.geometry.registration.rigid import fit_similarities
+from engine.perception.expression.features import frontalise
+from engine.perception.head_pose import canonical_face
+from engine.perception.landmarks import RIGID_VERTICES, eye_distance
+from engine.persona.motion.deformation_transfer import DeformationTransfer
+from engine.persona.persona import Persona
+from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
+from engine.persona.texture.expression_weights import SMOOTHING_FRAMES, expression_points, expression_weights
+from engine.persona.texture.texture_frame import texture_frame
+
+
+@dataclass(frozen=True)
+class Performance:
+    """F frames of a puppet.
+
+    faces : (F, 478, 3) float64 from the front, in eye distances. weights : (F, N) float32, how much each photograph counts. linear :
+    (F, 3, 3) and shift : (F, 3), where the driver's head is: pixels of its video for eye distances.
+    """
+
+    faces: NDArray[np.float64]
+    weights: NDArray[np.float32]
+    linear: NDArray[np.float64]
+    shift: NDArray[np.float64]
+
+
+def perform(
+    persona: Persona,
+    meshes: NDArray[np.floating],
+    rest: int,
+    tick: Callable[[float], None] = lambda fraction: None,
+) -> Performance:
+    """What the puppet does when the driver's face does `meshes` (F, 478, 3), pixels of its video; in the frame `rest` it is at rest."""
+    front = frontalise(meshes)
+    driver = front[rest]
+    transfer = DeformationTransfer(
+        texture_frame(driver, persona.frame.size), texture_frame(persona.neutral, persona.frame.size)
+    )
+    faces = np.empty((len(front), *persona.neutral.shape))
+    for number, face in enumerate(front):
+        faces[number] = persona.neutral + transfer(face - driver)
+        tick((number + 1) / len(front))
+    scale = persona.frame.scale * _reference(persona)
+    weights = expression_weights(expression_points(faces) * scale, persona.points * scale, SMOOTHING_FRAMES)
+    linear, shift = _placings(meshes)
+    return Performance(faces, weights, linear, shift)
+
+
+def _reference(persona: Persona) -> float:
+    """Pixels of a frame 194 wide for one of the persona's."""
+    return REFERENCE_WIDTH / persona.frame.size[1]
+
+
+def _placings(meshes: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(F, 3, 3) and (F, 3) that carry faces from the front, in eye distances, to where the meshes are."""
+    chosen = list(RIGID_VERTICES)
+    model = canonical_face()[chosen].astype(np.float64)
+    _, rotation, shift = fit_similarities(model, np.asarray(meshes, np.float64)[:, chosen], np.ones(len(chosen)))
+    turned_back = np.einsum("nji,nvj->nvi", rotation, meshes - shift[:, None])
+    return rotation * eye_distance(turned_back)[:, None, None], shift
