@@ -9,19 +9,32 @@ from engine.media.video import read_video
 from engine.perception.faces import FaceTracker
 from engine.performances import video
 
-FRAMES_OF_EACH = 4
+PERFORMANCES = (
+    "happy",
+    "surprise",
+    "anger",
+    "sadness",
+    "fear",
+    "happy-strong",
+    "surprise-strong",
+    "anger-strong",
+    "sadness-strong",
+)
+INSTANTS = (0.25, 0.45, 0.65)
+"""Of each of them: at their beginnings and ends he is at rest, which is one photograph many times."""
 
 
 @pytest.fixture(scope="session")
 def collection() -> tuple[np.ndarray, list[np.ndarray]]:
-    """Meshes (N, 478, 3) and photographs of six performances."""
+    """Meshes (N, 478, 3) and photographs: three of each performance, and one at rest."""
     meshes, photos = [], []
-    for name in ("happy", "happy-strong", "surprise", "anger", "sadness", "fear"):
+    for name in PERFORMANCES:
         frames = [frame.rgb for frame in read_video(video(name))]
-        for index in np.linspace(0, len(frames) - 1, FRAMES_OF_EACH).astype(int):
+        for instant in (*((0.0,) if name == "happy" else ()), *INSTANTS):
+            photo = frames[round(instant * (len(frames) - 1))]
             with FaceTracker(alone=True) as tracker:
-                found = tracker(frames[index])
+                found = tracker(photo)
             if found:
                 meshes.append(found[0])
-                photos.append(frames[index])
+                photos.append(photo)
     return np.array(meshes), photos

@@ -1,0 +1,106 @@
+"""The stages of a persona: what is stored of each, and what it is made of."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from engine.errors import InputError
+from engine.perception.identity.descriptor import FaceDescriptor
+from engine.persona.collection.person import belonging
+from engine.persona.collection.photo_face import PhotoFace, faces_of
+from engine.persona.collection.photos import Photos
+from engine.persona.collection.sorting import Choice, Reason, reasons_against
+from engine.persona.learning import learn_persona
+from engine.persona.persona import Persona
+
+MIN_PHOTOS = 15
+"""That can be used, for a persona."""
+EYE_SHARE = 67 / 194
+"""Of a texture's width, between the eyes."""
+ENLARGEMENT = 1.6
+"""Of the median photograph's face, by which textures may be larger: many photographs together are finer than one."""
+MIN_WIDTH, MAX_WIDTH = 194, 400
+"""Pixels of a texture: the paper's, and one that a portrait of 800 pixels has use for."""
+ASPECT = 244 / 194
+
+WORDS: dict[Reason, str] = {
+    "somebody_else": "show somebody else",
+    "uncertain": "may show somebody else",
+    "turned": "are turned too far aside, up or down",
+    "tiny": "are too small",
+    "blurred": "are blurred",
+    "duplicate": "are there twice",
+    "left_out": "were left out",
+}
+
+
+@dataclass(frozen=True)
+class PhotoFaces:
+    """The faces of all photographs."""
+
+    faces: tuple[PhotoFace, ...]
+
+
+@dataclass(frozen=True)
+class SortedFaces:
+    """The faces of a collection, why each is of no use (`Reason`, None where it is kept), and how far it is from the person."""
+
+    faces: tuple[PhotoFace, ...]
+    reasons: tuple[Reason | None, ...]
+    distances: tuple[float, ...]
+
+    @property
+    def kept(self) -> list[PhotoFace]:
+        """Those that are of use."""
+        return [face for face, reason in zip(self.faces, self.reasons, strict=True) if reason is None]
+
+
+def find_faces_of_photos(photos: Photos, describe: FaceDescriptor, tick: Callable[[float], None]) -> PhotoFaces:
+    """All faces, each with what decides whether it is of use."""
+    found: list[PhotoFace] = []
+    for number in range(len(photos)):
+        found += faces_of(photos.picture(number), number, describe)
+        tick((number + 1) / len(photos))
+    return PhotoFaces(tuple(found))
+
+
+def sort_faces(found: PhotoFaces, describe: FaceDescriptor, choice: Choice, example: int | None) -> SortedFaces:
+    """Whose faces they are, and which are of use.
+
+    Raises
+    ------
+    InputError : `no_person`, `several_people`, `too_few_photos`.
+    """
+    whose = belonging(found.faces, describe.distances, example)
+    reasons = reasons_against(found.faces, whose, choice)
+    kept = reasons.count(None)
+    if kept < MIN_PHOTOS:
+        raise InputError(
+            "too_few_photos",
+            f"{MIN_PHOTOS} photos of the person are needed, and {kept} can be used: {MIN_PHOTOS - kept} more, from before, with mouth"
+            f" and brows as they come.{_spoken(reasons)}",
+            ("photos",),
+        )
+    return SortedFaces(found.faces, reasons, tuple(float(one) for one in whose.distance))
+
+
+def learn(photos: Photos, kept: Sequence[PhotoFace], width: int, tick: Callable[[float], None]) -> Persona:
+    """The persona of the faces that are of use; textures `width` pixels wide."""
+    meshes = np.array([face.mesh for face in kept])
+    size = round(width * ASPECT), width
+    return learn_persona(meshes, lambda number: photos.picture(kept[number].photo), size, tick)
+
+
+def texture_width(kept: Sequence[PhotoFace]) -> int:
+    """Pixels, as the photographs have them."""
+    usual = float(np.median([face.eye_distance for face in kept])) / EYE_SHARE
+    return int(np.clip(round(usual * ENLARGEMENT), MIN_WIDTH, MAX_WIDTH))
+
+
+def _spoken(reasons: Sequence[Reason | None]) -> str:
+    told = Counter(reason for reason in reasons if reason is not None).most_common()
+    return f" Of the others {', '.join(f'{count} {WORDS[reason]}' for reason, count in told)}." if told else ""
