@@ -27,9 +27,12 @@ MAX_EYE_DISTANCES = 5.0
 class Persona:
     """A person's face, of N photographs in a frame (H, W).
 
-    mesh : (478, 3) float64, the frame's face from the front, in eye distances. neutral : (478, 3) float64, at rest. colours : (N, H, W, 3)
-    uint8 sRGB, balanced. belief : (N, H, W) uint8, 255 where a pixel can be believed. points : (N, 51, 2) float32, what expression each
-    photograph shows, in eye distances. depth : (H, W) float32, pixels away from the viewer.
+    mesh : (478, 3) float64, the frame's face from the front, in eye distances.
+    neutral : (478, 3) float64, the same at rest.
+    colours : (N, H, W, 3) uint8 sRGB, balanced.
+    belief : (N, H, W) uint8, 255 where a pixel can be believed.
+    points : (N, 51, 2) float32, what expression each photograph shows, in eye distances.
+    depth : (H, W) float32, pixels away from the viewer.
     """
 
     mesh: NDArray[np.float64]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -9,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from engine.errors import InputError
-from engine.perception.identity.descriptor import FaceDescriptor
+from engine.perception.identity.backend import face_descriptor
+from engine.perception.identity.descriptor import IdentityDistances
 from engine.persona.collection.person import belonging
 from engine.persona.collection.photo_face import PhotoFace, faces_of
 from engine.persona.collection.photos import Photos
@@ -59,8 +61,9 @@ class SortedFaces:
         return [face for face, reason in zip(self.faces, self.reasons, strict=True) if reason is None]
 
 
-def find_faces_of_photos(photos: Photos, describe: FaceDescriptor, tick: Callable[[float], None]) -> PhotoFaces:
-    """All faces, each with what decides whether it is of use."""
+def find_faces_of_photos(photos: Photos, described_by: str, tick: Callable[[float], None]) -> PhotoFaces:
+    """All faces, each with what decides whether it is of use. `described_by` names the model that tells people apart."""
+    describe = face_descriptor(os.environ)
     found: list[PhotoFace] = []
     for number in range(len(photos)):
         found += faces_of(photos.picture(number), number, describe)
@@ -68,14 +71,14 @@ def find_faces_of_photos(photos: Photos, describe: FaceDescriptor, tick: Callabl
     return PhotoFaces(tuple(found))
 
 
-def sort_faces(found: PhotoFaces, describe: FaceDescriptor, choice: Choice, example: int | None) -> SortedFaces:
+def sort_faces(found: PhotoFaces, distances: IdentityDistances, choice: Choice, example: int | None) -> SortedFaces:
     """Whose faces they are, and which are of use.
 
     Raises
     ------
-    InputError : `no_person`, `several_people`, `too_few_photos`.
+    InputError : `no_common_person`, `several_people`, `too_few_photos`.
     """
-    whose = belonging(found.faces, describe.distances, example)
+    whose = belonging(found.faces, distances, example)
     reasons = reasons_against(found.faces, whose, choice)
     kept = reasons.count(None)
     if kept < MIN_PHOTOS:

@@ -12,7 +12,7 @@ import pytest
 from engine.errors import InputError
 from engine.media.image import write_image
 from engine.media.limits import Limits
-from engine.perception.identity.backend import face_descriptor
+from engine.perception.identity.dlib_descriptor import DISTANCES
 from engine.persona.collection.photos import Photos, read_photos
 from engine.persona.collection.sorting import Choice
 from engine.persona.stages import (
@@ -47,7 +47,7 @@ def photos(collection: Collection, tmp_path_factory: pytest.TempPathFactory) -> 
 
 @pytest.fixture(scope="module")
 def found(photos: Photos) -> PhotoFaces:
-    return find_faces_of_photos(photos, face_descriptor({}), lambda fraction: None)
+    return find_faces_of_photos(photos, "dlib", lambda fraction: None)
 
 
 def test_what_is_no_photograph_is_skipped_and_listed(collection: Collection, photos: Photos) -> None:
@@ -62,7 +62,7 @@ def test_what_is_no_photograph_is_skipped_and_listed(collection: Collection, pho
 
 
 def test_the_stranger_is_told_and_the_person_is_kept(photos: Photos, found: PhotoFaces) -> None:
-    sorted_ = sort_faces(found, face_descriptor({}), Choice(), None)
+    sorted_ = sort_faces(found, DISTANCES, Choice(), None)
     reasons = dict(zip((face.photo for face in sorted_.faces), sorted_.reasons, strict=True))
     assert reasons[12] == "somebody_else"
     assert len(sorted_.kept) >= MIN_PHOTOS
@@ -73,14 +73,14 @@ def test_the_stranger_is_told_and_the_person_is_kept(photos: Photos, found: Phot
 def test_an_example_chooses_whose_persona_it_is(found: PhotoFaces) -> None:
     stranger = [face.photo for face in found.faces].index(12)
     with pytest.raises(InputError) as error:
-        sort_faces(found, face_descriptor({}), Choice(), stranger)
-    assert error.value.code == "no_person", "she is there once"
+        sort_faces(found, DISTANCES, Choice(), stranger)
+    assert error.value.code == "no_common_person", "she is there once"
 
 
 def test_too_few_say_how_many_more_and_why(found: PhotoFaces) -> None:
     leave_out = set(range(len(found.faces) - 9))
     with pytest.raises(InputError) as error:
-        sort_faces(found, face_descriptor({}), Choice(leave_out=leave_out), None)
+        sort_faces(found, DISTANCES, Choice(leave_out=leave_out), None)
     assert error.value.code == "too_few_photos"
     assert "were left out" in error.value.detail and "more" in error.value.detail
 
@@ -92,9 +92,7 @@ def test_textures_are_as_large_as_photographs_ask_for(found: PhotoFaces) -> None
 
 def test_photos_without_anybody_are_refused(tmp_path: Path) -> None:
     write_image(tmp_path / "sky.png", np.full((200, 300, 3), (90, 140, 220), np.uint8))
-    nobody = find_faces_of_photos(
-        read_photos([tmp_path / "sky.png"], Limits()), face_descriptor({}), lambda fraction: None
-    )
+    nobody = find_faces_of_photos(read_photos([tmp_path / "sky.png"], Limits()), "dlib", lambda fraction: None)
     with pytest.raises(InputError) as error:
-        sort_faces(nobody, face_descriptor({}), Choice(), None)
-    assert error.value.code == "no_person"
+        sort_faces(nobody, DISTANCES, Choice(), None)
+    assert error.value.code == "no_common_person"

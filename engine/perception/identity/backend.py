@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from engine.perception.identity.descriptor import FaceDescriptor
-from engine.perception.identity.dlib_descriptor import DlibDescriptor
+from engine.perception.identity.dlib_descriptor import MODEL_SHA256, DlibDescriptor
 from engine.perception.identity.operator_descriptor import OperatorDescriptor
 from engine.perception.models import DESCRIPTOR_SETTING, named_model
 
@@ -22,3 +22,9 @@ def face_descriptor(settings: Mapping[str, str]) -> FaceDescriptor:
     if named is not None:
         return OperatorDescriptor.load(named, settings)
     return DlibDescriptor.load()
+
+
+def descriptor_name(settings: Mapping[str, str]) -> str:
+    """Which model describes faces: its SHA-256. Raises `ModelError` as `face_descriptor` does."""
+    named = named_model(settings, DESCRIPTOR_SETTING)
+    return named.sha256 if named is not None else MODEL_SHA256

@@ -41,13 +41,15 @@ def belonging(faces: Sequence[PhotoFace], distances: IdentityDistances, example:
 
     Raises
     ------
-    InputError : `no_person` (no two faces are of one person), `several_people` (two are shown about as often, and no example says
+    InputError : `no_common_person` (no two faces are of one person), `several_people` (two are shown about as often, and no example says
         which is meant).
     """
     apart = _distances(faces) if faces else np.zeros((0, 0), np.float32)
     core = _cluster(apart, distances, np.arange(len(faces)) if example is None else np.array([example]))
     if len(core) < 2:
-        raise InputError("no_person", "No two faces of these photos are one person's: send photos of one person.")
+        raise InputError(
+            "no_common_person", "No two faces of these photos are one person's: send photos of one person."
+        )
     median = np.median(apart[:, core], axis=1)
     if example is None:
         _require_one(apart, median, core, distances)

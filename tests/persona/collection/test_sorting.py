@@ -56,7 +56,7 @@ def test_two_people_half_and_half_are_asked_about_and_an_example_answers() -> No
 def test_nobody_twice_is_nobody() -> None:
     with pytest.raises(InputError) as error:
         belonging([face(k, person(k, 1)[0]) for k in range(5)], DISTANCES)
-    assert error.value.code == "no_person"
+    assert error.value.code == "no_common_person"
     with pytest.raises(InputError):
         belonging([], DISTANCES)
 

@@ -1,0 +1,59 @@
+"""The puppet's film: how it is framed, and drawn frame by frame."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.imaging.resample import resized
+from engine.persona.motion.performance import Performance
+from engine.persona.persona import Persona
+from engine.persona.puppet import Puppet
+
+HEADROOM = 1.25
+"""Of the space that the face takes in all frames, that the picture has."""
+TEXTURES_AT_ONCE = 32
+
+
+def puppet_frames(
+    persona: Persona, performance: Performance, size: tuple[int, int], background: tuple[int, int, int]
+) -> Iterator[NDArray[np.uint8]]:
+    """(h, w, 3) frames of `size` (width, height): the puppet alone, moving as the driver's head does, and as large as lets all of it
+    be seen in every frame."""
+    width, height = size
+    plain = np.empty((height, width, 3), np.uint8)
+    plain[:] = background
+    puppet = Puppet(persona)
+    scale, shift = _framing(performance, size)
+    count = len(performance.faces)
+    for start in range(0, count, TEXTURES_AT_ONCE):
+        textures = persona.synthesis(performance.weights[start : start + TEXTURES_AT_ONCE])
+        for number, texture in enumerate(textures, start):
+            placing = performance.linear[number] * scale, performance.shift[number] * scale + shift
+            yield puppet.draw(performance.faces[number], texture, placing, plain)
+
+
+def beside(left: NDArray[np.uint8], right: NDArray[np.uint8], size: tuple[int, int]) -> NDArray[np.uint8]:
+    """Two pictures side by side in one of `size` (width, height): the left one fitted into its half, black about it."""
+    width, height = size
+    half = width // 2
+    out = np.zeros((height, width, 3), np.uint8)
+    out[:, half:] = right
+    factor = min(half / left.shape[1], height / left.shape[0])
+    small = resized(left, (max(round(left.shape[1] * factor), 1), max(round(left.shape[0] * factor), 1)))
+    y, x = (height - small.shape[0]) // 2, (half - small.shape[1]) // 2
+    out[y : y + small.shape[0], x : x + small.shape[1]] = small
+    return out
+
+
+def _framing(performance: Performance, size: tuple[int, int]) -> tuple[float, NDArray[np.float64]]:
+    """The scale and the shift (3,) that bring the driver's pixels into the picture."""
+    places = np.einsum("fij,fvj->fvi", performance.linear, performance.faces) + performance.shift[:, None]
+    low, high = places[..., :2].min(axis=(0, 1)), places[..., :2].max(axis=(0, 1))
+    extent = np.array(size, np.float64)
+    scale = float((extent / (HEADROOM * (high - low))).min())
+    shift = np.zeros(3)
+    shift[:2] = (extent - 1) / 2 - scale * (low + high) / 2
+    return scale, shift

@@ -1,0 +1,48 @@
+"""What a user may choose about a persona."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Side = Annotated[int, Field(ge=64, le=1920)]
+FaceNumber = Annotated[int, Field(ge=0, le=10_000)]
+FaceNumbers = Annotated[tuple[FaceNumber, ...], Field(max_length=10_000)]
+Channel = Annotated[int, Field(ge=0, le=255)]
+Seconds = Annotated[float, Field(ge=0, le=86_400)]
+
+
+class PersonaOptions(BaseModel):
+    """Options of the persona system; every one has a sound default."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    texture_width: Annotated[int, Field(ge=97, le=800)] | None = Field(
+        None, description="Pixels of the face's texture. Default: as many as the photos are worth, 194 to 400."
+    )
+    keep: FaceNumbers = Field(
+        (), description="Faces to use whatever speaks against them, by their numbers in `faces.json`."
+    )
+    leave_out: FaceNumbers = Field((), description="Faces not to use, by their numbers in `faces.json`.")
+    example: FaceNumber | None = Field(
+        None,
+        description="A face of the person that is meant, where photos show several, by its number in `faces.json`.",
+    )
+    size: tuple[Side, Side] = Field((600, 800), description="Width and height of the animation, in pixels.")
+    fps: Annotated[float, Field(ge=1, le=60)] | None = Field(
+        None, description="Frames a second of the animation. Default: one frame for each frame of the driver."
+    )
+    trim: tuple[Seconds, Seconds] | None = Field(
+        None, description="Start and end of the part of the driver to use, in seconds."
+    )
+    driver_face_index: Annotated[int, Field(ge=0, le=99)] = Field(
+        0, description="Which face of the driver, counted from the largest in the first frame that shows any."
+    )
+    composite: Literal["none", "side_by_side"] = Field(
+        "none", description="The puppet alone on a plain background, or beside the driver."
+    )
+    background: tuple[Channel, Channel, Channel] = Field(
+        (58, 60, 64), description="Red, green and blue of the plain background."
+    )
+    sound: bool = Field(False, description="Keep the driver's sound.")

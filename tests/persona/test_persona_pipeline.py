@@ -1,0 +1,92 @@
+"""From photographs to a film of the puppet, and again from what was kept."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from engine.media.image import read_image, write_image
+from engine.media.video import probe_video, read_video
+from engine.performances import video
+from engine.persona.options import PersonaOptions
+from engine.persona.pipeline import make_persona
+from engine.run import Run
+from engine.store import StageStore
+
+Collection = tuple[np.ndarray, list[np.ndarray]]
+OPTIONS = PersonaOptions(size=(160, 200), trim=(0.5, 1.1), fps=15, background=(200, 20, 20))
+
+
+@pytest.fixture(scope="module")
+def whole(collection: Collection, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Everything that a run leaves, in `out`; `photos` and `stages` beside it."""
+    folder = tmp_path_factory.mktemp("persona")
+    (folder / "photos").mkdir()
+    for number, picture in enumerate(collection[1]):
+        write_image(folder / "photos" / f"{number:02}.jpg", picture)
+    (folder / "photos" / "notes.jpg").write_bytes(b"no picture")
+    (folder / "out").mkdir()
+    photos = tuple(sorted((folder / "photos").iterdir()))
+    with Run(StageStore(folder / "stages")) as run:
+        make_persona({"photos": photos, "driver": video("happy")}, OPTIONS, folder / "out", run)
+    return folder
+
+
+def test_it_leaves_what_the_contract_names(whole: Path) -> None:
+    left = {path.name for path in (whole / "out").iterdir()}
+    assert left >= {"persona.npz", "animation.mp4", "average.png", "faces.json", "faces.jpg"}
+    assert left >= {"report.json", "preview.jpg", "thumbnail.jpg", "poster.jpg"}
+    report = json.loads((whole / "out/report.json").read_text())
+    assert report["kind"] == "persona" and report["inputs"]["files_skipped"] == 1
+    assert report["inputs"]["photos_used"] >= 15 and report["inputs"]["frames"] == 9
+    faces = json.loads((whole / "out/faces.json").read_text())
+    assert sum(face["kept"] for face in faces["faces"]) == report["inputs"]["photos_used"]
+    assert faces["skipped"] == [{"file": "notes.jpg", "code": "not_an_image"}]
+    sheet = read_image(whole / "out/faces.jpg").rgb
+    assert sheet.shape[1] == faces["tile"] * faces["columns"]
+
+
+def test_the_film_shows_the_face_on_its_background_and_moving(whole: Path) -> None:
+    film = whole / "out/animation.mp4"
+    assert (probe_video(film).width, probe_video(film).height) == (160, 200)
+    frames = np.array([frame.rgb for frame in read_video(film)]).astype(int)
+    assert len(frames) == 9
+    corners = frames[:, [2, 2, -3, -3], [2, -3, 2, -3]]
+    assert np.abs(corners - (200, 20, 20)).max() < 25
+    middle = frames[:, 60:140, 50:110]
+    assert (np.abs(middle - (200, 20, 20)).sum(axis=-1) > 60).mean() > 0.95, "skin"
+    assert 0.3 < np.abs(np.diff(middle, axis=0)).mean() < 25
+
+
+def test_the_same_again_is_taken_from_what_was_stored(whole: Path, tmp_path: Path) -> None:
+    photos = tuple(sorted((whole / "photos").iterdir()))
+    with Run(StageStore(whole / "stages")) as run:
+        make_persona({"photos": photos}, OPTIONS, tmp_path, run)
+    assert {"read_photos", "find_faces", "learn_persona"} <= set(run.reused)
+    assert (tmp_path / "poster.jpg").exists() and not (tmp_path / "animation.mp4").exists()
+
+
+def test_what_was_kept_is_driven_without_photographs(whole: Path, tmp_path: Path) -> None:
+    options = OPTIONS.model_copy(update={"composite": "side_by_side", "size": (320, 200)})
+    with Run() as run:
+        make_persona({"persona": whole / "out/persona.npz", "driver": video("happy")}, options, tmp_path, run)
+    frames = [frame.rgb for frame in read_video(tmp_path / "animation.mp4")]
+    assert len(frames) == 9 and frames[0].shape == (200, 320, 3)
+    driver = [frame.rgb for frame in read_video(video("happy"), 15, (0.5, 1.1))]
+    for one, filmed in zip(frames, driver, strict=True):
+        left = cv2.resize(filmed, (160, 160), interpolation=cv2.INTER_AREA)
+        assert np.abs(one[20:180, :160].astype(int) - left).mean() < 6, "the driver's same instant"
+        assert np.abs(one[5:10, 165:170].astype(int) - (200, 20, 20)).max() < 30
+
+
+def test_left_out_faces_are_not_used(whole: Path, tmp_path: Path) -> None:
+    photos = tuple(sorted((whole / "photos").iterdir()))
+    options = OPTIONS.model_copy(update={"leave_out": (0, 3)})
+    with Run(StageStore(whole / "stages")) as run:
+        make_persona({"photos": photos}, options, tmp_path, run)
+    faces = json.loads((tmp_path / "faces.json").read_text())["faces"]
+    assert [faces[k]["reason"] for k in (0, 3)] == ["left_out", "left_out"]
