@@ -18,7 +18,7 @@ LOCK = Path(__file__).with_name("identity_model.lock")
 
 def main() -> None:
     """Put the file where the engine looks for it, unless it is there."""
-    target = package_folder("engine.perception.identity.model") / MODEL_FILE
+    target = package_folder("engine.perception.identity") / MODEL_FILE
     if target.is_file() and _sha256(target.read_bytes()) == MODEL_SHA256:
         return
     print("Fetching the model that tells people apart (100 MB, of which 22 are kept)", file=sys.stderr)

@@ -25,7 +25,7 @@ def data_files() -> dict[str, tuple[str, ...]]:
     return {
         "engine.avatar.sample": ("body.mp4", "head.mp4"),
         "engine.perception": ("canonical_face.npz",),
-        "engine.perception.identity.model": (MODEL_FILE,),
+        "engine.perception.identity": (MODEL_FILE,),
         "engine.performances": ("videos/appearances.json", *performances),
         "engine.portrait.reactive": ("page.html", "player/reactive-portrait.js"),
         "service.migrations": ("script.py.mako",),

@@ -47,7 +47,7 @@ def loaded_network() -> Any:
     """The network itself, read once. Raises `IncompleteInstallation`."""
     import dlib
 
-    path = package_data("engine.perception.identity.model", MODEL_FILE)
+    path = package_data("engine.perception.identity", MODEL_FILE)
     if hashlib.sha256(path.read_bytes()).hexdigest() != MODEL_SHA256:
         raise IncompleteInstallation(
             "installation_incomplete",

@@ -75,9 +75,7 @@ def test_collections_of_photographs_part() -> None:
 
 
 def test_another_file_in_the_models_place_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert (package_folder("engine.perception.identity.model") / dlib_descriptor.MODEL_FILE).is_file(), (
-        "set-up put it there"
-    )
+    assert (package_folder("engine.perception.identity") / dlib_descriptor.MODEL_FILE).is_file(), "set-up put it there"
     monkeypatch.setattr(dlib_descriptor, "MODEL_FILE", "__init__.py")
     dlib_descriptor.loaded_network.cache_clear()
     with pytest.raises(IncompleteInstallation, match="not the file that it should be"):

@@ -10,6 +10,7 @@ declare module '@met4citizen/talkinghead' {
     readonly renderer: WebGLRenderer;
     readonly scene: Scene;
     readonly camera: Camera;
+    readonly poseTemplates: Record<string, object>;
     showAvatar(avatar: { url: string; body?: 'M' | 'F'; avatarMood?: string }): Promise<void>;
     stop(): void;
     speakAudio(speech: {

@@ -11,6 +11,8 @@ const head = new TalkingHead(document.getElementById('avatar')!, {
   cameraView: 'head',
   modelFPS: 10,
 });
+// its mood takes a pose at random, of which some turn a foot aside
+for (const pose of Object.keys(head.poseTemplates)) head.poseTemplates[pose] = head.poseTemplates.straight!;
 await head.showAvatar({ url: '/avatar.glb', body: 'F', avatarMood: 'neutral' });
 const face = head.morphs[0]!;
 const canvas = head.renderer.domElement;

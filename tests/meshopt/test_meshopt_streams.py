@@ -27,7 +27,7 @@ def streams() -> list[dict[str, str | int]]:
     """Of every mode and filter. Skips where meshoptimizer is not installed, fails where it must be."""
     if shutil.which("node") is None or not (ROOT / "web/node_modules/meshoptimizer").exists():
         missing("meshoptimizer is not installed (make setup installs it)")
-    script = Path(__file__).parents[2] / "encode_meshopt.mjs"
+    script = Path(__file__).parents[1] / "encode_meshopt.mjs"
     told = subprocess.run(["node", script], check=True, timeout=60, capture_output=True, text=True).stdout
     return [json.loads(line) for line in told.splitlines()]
 

@@ -1,1 +1,0 @@
-"""Where set-up puts the file of dlib's network (`scripts/identity_model.py`)."""
