@@ -21,7 +21,8 @@ class Input:
     """One named input of a kind."""
 
     name: str
-    media: Literal["image", "video", "motion", "model"]
+    media: Literal["image", "video", "motion", "model", "photos", "performance", "persona"]
+    """`photos` are pictures, and archives of pictures; a `performance` is a video, or one picture."""
     description: str
     required: bool = True
     many: bool = False
@@ -29,6 +30,8 @@ class Input:
     """Its analysis is worth keeping for further jobs: stages marked `shared` look at nothing but this input."""
     library: Literal["performances", "motions"] | None = None
     """Where set, the input may also be the name of an item of that library: the built-in one, or what a user keeps."""
+    offers_auto: bool = True
+    """Whether such a library's item may be left to the work to choose."""
     trimmed_by: str | None = None
     """Where set, the option of this name holds which part of the input is used, [start, end] in seconds: a driver's
     moment can be named then (`myclip/happy`), which sets it."""
@@ -50,7 +53,7 @@ class Input:
     @property
     def auto(self) -> bool:
         """Whether `auto` may be given: the work chooses among the library's files then."""
-        return self.library is not None and self.named_by is None
+        return self.library is not None and self.named_by is None and self.offers_auto
 
     @property
     def always_needed(self) -> bool:

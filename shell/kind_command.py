@@ -1,6 +1,6 @@
 """One command for each job kind: it runs in this process, with a progress bar.
 
-The first input is an argument where it is a picture or the only one; every other input is an option of its own name.
+The first input is an argument where it is of pictures or the only one; every other input is an option of its own name.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ def kind_command(kind: Kind) -> click.Command:
 def _parameter(item: Input, place: int, alone: bool) -> click.Parameter:
     names = "|NAME|auto" if item.auto else "|NAME" if item.named_by else ""
     metavar = "DIR" if item.many else item.media.upper() + names
-    if alone or (place == 0 and item.media == "image"):
+    if alone or (place == 0 and item.media in ("image", "photos")):
         return click.Argument([item.name], required=item.always_needed, metavar=item.name.upper())
     flag = "--" + item.name.replace("_", "-")
     required = item.always_needed

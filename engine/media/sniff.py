@@ -30,6 +30,19 @@ VIDEO_TYPES = frozenset(
 MOTION_TYPES = frozenset({"text/x-bvh", "model/gltf-binary", "model/gltf+json"})
 """The media types that `engine.motion` reads motions from."""
 
+ARCHIVE_TYPES = frozenset(
+    {"application/zip", "application/x-tar", "application/gzip", "application/x-bzip2", "application/x-xz"}
+)
+"""The media types that `engine.media.archive` unpacks; what NumPy keeps arrays in (`.npz`) is a ZIP, too."""
+
+_ARCHIVES = {
+    b"PK\x03\x04": "application/zip",
+    b"\x1f\x8b": "application/gzip",
+    b"BZh": "application/x-bzip2",
+    b"\xfd7zXZ\x00": "application/x-xz",
+}
+_TAR_MAGIC, _TAR_MAGIC_AT = b"ustar", 257
+
 
 def sniff(path: Path) -> str | None:
     """The media type of a file (`image/jpeg`, `video/mp4`, ...) by its magic bytes; None where it is none we know.
@@ -71,7 +84,7 @@ def sniff_bytes(head: bytes) -> str | None:
         return "video/webm" if head[kind + 3 : kind + 7] == b"webm" else "video/x-matroska"
     if head[4:8] in (b"ftyp", b"moov", b"mdat", b"wide", b"free", b"skip", b"pnot"):
         return _sniff_iso_media(head)
-    return _sniff_sound(head)
+    return _sniff_archive(head) or _sniff_sound(head)
 
 
 def _sniff_iso_media(head: bytes) -> str:
@@ -86,6 +99,12 @@ def _sniff_iso_media(head: bytes) -> str:
     if brands[0] in _AUDIO_BRANDS:
         return "audio/mp4"
     return "video/quicktime" if brands[0] == b"qt  " else "video/mp4"
+
+
+def _sniff_archive(head: bytes) -> str | None:
+    if head[_TAR_MAGIC_AT:].startswith(_TAR_MAGIC):
+        return "application/x-tar"
+    return next((name for magic, name in _ARCHIVES.items() if head.startswith(magic)), None)
 
 
 def _sniff_sound(head: bytes) -> str | None:

@@ -19,7 +19,7 @@ from engine.kind import Given
 from engine.media.excerpt import Excerpt
 from engine.media.video import read_video
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.identity.backend import descriptor_name, face_descriptor
+from engine.perception.identity.backend import descriptor_distances, descriptor_name
 from engine.persona.collection.face_sheet import write_faces
 from engine.persona.collection.photos import Photos, read_photos
 from engine.persona.collection.sorting import Choice
@@ -90,9 +90,12 @@ def _learnt(paths: Sequence[Path], options: PersonaOptions, out: Path, run: Run)
     described_by = descriptor_name(os.environ)
     found = run.stage("find_faces", find_faces_of_photos, photos, described_by, run.tick)
     choice = Choice(options.keep, options.leave_out)
-    chosen: SortedFaces = sort_faces(found, face_descriptor(os.environ).distances, choice, options.example)
-    for early in write_faces(out, photos, chosen.faces, chosen.reasons, chosen.distances, run.mark_synthetic):
-        run.publish(early)
+    chosen: SortedFaces = sort_faces(found, descriptor_distances(os.environ), choice, options.example)
+    for early in write_faces(
+        out, photos, chosen.faces, chosen.reasons, chosen.whose.distance.tolist(), run.mark_synthetic
+    ):
+        run.publish(early)  # before anything is refused: the numbers in it are those of what mends it
+    chosen.require_enough()
     kept = tuple(chosen.kept)
     persona = run.stage("learn_persona", learn, photos, kept, options.texture_width or texture_width(kept), run.tick)
     return persona, {"photos": len(photos), "files_skipped": len(photos.skipped), "faces": len(chosen.faces)}

@@ -12,7 +12,7 @@ import numpy as np
 from engine.errors import InputError
 from engine.perception.identity.backend import face_descriptor
 from engine.perception.identity.descriptor import IdentityDistances
-from engine.persona.collection.person import belonging
+from engine.persona.collection.person import Belonging, belonging
 from engine.persona.collection.photo_face import PhotoFace, faces_of
 from engine.persona.collection.photos import Photos
 from engine.persona.collection.sorting import Choice, Reason, reasons_against
@@ -49,16 +49,28 @@ class PhotoFaces:
 
 @dataclass(frozen=True)
 class SortedFaces:
-    """The faces of a collection, why each is of no use (`Reason`, None where it is kept), and how far it is from the person."""
+    """The faces of a collection, why each is of no use (`Reason`, None where it is kept), and whose they are."""
 
     faces: tuple[PhotoFace, ...]
     reasons: tuple[Reason | None, ...]
-    distances: tuple[float, ...]
+    whose: Belonging
 
     @property
     def kept(self) -> list[PhotoFace]:
         """Those that are of use."""
         return [face for face, reason in zip(self.faces, self.reasons, strict=True) if reason is None]
+
+    def require_enough(self) -> None:
+        """Raises `InputError`: `several_people`, `too_few_photos`."""
+        self.whose.require_one()
+        kept = self.reasons.count(None)
+        if kept < MIN_PHOTOS:
+            raise InputError(
+                "too_few_photos",
+                f"{MIN_PHOTOS} photos of the person are needed, and {kept} can be used: {MIN_PHOTOS - kept} more, from before, with"
+                f" mouth and brows as they come.{_spoken(self.reasons)}",
+                ("photos",),
+            )
 
 
 def find_faces_of_photos(photos: Photos, described_by: str, tick: Callable[[float], None]) -> PhotoFaces:
@@ -72,23 +84,9 @@ def find_faces_of_photos(photos: Photos, described_by: str, tick: Callable[[floa
 
 
 def sort_faces(found: PhotoFaces, distances: IdentityDistances, choice: Choice, example: int | None) -> SortedFaces:
-    """Whose faces they are, and which are of use.
-
-    Raises
-    ------
-    InputError : `no_common_person`, `several_people`, `too_few_photos`.
-    """
+    """Whose faces they are, and which are of use. Raises `InputError` `no_common_person`."""
     whose = belonging(found.faces, distances, example)
-    reasons = reasons_against(found.faces, whose, choice)
-    kept = reasons.count(None)
-    if kept < MIN_PHOTOS:
-        raise InputError(
-            "too_few_photos",
-            f"{MIN_PHOTOS} photos of the person are needed, and {kept} can be used: {MIN_PHOTOS - kept} more, from before, with mouth"
-            f" and brows as they come.{_spoken(reasons)}",
-            ("photos",),
-        )
-    return SortedFaces(found.faces, reasons, tuple(float(one) for one in whose.distance))
+    return SortedFaces(found.faces, reasons_against(found.faces, whose, choice), whose)
 
 
 def learn(photos: Photos, kept: Sequence[PhotoFace], width: int, tick: Callable[[float], None]) -> Persona:

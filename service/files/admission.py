@@ -1,9 +1,9 @@
-"""What may come in: pictures, videos and motions, told by their first bytes and never by their names, of a size that their kind
+"""What may come in: pictures, videos, motions and archives, told by their first bytes and never by their names, of a size that their kind
 may have. Nothing is decoded here."""
 
 from __future__ import annotations
 
-from engine.media.sniff import IMAGE_TYPES, MOTION_TYPES, VIDEO_TYPES, sniff_bytes
+from engine.media.sniff import ARCHIVE_TYPES, IMAGE_TYPES, MOTION_TYPES, VIDEO_TYPES, sniff_bytes
 from service.problems import Problem
 from service.settings import Settings
 
@@ -15,13 +15,13 @@ def recognise(head: bytes, name: str, declared: str) -> str:
     """The media type of a file that begins with `head`. Raises a 415 problem if it is none that can be read, or if it
     was declared as something else (`declared` is a media type, or empty)."""
     found = sniff_bytes(head)
-    if found is None or found not in IMAGE_TYPES | VIDEO_TYPES | MOTION_TYPES:
+    if found is None or found not in IMAGE_TYPES | VIDEO_TYPES | MOTION_TYPES | ARCHIVE_TYPES:
         raise Problem(
             415,
             "media_type_unsupported",
-            f"“{name}” is no picture, video or motion that can be read"
+            f"“{name}” is no picture, video, motion or archive that can be read"
             + (f" ({found})" if found else "")
-            + ": send JPEG, PNG, WebP, HEIC, AVIF or GIF, MP4, MOV, WebM, MKV or AVI, or BVH, GLB or glTF.",
+            + ": send JPEG, PNG, WebP, HEIC, AVIF or GIF, MP4, MOV, WebM, MKV or AVI, BVH, GLB or glTF, or ZIP or TAR.",
         )
     family = declared.split("/")[0]
     if family in ("image", "video", "audio", "text") and family != found.split("/")[0] and found != "image/gif":

@@ -11,7 +11,7 @@ from pydantic import TypeAdapter, ValidationError
 from sqlalchemy.orm import Session
 
 from engine.kind import AUTO, Input, Kind
-from engine.media.sniff import IMAGE_TYPES, MOTION_TYPES, VIDEO_TYPES
+from engine.media.sniff import ARCHIVE_TYPES, IMAGE_TYPES, MOTION_TYPES, VIDEO_TYPES
 from service.files import repository as files
 from service.ids import is_id
 from service.job_records import artifacts, jobs
@@ -27,7 +27,15 @@ MAX_OWN_CANDIDATES = 6
 """How many of the user's own drivers `auto` looks at: looking at one costs a second or two."""
 
 MODEL_TYPES = frozenset({"model/gltf-binary"})
-MEDIA_TYPES = {"image": IMAGE_TYPES, "video": VIDEO_TYPES, "motion": MOTION_TYPES, "model": MODEL_TYPES}
+MEDIA_TYPES = {
+    "image": IMAGE_TYPES,
+    "video": VIDEO_TYPES,
+    "motion": MOTION_TYPES,
+    "model": MODEL_TYPES,
+    "photos": IMAGE_TYPES | ARCHIVE_TYPES,
+    "performance": VIDEO_TYPES | IMAGE_TYPES,
+    "persona": frozenset({"application/zip"}),  # a `.npz` is one
+}
 
 Value = str | list[str] | None
 """What can be given for an input; null is nothing."""

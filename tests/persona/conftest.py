@@ -2,39 +2,31 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from engine.media.video import read_video
+from engine.media.image import read_image
 from engine.perception.faces import FaceTracker
-from engine.performances import video
-
-PERFORMANCES = (
-    "happy",
-    "surprise",
-    "anger",
-    "sadness",
-    "fear",
-    "happy-strong",
-    "surprise-strong",
-    "anger-strong",
-    "sadness-strong",
-)
-INSTANTS = (0.25, 0.45, 0.65)
-"""Of each of them: at their beginnings and ends he is at rest, which is one photograph many times."""
+from engine.persona.sample import write_sample_photos
 
 
 @pytest.fixture(scope="session")
-def collection() -> tuple[np.ndarray, list[np.ndarray]]:
-    """Meshes (N, 478, 3) and photographs: three of each performance, and one at rest."""
+def photo_files(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, ...]:
+    """The photographs as files."""
+    return write_sample_photos(tmp_path_factory.mktemp("collection"))
+
+
+@pytest.fixture(scope="session")
+def collection(photo_files: tuple[Path, ...]) -> tuple[np.ndarray, list[np.ndarray]]:
+    """Meshes (N, 478, 3) and photographs, of those that show a face."""
     meshes, photos = [], []
-    for name in PERFORMANCES:
-        frames = [frame.rgb for frame in read_video(video(name))]
-        for instant in (*((0.0,) if name == "happy" else ()), *INSTANTS):
-            photo = frames[round(instant * (len(frames) - 1))]
-            with FaceTracker(alone=True) as tracker:
-                found = tracker(photo)
-            if found:
-                meshes.append(found[0])
-                photos.append(photo)
+    for path in photo_files:
+        photo = read_image(path).rgb
+        with FaceTracker(alone=True) as tracker:
+            found = tracker(photo)
+        if found:
+            meshes.append(found[0])
+            photos.append(photo)
     return np.array(meshes), photos

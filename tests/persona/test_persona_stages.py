@@ -80,7 +80,7 @@ def test_an_example_chooses_whose_persona_it_is(found: PhotoFaces) -> None:
 def test_too_few_say_how_many_more_and_why(found: PhotoFaces) -> None:
     leave_out = set(range(len(found.faces) - 9))
     with pytest.raises(InputError) as error:
-        sort_faces(found, DISTANCES, Choice(leave_out=leave_out), None)
+        sort_faces(found, DISTANCES, Choice(leave_out=leave_out), None).require_enough()
     assert error.value.code == "too_few_photos"
     assert "were left out" in error.value.detail and "more" in error.value.detail
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +20,12 @@ def nearest_in(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.in
     row_of, column_of = np.zeros((2, int(labels.max()) + 1), np.intp)
     row_of[labels[mask]], column_of[labels[mask]] = rows, columns
     return row_of[labels], column_of[labels]
+
+
+def nearest_values(values: NDArray[np.generic], known: NDArray[np.bool_]) -> NDArray[Any]:
+    """Values (H, W, ...), each outside of `known` (H, W), which is not empty, that of the nearest pixel inside."""
+    rows, columns = nearest_in(known)
+    return np.asarray(values)[rows, columns]
 
 
 def nearest_colours(rgb: NDArray[np.uint8], own: NDArray[np.bool_]) -> NDArray[np.uint8]:

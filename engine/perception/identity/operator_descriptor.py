@@ -40,20 +40,13 @@ class OperatorDescriptor:
         if len(inputs) != 1 or len(inputs[0].shape) != 4 or inputs[0].shape[1] != 3:
             raise ModelError(f"{file.path.name} does not take one picture of shape (1, 3, h, w)")
         side = inputs[0].shape[2]
-        told = [settings.get(f"{DESCRIPTOR_SETTING}_{part}", "") for part in ("SAME", "OTHER")]
-        try:
-            same, other = (float(text) for text in told)
-        except ValueError as error:
-            raise ModelError(
-                f"{DESCRIPTOR_SETTING} needs _SAME and _OTHER beside it, distances of descriptors"
-            ) from error
         return cls(
             file,
             session,
             side if isinstance(side, int) else ARCFACE_LAYOUT.side,
             three_numbers(settings.get(f"{DESCRIPTOR_SETTING}_MEAN", "0.5")),
             three_numbers(settings.get(f"{DESCRIPTOR_SETTING}_STD", "0.5")),
-            IdentityDistances(same, other),
+            operator_distances(settings),
         )
 
     def __call__(self, rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -67,3 +60,13 @@ class OperatorDescriptor:
         if not np.isfinite(length) or length == 0:
             raise ModelError(f"{self.file.path.name} gave no descriptor")
         return output / length
+
+
+def operator_distances(settings: Mapping[str, str]) -> IdentityDistances:
+    """What the settings beside the file say of its distances. Raises `ModelError`."""
+    told = [settings.get(f"{DESCRIPTOR_SETTING}_{part}", "") for part in ("SAME", "OTHER")]
+    try:
+        same, other = (float(text) for text in told)
+    except ValueError as error:
+        raise ModelError(f"{DESCRIPTOR_SETTING} needs _SAME and _OTHER beside it, distances of descriptors") from error
+    return IdentityDistances(same, other)

@@ -27,10 +27,24 @@ Belongs = Literal["person", "uncertain", "other"]
 
 @dataclass(frozen=True)
 class Belonging:
-    """Of N faces: `belongs` (N,) to whom; `distance` (N,) float32 the median of those to the person's faces."""
+    """Of N faces: `belongs` (N,) to whom; `distance` (N,) float32 the median of those to the person's faces. `shown` : whom else the
+    photographs may mean as well: for each of two people a face and how often they are shown; empty where one is clearly meant."""
 
     belongs: tuple[Belongs, ...]
     distance: NDArray[np.float32]
+    shown: tuple[tuple[int, int], ...] = ()
+
+    def require_one(self) -> None:
+        """Raises `InputError` `several_people` where it is not clear who is meant."""
+        if self.shown:
+            (first, count), (second, others) = self.shown
+            raise InputError(
+                "several_people",
+                f"The photos show two people about as often ({count} and {others} faces): choose whom you mean, by the option example:"
+                f" face {first} of faces.json shows one, face {second} the other.",
+                ("example",),
+                {"examples": [first, second]},
+            )
 
 
 def belonging(faces: Sequence[PhotoFace], distances: IdentityDistances, example: int | None = None) -> Belonging:
@@ -41,8 +55,7 @@ def belonging(faces: Sequence[PhotoFace], distances: IdentityDistances, example:
 
     Raises
     ------
-    InputError : `no_common_person` (no two faces are of one person), `several_people` (two are shown about as often, and no example says
-        which is meant).
+    InputError : `no_common_person` (no two faces are of one person).
     """
     apart = _distances(faces) if faces else np.zeros((0, 0), np.float32)
     core = _cluster(apart, distances, np.arange(len(faces)) if example is None else np.array([example]))
@@ -51,8 +64,6 @@ def belonging(faces: Sequence[PhotoFace], distances: IdentityDistances, example:
             "no_common_person", "No two faces of these photos are one person's: send photos of one person."
         )
     median = np.median(apart[:, core], axis=1)
-    if example is None:
-        _require_one(apart, median, core, distances)
     alone = _is_alone(faces)
     kinds: list[Belongs] = []
     for face, distance in enumerate(median):
@@ -62,7 +73,8 @@ def belonging(faces: Sequence[PhotoFace], distances: IdentityDistances, example:
         same = [k for k, face in enumerate(faces) if face.photo == photo and kinds[k] == "person"]
         for second in sorted(same, key=lambda k: median[k])[1:]:
             kinds[second] = "other"
-    return Belonging(tuple(kinds), np.asarray(median, np.float32))
+    shown = _shown(apart, median, core, distances) if example is None else ()
+    return Belonging(tuple(kinds), np.asarray(median, np.float32), shown)
 
 
 def _distances(faces: Sequence[PhotoFace]) -> NDArray[np.float32]:
@@ -84,20 +96,17 @@ def _cluster(apart: NDArray[np.float32], distances: IdentityDistances, among: ND
     return core
 
 
-def _require_one(
+def _shown(
     apart: NDArray[np.float32], median: NDArray[np.floating], core: NDArray[np.intp], distances: IdentityDistances
-) -> None:
+) -> tuple[tuple[int, int], ...]:
+    """The person and another one, each with a face and how often they are shown, where the photographs may mean the other as well."""
     others = np.flatnonzero(median >= distances.other)
     if not len(others):
-        return
+        return ()
     second = others[_cluster(apart[np.ix_(others, others)], distances, np.arange(len(others)))]
-    if len(second) >= SECOND_PERSON_SHARE * len(core):
-        raise InputError(
-            "several_people",
-            f"The photos show two people about as often ({len(core)} and {len(second)} faces): choose whom you mean.",
-            ("example",),
-            {"examples": [int(core[median[core].argmin()]), int(second[0])]},
-        )
+    if len(second) < SECOND_PERSON_SHARE * len(core):
+        return ()
+    return (int(core[median[core].argmin()]), len(core)), (int(second[0]), len(second))
 
 
 def _is_alone(faces: Sequence[PhotoFace]) -> list[bool]:

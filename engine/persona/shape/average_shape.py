@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.imaging.filling.nearest import nearest_values
 from engine.perception.landmarks import LEFT_BROW, LEFT_EYE, LIPS_OUTER, RIGHT_BROW, RIGHT_EYE
 from engine.persona.shape.photometric_stereo import photometric_stereo
 from engine.persona.shape.screened_poisson import screened_poisson
@@ -48,11 +49,7 @@ def _mesh_depth(frame: TextureFrame, unit: float) -> NDArray[np.float64]:
     covered = frame.covered.astype(np.float64)
     weight = cv2.GaussianBlur(covered, (0, 0), 2 * unit)
     smooth = np.asarray(cv2.GaussianBlur(depth * covered, (0, 0), 2 * unit)) / np.maximum(np.asarray(weight), 1e-6)
-    outside = (~frame.covered).astype(np.uint8)
-    _, labels = cv2.distanceTransformWithLabels(outside, cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)
-    nearest = np.zeros(int(np.max(labels)) + 1)
-    nearest[np.asarray(labels)[frame.covered]] = smooth[frame.covered]
-    return np.where(frame.covered, smooth, nearest[np.asarray(labels)])
+    return np.asarray(nearest_values(smooth, frame.covered), np.float64)
 
 
 def _skin(frame: TextureFrame, unit: float) -> NDArray[np.bool_]:

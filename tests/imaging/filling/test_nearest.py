@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.imaging.filling.nearest import nearest_colours, nearest_in
+from engine.imaging.filling.nearest import nearest_colours, nearest_in, nearest_values
 
 
 def test_none_is_much_nearer_than_the_one_that_is_found() -> None:
@@ -36,3 +36,9 @@ def test_colours_are_those_of_the_nearest() -> None:
     rng = np.random.default_rng(5)
     rgb, own = rng.integers(0, 256, (40, 60, 3), dtype=np.uint8), rng.random((40, 60)) < 0.05
     np.testing.assert_array_equal(nearest_colours(rgb, own), rgb[nearest_in(own)])
+
+
+def test_values_of_any_shape_are_those_of_the_nearest() -> None:
+    rng = np.random.default_rng(7)
+    values, known = rng.random((30, 20, 2)), rng.random((30, 20)) < 0.05
+    np.testing.assert_array_equal(nearest_values(values, known), values[nearest_in(known)])

@@ -42,7 +42,7 @@ def test_the_person_is_whom_most_faces_show() -> None:
 def test_two_people_half_and_half_are_asked_about_and_an_example_answers() -> None:
     faces = [face(k, d) for k, d in enumerate([*person(1, 14), *person(2, 12)])]
     with pytest.raises(InputError) as error:
-        belonging(faces, DISTANCES)
+        belonging(faces, DISTANCES).require_one()
     assert error.value.code == "several_people" and error.value.correctable == ("example",)
     one, other = error.value.found["examples"]
     assert one < 14 <= other

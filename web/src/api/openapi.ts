@@ -1742,7 +1742,7 @@ export interface components {
         /** @description What a client asks for. */
         JobIn: {
             /** @enum {string} */
-            kind: "portrait" | "moments" | "character" | "avatar" | "motion";
+            kind: "portrait" | "moments" | "character" | "avatar" | "persona" | "motion";
             /** @default {} */
             inputs?: {
                 [key: string]: string | string[];
@@ -1831,6 +1831,82 @@ export interface components {
              * @default null
              */
             motion_clip?: string | null;
+        };
+        /** @description Options of the persona system; every one has a sound default. */
+        PersonaOptions: {
+            /**
+             * @description Pixels of the face's texture. Default: as many as the photos are worth, 194 to 400.
+             * @default null
+             */
+            texture_width?: number | null;
+            /**
+             * @description Faces to use whatever speaks against them, by their numbers in `faces.json`.
+             * @default []
+             */
+            keep?: number[];
+            /**
+             * @description Faces not to use, by their numbers in `faces.json`.
+             * @default []
+             */
+            leave_out?: number[];
+            /**
+             * @description A face of the person that is meant, where photos show several, by its number in `faces.json`.
+             * @default null
+             */
+            example?: number | null;
+            /**
+             * @description Width and height of the animation, in pixels.
+             * @default [
+             *       600,
+             *       800
+             *     ]
+             */
+            size?: [
+                number,
+                number
+            ];
+            /**
+             * @description Frames a second of the animation. Default: one frame for each frame of the driver.
+             * @default null
+             */
+            fps?: number | null;
+            /**
+             * @description Start and end of the part of the driver to use, in seconds.
+             * @default null
+             */
+            trim?: [
+                number,
+                number
+            ] | null;
+            /**
+             * @description Which face of the driver, counted from the largest in the first frame that shows any.
+             * @default 0
+             */
+            driver_face_index?: number;
+            /**
+             * @description The puppet alone on a plain background, or beside the driver.
+             * @default none
+             * @enum {string}
+             */
+            composite?: "none" | "side_by_side";
+            /**
+             * @description Red, green and blue of the plain background.
+             * @default [
+             *       58,
+             *       60,
+             *       64
+             *     ]
+             */
+            background?: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * @description Keep the driver's sound.
+             * @default false
+             */
+            sound?: boolean;
         };
         /** @description Where a landmark of the body is in one frame of its clip. */
         PlacedLandmark: {

@@ -1,0 +1,89 @@
+"""Personas as jobs: an archive of photos uploaded, a puppet filmed behind walls, and driven again by the job's id."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from running import Running, eventually
+
+from engine.persona.sample import write_sample_photos
+
+OPTIONS = {"size": [160, 200], "trim": [0.5, 0.8], "fps": 10}
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
+    folder = tmp_path_factory.mktemp("personas") / "data"
+    with Running(folder, kinds="engine.kinds:KINDS", worker_kinds="persona") as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("photos")
+    with zipfile.ZipFile(folder / "album.zip", "w") as packed:
+        for photo in write_sample_photos(folder):
+            packed.write(photo, f"album/{photo.name}")
+    return folder / "album.zip"
+
+
+def ended(service: Running, job: str) -> dict[str, Any]:
+    eventually(lambda: service.job(job)["finished_at"], "the job is over", seconds=300)
+    return service.job(job)
+
+
+def ordered(service: Running, options: dict[str, Any], **inputs: Any) -> str:
+    order = {"kind": "persona", "options": options, "inputs": inputs}
+    return str(service.client.post("/v1/jobs", json=order).raise_for_status().json()["id"])
+
+
+@pytest.fixture(scope="module")
+def made(service: Running, archive: Path) -> dict[str, Any]:
+    upload = {"file": ("album.zip", archive.read_bytes(), "application/zip")}
+    file = service.client.post("/v1/files", files=upload).raise_for_status().json()
+    assert file["content_type"] == "application/zip"
+    return ended(service, ordered(service, OPTIONS, photos=[file["id"]], driver="happy"))
+
+
+def test_an_archive_becomes_a_persona_and_a_film(made: dict[str, Any]) -> None:
+    assert made["status"] == "succeeded", made["error"]
+    left = set(made["artifacts"])
+    assert left >= {"persona.npz", "average.png", "faces.json", "faces.jpg", "animation.mp4", "report.json"}
+
+
+def test_another_performance_names_the_job_and_needs_no_photos(service: Running, made: dict[str, Any]) -> None:
+    again = ended(service, ordered(service, OPTIONS, persona=made["id"], driver="surprise"))
+    assert again["status"] == "succeeded", again["error"]
+    assert "animation.mp4" in again["artifacts"]
+
+
+def test_left_out_faces_are_a_correction(service: Running, made: dict[str, Any]) -> None:
+    change = {"corrections": {"leave_out": [0, 1]}}
+    revision = service.client.post(f"/v1/jobs/{made['id']}/revisions", json=change).raise_for_status().json()
+    revised = ended(service, revision["id"])
+    assert revised["status"] == "succeeded", revised["error"]
+    faces = service.client.get(f"/v1/jobs/{revised['id']}/artifacts/faces.json").raise_for_status().json()["faces"]
+    assert [face["reason"] for face in faces[:2]] == ["left_out", "left_out"]
+
+
+def test_too_few_are_refused_and_the_faces_are_there_to_see(service: Running, archive: Path) -> None:
+    with zipfile.ZipFile(archive) as packed:
+        photos = [packed.read(name) for name in packed.namelist()[:4]]
+    files = [("photos", (f"{k}.jpg", photo, "image/jpeg")) for k, photo in enumerate(photos)]
+    order = {"kind": "persona", "options": json.dumps(OPTIONS), "driver": "happy"}
+    job = service.client.post("/v1/jobs", data=order, files=files).raise_for_status().json()["id"]
+    failed = ended(service, job)
+    assert (failed["status"], failed["error"]["code"]) == ("failed", "too_few_photos")
+    assert {"faces.json", "faces.jpg"} <= set(failed["artifacts"])
+
+
+def test_a_persona_of_something_else_is_refused(service: Running, archive: Path) -> None:
+    files = {"persona": ("album.zip", archive.read_bytes(), "application/zip")}
+    order = {"kind": "persona", "options": json.dumps(OPTIONS), "driver": "happy"}
+    job = service.client.post("/v1/jobs", data=order, files=files).raise_for_status().json()["id"]
+    assert ended(service, job)["error"]["code"] == "persona_unreadable"
