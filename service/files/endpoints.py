@@ -32,7 +32,10 @@ UPLOAD_REQUEST: dict[str, Any] = {
                     "additionalProperties": False,
                 },
                 "encoding": {
-                    "file": {"contentType": "image/*, video/*, text/x-bvh, model/gltf-binary, model/gltf+json, application/zip, application/x-tar"}
+                    "file": {
+                        "contentType": "image/*, video/*, text/x-bvh, model/gltf-binary, model/gltf+json, application/zip,"
+                        " application/x-tar"
+                    }
                 },
             }
         },
