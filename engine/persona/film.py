@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +16,7 @@ from engine.persona.puppet import Puppet
 
 HEADROOM = 1.25
 """Of the space that the face takes in all frames, that the picture has."""
-TEXTURES_AT_ONCE = 32
+TEXTURES_AT_ONCE = 16
 
 
 def puppet_frames(
@@ -27,12 +29,16 @@ def puppet_frames(
     plain[:] = background
     puppet = Puppet(persona)
     scale, shift = _framing(performance, size)
+
+    def draw(number: int, texture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        placing = performance.linear[number] * scale, performance.shift[number] * scale + shift
+        return puppet.draw(performance.faces[number], texture, placing, plain)
+
     count = len(performance.faces)
-    for start in range(0, count, TEXTURES_AT_ONCE):
-        textures = persona.synthesis(performance.weights[start : start + TEXTURES_AT_ONCE])
-        for number, texture in enumerate(textures, start):
-            placing = performance.linear[number] * scale, performance.shift[number] * scale + shift
-            yield puppet.draw(performance.faces[number], texture, placing, plain)
+    with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="film") as pool:
+        for start in range(0, count, TEXTURES_AT_ONCE):
+            textures = persona.synthesis(performance.weights[start : start + TEXTURES_AT_ONCE])
+            yield from pool.map(draw, range(start, count), textures)
 
 
 def beside(left: NDArray[np.uint8], right: NDArray[np.uint8], size: tuple[int, int]) -> NDArray[np.uint8]:

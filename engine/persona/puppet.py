@@ -14,15 +14,18 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from engine.geometry.adjacency import edge_table
 from engine.geometry.subdivision import midpoint_subdivision
 from engine.perception.face_tessellation import face_triangles, opening_triangles
 from engine.persona.persona import Persona
-from engine.render.attributes import interpolate, sample_texture
-from engine.render.rasteriser import rasterise
+from engine.render.mipmap import build_mipmap
+from engine.render.scratch import Scratch
+from engine.render.surface import Surface, draw_surface, triangle_spread
 
 ROUNDS = 2
 """Of the subdivision: triangles of a frame 194 wide are three pixels wide then."""
-SUPERSAMPLING = 2
+DISTANCE = 4096.0
+"""Pixels from the eye to the face: so far off that nearer parts are no larger."""
 FACE_VERTICES = 468
 """Of the mesh's: those after them are the irises'."""
 
@@ -45,22 +48,27 @@ class Puppet:
         face : (478, 3) its vertices from the front, in eye distances. texture : (H, W, 3) of the persona's frame. placing : a matrix
         (3, 3), rotation times pixels for an eye distance, and a shift (3,): where vertices are in the picture.
         """
-        matrix, triangles = self._surface
-        finer = matrix @ np.asarray(face, np.float64)[:FACE_VERTICES]
+        finer = self._subdivision[0] @ np.asarray(face, np.float64)[:FACE_VERTICES]
         finer[:, 2] += self._relief
         linear, shift = placing
-        places = finer @ np.asarray(linear, np.float64).T + shift
-        places[:, :2] = places[:, :2] * SUPERSAMPLING + (SUPERSAMPLING - 1) / 2
-        size = picture.shape[0] * SUPERSAMPLING, picture.shape[1] * SUPERSAMPLING
-        raster = rasterise(places, triangles, size, cull=True)
-        covered = raster.triangle >= 0
-        colours = sample_texture(texture, interpolate(self._uv, triangles, raster), covered)
-        share = cv2.resize(covered.astype(np.float32), picture.shape[1::-1], interpolation=cv2.INTER_AREA)[..., None]
-        drawn = cv2.resize(colours, picture.shape[1::-1], interpolation=cv2.INTER_AREA)
-        return np.asarray(np.clip(np.rint(drawn + (1 - share) * picture), 0, 255), np.uint8)
+        points = finer @ np.asarray(linear, np.float64).T + shift
+        points[:, 2] += DISTANCE - points[:, 2].mean()
+        drawn = picture.copy()
+        surface = self._surface._replace(mipmap=build_mipmap(texture))
+        draw_surface(drawn, False, surface, points.astype(np.float32), Scratch())
+        return drawn
 
     @cached_property
-    def _surface(self) -> tuple[sp.csr_array, NDArray[np.int32]]:
+    def _surface(self) -> Surface:
+        triangles = self._subdivision[1]
+        size = self.persona.frame.size
+        uv = ((self._at[:, :2] + 0.5) / np.array(size[::-1])).astype(np.float32)
+        edges = edge_table(triangles, np.arange(len(uv), dtype=np.int32))
+        blank = build_mipmap(np.zeros((*size, 3), np.uint8))
+        return Surface(triangles, uv, triangle_spread(triangles, uv, size), edges, True, blank)
+
+    @cached_property
+    def _subdivision(self) -> tuple[sp.csr_array, NDArray[np.int32]]:
         coarse = np.concatenate([face_triangles(), opening_triangles()])
         matrix, triangles = midpoint_subdivision(coarse, FACE_VERTICES, ROUNDS)
         return matrix, np.ascontiguousarray(triangles[:, ::-1])  # counter-clockwise, which is what is not culled
@@ -68,11 +76,7 @@ class Puppet:
     @cached_property
     def _at(self) -> NDArray[np.float64]:
         """(M, 3) where the finer vertices are in the persona's frame, pixels."""
-        return np.asarray(self._surface[0] @ self.persona.frame.places[:FACE_VERTICES])
-
-    @cached_property
-    def _uv(self) -> NDArray[np.float64]:
-        return (self._at[:, :2] + 0.5) / np.array(self.persona.frame.size[::-1])
+        return np.asarray(self._subdivision[0] @ self.persona.frame.places[:FACE_VERTICES])
 
     @cached_property
     def _relief(self) -> NDArray[np.float64]:

@@ -16,7 +16,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.compiled import njit
 from engine.geometry.adjacency import edge_table
 from engine.geometry.camera import Camera
 from engine.geometry.skinned_mesh import SkinnedMesh
@@ -27,14 +26,8 @@ from engine.motion.clip import Clip
 from engine.motion.kinematics import pose_transforms
 from engine.render.ground_shadow import GroundShadow, cast_on_ground
 from engine.render.mipmap import Mipmap, build_mipmap
-from engine.render.multisampling import draw_samples, sample_offsets, select_pixels
-from engine.render.outline import facings, mark_outline
-from engine.render.rasteriser import SUBPIXEL_STEPS, draw_into
 from engine.render.scratch import Scratch
-from engine.render.texturing import PictureWindow, TexturedSurface, colour_inside, colour_samples, corner_table
-
-SAMPLES_PER_AXIS = 3
-"""Samples to a pixel, along each axis: ten steps from outside to inside along an edge."""
+from engine.render.surface import SAMPLES_PER_AXIS, Surface, draw_surface, triangle_spread
 
 LIGHT_DIRECTION = (0.35, 0.75, 0.55)
 """Direction towards the light of the optional shading, in the world."""
@@ -71,15 +64,11 @@ class PreparedCharacter:
 
 def prepare_character(mesh: SkinnedMesh) -> PreparedCharacter:
     """Whatever about a mesh does not change from frame to frame."""
-    height, width = mesh.texture.shape[:2]
-    a, b, c = (mesh.uv[mesh.triangles[:, k]] * np.array([width, height], np.float32) for k in range(3))
-    p, q = b - a, c - a
-    spread = np.abs(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]) / 2
     point = weld(mesh)
     return PreparedCharacter(
         mesh,
         build_mipmap(mesh.texture),
-        spread.astype(np.float32),
+        triangle_spread(mesh.triangles, mesh.uv, mesh.texture.shape),
         point,
         edge_table(mesh.triangles, point),
         is_closed(point[mesh.triangles]),
@@ -127,27 +116,10 @@ def _draw_over(
 ) -> NDArray[np.float32]:
     """Draw into `rgb`, which holds the background or, where the character is drawn `alone`, nothing. The alpha that is
     returned is part of `scratch`."""
-    faces = subject.mesh.triangles
-    points = camera.project(posed)
-    alpha = scratch.filled("alpha", camera.size, 0, np.float32)
-    left, top, right, bottom = _box(points, *camera.size)
-    if right <= left or bottom <= top:
-        return alpha
-    points -= np.array([left, top, 0], np.float32)
-    size = bottom - top, right - left
-    ids, depths = scratch.filled("ids", size, -1, np.int32), scratch.filled("depths", size, np.inf, np.float32)
-    draw_into(points, faces, True, subject.closed, ids, depths)
-    marks, facing = scratch.filled("marks", size, False, np.bool_), facings(points, faces)
-    mark_outline(points, subject.edges, facing, depths, marks)
-    corners = corner_table(points, subject.mesh.uv, _shade(subject, posed, shading) if shading else None)
-    surface = TexturedSurface(corners, faces, subject.spread, *subject.mipmap)
-    window = PictureWindow(rgb, alpha, left, top)
-    colour_inside(surface, ids, marks, window)
-    chosen, offsets = select_pixels(marks), sample_offsets(samples)
-    seen = draw_samples(points, faces, facing, subject.closed, *chosen, offsets)
-    share = (offsets / SUBPIXEL_STEPS).astype(np.float32)
-    colour_samples(surface, seen, chosen.places, share, alone, window)
-    return alpha
+    mesh = subject.mesh
+    surface = Surface(mesh.triangles, mesh.uv, subject.spread, subject.edges, subject.closed, subject.mipmap)
+    shade = _shade(subject, posed, shading) if shading else None
+    return draw_surface(rgb, alone, surface, camera.project(posed), scratch, samples, shade)
 
 
 @dataclass(frozen=True)
@@ -232,19 +204,3 @@ def _shade(subject: PreparedCharacter, posed: NDArray[np.float32], shading: floa
     normals = vertex_normals(places, point[subject.mesh.triangles])
     towards = np.array(LIGHT_DIRECTION, np.float32) / np.linalg.norm(LIGHT_DIRECTION)
     return (1 - shading * (1 - normals @ towards) / 2).astype(np.float32)[point]
-
-
-@njit(nogil=True, boundscheck=False)
-def _box(points: np.ndarray, height: int, width: int) -> tuple[int, int, int, int]:
-    """The pixels that points before the camera, (V, 3) float32, can touch: left, top, right, bottom (exclusive)."""
-    left, top, right, bottom = np.float32(width), np.float32(height), np.float32(-1), np.float32(-1)
-    for v in range(len(points)):
-        if points[v, 2] > 0:
-            left, right = min(left, points[v, 0]), max(right, points[v, 0])
-            top, bottom = min(top, points[v, 1]), max(bottom, points[v, 1])
-    return (
-        int(max(np.floor(left) - 1, 0)),
-        int(max(np.floor(top) - 1, 0)),
-        int(min(np.ceil(right) + 2, width)),
-        int(min(np.ceil(bottom) + 2, height)),
-    )

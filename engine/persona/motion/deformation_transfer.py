@@ -7,15 +7,19 @@ corresponding two points of the puppet's face, along it.
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 
 import cv2
 import numpy as np
+import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
-from scipy.spatial import cKDTree
 
+from engine.compiled import njit
 from engine.imaging.total_variation import denoised
 from engine.persona.texture.texture_frame import TextureFrame, with_rim
 
@@ -27,6 +31,8 @@ MAX_FACTOR = 2.5
 """And its inverse: no face is so unlike another."""
 MIN_TRUST = 1e-3
 """Of points that do not move, and so tell nothing: they take the factors of those about them, not these theirs."""
+REACH = 2
+"""Pixels of that field about a point among which a nearer one is sought."""
 COARSENESS = 2
 """Pixels of the frame for one of the field in which factors are told."""
 
@@ -47,29 +53,36 @@ class DeformationTransfer:
         """(478, 3) by how much the puppet's vertices move where the driver's move by `deformation` (478, 3); both from the average
         face in front view, in eye distances."""
         moved = with_rim(np.asarray(deformation, np.float64) + self._driver_mesh) - with_rim(self._driver_mesh)
-        factors = self.factors(self.driver.interpolated(moved)[::COARSENESS, ::COARSENESS])
+        factors = self.factors((self._interpolation @ moved).reshape(*self._covered.shape, 3))
         at = (self.driver.places[:478, :2] / COARSENESS).astype(np.float32)
         own = cv2.remap(factors, at[:, :1], at[:, 1:], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         return np.asarray(deformation * np.asarray(own), np.float64)
 
+    def of_frames(
+        self, deformations: NDArray[np.floating], tick: Callable[[float], None] = lambda fraction: None
+    ) -> NDArray[np.float64]:
+        """(F, 478, 3) the same of many frames (F, 478, 3), side by side."""
+        out = np.empty(deformations.shape)
+        self(np.zeros(self._driver_mesh.shape))  # what all frames share is made once
+        with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="transfer") as pool:
+            for number, moved in enumerate(pool.map(self, deformations)):
+                out[number] = moved
+                tick((number + 1) / len(out))
+        return out
+
     def factors(self, moved: NDArray[np.floating]) -> NDArray[np.float32]:
         """(h, w) by how much longer each movement of `moved` (h, w, 3) is on the puppet, in eye distances; denoised."""
-        tree, points, puppets = self._surfaces
-        here = self._covered
-        led = points + np.asarray(moved, np.float64)[here]
-        nearest = tree.query(led)[1]
-        step, own = points[nearest] - points, puppets[nearest] - puppets
-        length = np.linalg.norm(step, axis=1)
-        factor = (step * own).sum(axis=1) / np.maximum(length**2, 1e-12)
-        told = (length > MIN_MOVEMENT) & (np.linalg.norm(moved[here], axis=1) > MIN_MOVEMENT)
-        if not told.any():
-            return np.ones(here.shape, np.float32)
-        known = np.zeros(here.shape, np.bool_)
-        known[here] = told
-        field = np.ones(here.shape, np.float32)
-        field[known] = np.clip(factor[told], 1 / MAX_FACTOR, MAX_FACTOR)
+        points, puppets = self._surfaces
+        field, known = _told(np.ascontiguousarray(moved, np.float32), points, puppets, self._covered, self._pixels)
+        if not known.any():
+            return np.ones(known.shape, np.float32)
         rows, columns = distance_transform_edt(~known, return_distances=False, return_indices=True)
         return denoised(field[rows, columns], TV_WEIGHT, HUBER, np.maximum(known, MIN_TRUST))
+
+    @property
+    def _pixels(self) -> float:
+        """Of the coarse frame, for an eye distance."""
+        return self.driver.scale / COARSENESS
 
     @cached_property
     def _driver_mesh(self) -> NDArray[np.float64]:
@@ -80,17 +93,26 @@ class DeformationTransfer:
         return self.driver.covered[::COARSENESS, ::COARSENESS]
 
     @cached_property
-    def _surfaces(self) -> tuple[cKDTree, NDArray[np.float64], NDArray[np.float64]]:
-        """The driver's points by their places, they, and the corresponding ones of the puppet, in eye distances (P, 3)."""
+    def _interpolation(self) -> sp.csr_array:
+        """(h * w, V) which blends the vertices' values at each of the coarse frame's pixels."""
         step = np.s_[::COARSENESS, ::COARSENESS]
-        points = self.driver.interpolated(self.driver.places)[step][self._covered] / self.driver.scale
+        triangle, weights = (layer[step].reshape(self._covered.size, -1) for layer in self.driver.raster[:2])
+        columns = self.driver.triangles[triangle[:, 0]]  # of pixels that nothing covers any: their weights are zero
+        starts = np.arange(len(weights) + 1) * 3
+        shape = (len(weights), len(self.driver.places))
+        return sp.csr_array((weights.ravel(), columns.ravel(), starts), shape)
+
+    @cached_property
+    def _surfaces(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """(h, w, 3) the driver's points, and the corresponding ones of the puppet, in eye distances."""
+        step = np.s_[::COARSENESS, ::COARSENESS]
         puppets = self.driver.interpolated(self.puppet.places)
         if self.shift is not None:
             puppets = self._by_shift(puppets)
+        points = self.driver.interpolated(self.driver.places)
         return (
-            cKDTree(points),
-            points.astype(np.float64),
-            puppets[step][self._covered].astype(np.float64) / self.puppet.scale,
+            np.ascontiguousarray(points[step] / np.float32(self.driver.scale)),
+            np.ascontiguousarray(puppets[step] / np.float32(self.puppet.scale)),
         )
 
     def _by_shift(self, puppets: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -99,3 +121,50 @@ class DeformationTransfer:
         whole = self.puppet.interpolated(self.puppet.places)
         found = cv2.remap(whole, at[..., 0], at[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         return np.asarray(found, np.float32)
+
+
+@njit(nogil=True, error_model="numpy", boundscheck=False)
+def _told(
+    moved: np.ndarray, points: np.ndarray, puppets: np.ndarray, covered: np.ndarray, pixels: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """(h, w) each point's factor, and where its movement tells one.
+
+    Where a movement (h, w, 3) leads is the nearest of the driver's points: it is found by going downhill from where the movement
+    leads within the frame, as far as neighbours are nearer.
+    """
+    height, width = covered.shape
+    field, known = np.ones((height, width), np.float32), np.zeros((height, width), np.bool_)
+    for y in range(height):
+        for x in range(width):
+            dx, dy, dz = moved[y, x, 0], moved[y, x, 1], moved[y, x, 2]
+            if not covered[y, x] or dx * dx + dy * dy + dz * dz <= MIN_MOVEMENT**2:
+                continue
+            px, py, pz = points[y, x, 0] + dx, points[y, x, 1] + dy, points[y, x, 2] + dz
+            row = min(max(round(y + dy * pixels), 0), height - 1)
+            column = min(max(round(x + dx * pixels), 0), width - 1)
+            if not covered[row, column]:
+                row, column = y, x
+            best = _squared(points, row, column, px, py, pz)
+            nearer = True
+            while nearer:
+                nearer = False
+                middle_row, middle_column = row, column
+                for r in range(max(middle_row - REACH, 0), min(middle_row + REACH + 1, height)):
+                    for c in range(max(middle_column - REACH, 0), min(middle_column + REACH + 1, width)):
+                        apart = _squared(points, r, c, px, py, pz)
+                        if covered[r, c] and apart < best:
+                            row, column, best, nearer = r, c, apart, True
+            length, along = 0.0, 0.0
+            for k in range(3):
+                step = points[row, column, k] - points[y, x, k]
+                length += step * step
+                along += step * (puppets[row, column, k] - puppets[y, x, k])
+            if length > MIN_MOVEMENT**2:
+                field[y, x] = min(max(along / length, 1 / MAX_FACTOR), MAX_FACTOR)
+                known[y, x] = True
+    return field, known
+
+
+@njit(inline="always")
+def _squared(points: np.ndarray, row: int, column: int, x: float, y: float, z: float) -> float:
+    return (points[row, column, 0] - x) ** 2 + (points[row, column, 1] - y) ** 2 + (points[row, column, 2] - z) ** 2

@@ -18,6 +18,9 @@ from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
 from engine.persona.texture.expression_weights import SMOOTHING_FRAMES, expression_points, expression_weights
 from engine.persona.texture.texture_frame import texture_frame
 
+FRAME_SIZE = (244, 194)
+"""Height and width of the frames in which movements are compared, pixels: the paper's, however fine the texture is."""
+
 
 @dataclass(frozen=True)
 class Performance:
@@ -42,13 +45,8 @@ def perform(
     """What the puppet does when the driver's face does `meshes` (F, 478, 3), pixels of its video; in the frame `rest` it is at rest."""
     front = frontalise(meshes)
     driver = front[rest]
-    transfer = DeformationTransfer(
-        texture_frame(driver, persona.frame.size), texture_frame(persona.neutral, persona.frame.size)
-    )
-    faces = np.empty((len(front), *persona.neutral.shape))
-    for number, face in enumerate(front):
-        faces[number] = persona.neutral + transfer(face - driver)
-        tick((number + 1) / len(front))
+    transfer = DeformationTransfer(texture_frame(driver, FRAME_SIZE), texture_frame(persona.neutral, FRAME_SIZE))
+    faces = persona.neutral + transfer.of_frames(front - driver, tick)
     scale = persona.frame.scale * _reference(persona)
     weights = expression_weights(expression_points(faces) * scale, persona.points * scale, SMOOTHING_FRAMES)
     linear, shift = _placings(meshes)
