@@ -1,5 +1,5 @@
 import type { Job } from '@web/api';
-import { ofDriver } from '@web/kinds/portrait/drivers';
+import { ofDriver } from '@web/performances/drivers';
 import { kinds } from '@web/kinds';
 import { keptName } from '@web/studio/kept_name';
 import { differences } from '@web/works/differences';

@@ -1,4 +1,4 @@
-import { driverName, performanceUrl } from '@web/kinds/portrait/drivers';
+import { driverName, performanceUrl } from '@web/performances/drivers';
 import type { Job } from '@web/api';
 import { kinds } from '@web/kinds';
 import * as names from '@web/works/names';

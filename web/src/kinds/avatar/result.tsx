@@ -14,10 +14,10 @@ import { later } from '../../widgets/lazy';
 import { fileUrl, isFileId } from '../../works/inputs';
 import type { AvatarReport } from './types';
 import { words as avatarWords } from './words';
-import './styles/expressions.css';
+import './styles/result.css';
 
 const Measured = later(() => import('./measured'));
-const Expressions = later(() => import('./expressions/panel'));
+const Expressions = later(() => import('../../viewer/expressions/panel'));
 const words = avatarWords.show;
 
 /** What can be looked at, and the file without which there is none. */

@@ -1,5 +1,6 @@
 /** The start page of avatars: two clips of somebody, how they are filmed, who agreed, and off it goes. */
 
+import { Consent } from '../../studio/consent';
 import { useDraft } from '../../studio/draft';
 import { useDropsAnywhere } from '../../studio/drops';
 import { StudioForm, useStudioTitle } from '../../studio/form';
@@ -13,7 +14,6 @@ import { words as motionWords } from '../../motion/words';
 import { useSending } from '../../sending/use_sending';
 import { RecentWorks } from '../../works/recent_works';
 import type { Options } from '../generic/fields';
-import { Consent } from './consent';
 import { DriverField } from './driver_field';
 import { FurtherClips } from './further_clips';
 import { Advice } from './guide/advice';
@@ -120,7 +120,7 @@ export default function AvatarStudio({ kind }: StudioProps) {
         <section class="panel" aria-labelledby="person-title">
           <h2 id="person-title">{words.person}</h2>
           <HeightField value={draft.height} onChange={(height) => change({ height })} />
-          <Consent given={draft.agreed} onChange={(agreed) => change({ agreed })} />
+          <Consent words={words} given={draft.agreed} onChange={(agreed) => change({ agreed })} />
         </section>
         <section class="panel wide" aria-labelledby="animation-title">
           <h2 id="animation-title">{words.animation}</h2>

@@ -2,6 +2,7 @@
 
 import type { Job, Report, Schemas } from '../../api';
 import type { MotionName } from '../../motion/types';
+import type { PictureSheet } from '../../widgets/sheet_cell';
 
 export type AvatarOptions = Partial<Schemas['AvatarOptions']>;
 
@@ -26,6 +27,8 @@ export interface FrameSheet {
   frames: readonly number[];
   seconds: readonly number[];
 }
+
+export const picturesOf = ({ columns, cell, frames }: FrameSheet): PictureSheet => ({ columns, cell, count: frames.length });
 
 export type FrameSheets = { readonly [Clip in ClipName]?: FrameSheet };
 

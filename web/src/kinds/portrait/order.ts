@@ -5,12 +5,12 @@ import type { PortraitOptions } from './types';
 import { randomKey } from '../../api/idempotency';
 import { fileTitle } from '../../language/format';
 import { words as portraitWords } from './words';
-import { plain } from '../../language/strings';
 import type { Order, OrderNames, Upload } from '../../kind/kind';
-import { AUTO } from './drivers';
+import { AUTO } from '../../performances/drivers';
+import { type Performance as Played, performanceTitle } from '../../performances/performance';
 
 /** By `reactive` there is no one performance: the portrait is to show many, on demand. */
-export type Performance = { by: 'name'; name: string } | { by: 'file'; file: File } | { by: 'reactive' };
+export type Performance = Played | { by: 'reactive' };
 
 export interface PortraitOrder extends Order {
   kind: 'portrait';
@@ -25,14 +25,8 @@ export const portraitOrder = (portrait: File, performance: Performance, options:
 });
 
 function performanceOf(performance: Performance): string {
-  switch (performance.by) {
-    case 'name':
-      return performance.name === AUTO ? portraitWords.studio.auto : plain(performance.name);
-    case 'file':
-      return fileTitle(performance.file);
-    case 'reactive':
-      return portraitWords.studio.reactive;
-  }
+  if (performance.by === 'reactive') return portraitWords.studio.reactive;
+  return performance.by === 'name' && performance.name === AUTO ? portraitWords.studio.auto : performanceTitle(performance);
 }
 
 export const namesOf = (order: PortraitOrder): OrderNames => ({

@@ -1,6 +1,7 @@
 /** A reactive portrait, alive: it answers the pointer, and buttons lead it from state to state. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
+import { words as performanceWords } from '../../performances/words';
 import { words as portraitWords } from './words';
 import { ProblemAlert } from '../../widgets/problem_alert';
 
@@ -65,7 +66,7 @@ export function ReactivePlayer({ profile, poster }: Props) {
               aria-pressed={one === state}
               onClick={() => portrait.current?.play(one)}
             >
-              {(portraitWords.studio.states as Record<string, string>)[one] ?? one}
+              {(performanceWords.states as Record<string, string>)[one] ?? one}
             </button>
           ))}
         </div>

@@ -4,7 +4,7 @@ import type { Artifact, Job } from '../../api';
 import { type PortraitReport, portraitOptions } from './types';
 import { size } from '../../language/format';
 import type { ResultProps } from '../../kind/kind';
-import { performanceUrl } from './drivers';
+import { performanceUrl } from '../../performances/drivers';
 import { words as portraitWords } from './words';
 import { strings } from '../../language/strings';
 import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';

@@ -1,18 +1,20 @@
 /** The start page: choose a portrait and a performance, set it going, find what was made before. */
 
-import { useEffect, useState } from 'preact/hooks';
-import { listDrivers } from '../../api';
+import { useState } from 'preact/hooks';
 import { type Choices, FoldedChoices, optionsOf, defaults } from './choices';
 import { useDropsAnywhere } from '../../studio/drops';
 import { Demo } from '../../studio/demo';
-import { Performances } from './performances';
+import { AUTO } from '../../performances/drivers';
+import { PerformancePicker } from '../../performances/performance_picker';
+import { useDrivers } from '../../performances/use_drivers';
+import { words as performanceWords } from '../../performances/words';
+import { SpecialCards } from './special_cards';
 import { StudioForm, useStudioTitle } from '../../studio/form';
 import { PicturePanel } from '../../studio/picture_panel';
 import { RecentWorks } from '../../works/recent_works';
 import { ProblemAlert } from '../../widgets/problem_alert';
 import { useDraft } from '../../studio/draft';
 import { useRefusals } from '../../studio/refusals';
-import { useLoaded } from '../../api/loading';
 import { isPicture, isVideo } from '../../studio/media_types';
 import type { StudioProps } from '../../kind/kind';
 import { type Performance, portraitOrder } from './order';
@@ -22,9 +24,6 @@ import { useSending } from '../../sending/use_sending';
 import { strings } from '../../language/strings';
 
 const words = portraitWords.studio;
-
-/** How often drivers that are being searched for moments are looked at. */
-const SEARCH_POLL_MS = 2000;
 
 /** What is acted out where nothing else is chosen: the mood of the clip above. */
 const DEFAULT_PERFORMANCE = 'happy';
@@ -58,15 +57,9 @@ export default function PortraitStudio({ kind }: StudioProps) {
     change({ performance: null });
   };
   const [keeping, setKeeping] = useState(false);
-  const drivers = useLoaded(listDrivers, 'drivers');
+  const drivers = useDrivers();
   const usual = drivers.value?.find(({ name }) => name === DEFAULT_PERFORMANCE);
   const performance: Performance | null = refused.video ? null : chosen ?? (usual ? { by: 'name', name: usual.name } : null);
-  const searching = drivers.value?.some((driver) => driver.moments_status === 'pending') ?? false;
-  useEffect(() => {
-    if (!searching) return;
-    const timer = setInterval(drivers.reload, SEARCH_POLL_MS);
-    return () => clearInterval(timer);
-  }, [searching]);
   const sending = useSending();
   useStudioTitle(kind);
   useDropsAnywhere(async (file) => {
@@ -77,7 +70,7 @@ export default function PortraitStudio({ kind }: StudioProps) {
   }, refusePortrait);
 
   const hasSound = performance?.by === 'file';
-  const wrong = refused.portrait ? strings.studio.wrongPicture : refused.video ? words.wrongVideo : null;
+  const wrong = refused.portrait ? strings.studio.wrongPicture : refused.video ? performanceWords.wrongVideo : null;
   const needed = wrong ?? (!portrait ? words.needPortrait : !performance ? words.needPerformance : '');
   const missing = keeping ? words.keepingFirst : needed;
   const order =
@@ -124,16 +117,19 @@ export default function PortraitStudio({ kind }: StudioProps) {
               </button>
             </ProblemAlert>
           )}
-          <Performances
+          <PerformancePicker
             drivers={drivers.value ?? []}
-            chosen={performance}
+            chosen={performance?.by === 'reactive' ? null : performance}
             onChoose={setPerformance}
             refused={refused.video === true}
             onRefused={refuseVideo}
             sending={sending.step !== null}
             onKeeping={setKeeping}
             onKept={drivers.reload}
-          />
+            onGone={() => setPerformance({ by: 'name', name: AUTO })}
+          >
+            <SpecialCards chosen={performance} onChoose={setPerformance} />
+          </PerformancePicker>
           <FoldedChoices value={choices} mayHaveSound={hasSound} onChange={(choices) => change({ choices })} />
         </section>
       </StudioForm>

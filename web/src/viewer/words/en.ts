@@ -1,5 +1,7 @@
 /** English: characters in 3D, to be looked at, posed, and hung on a wall. */
 
+import type { MixtureName, UnitGroup } from '../expressions/units';
+
 const english = {
   label: 'In 3D',
   modes: 'What to do',
@@ -79,6 +81,33 @@ const english = {
     points: (count: string) => `${count} of the measured points.`,
     cameras: 'Show where the camera stood',
     shape: 'Show the fitted shape instead of the points',
+  },
+
+  face: {
+    title: 'Expressions',
+    closeUp: 'Close-up',
+    reset: 'Reset face',
+    mixtures: 'Expressions to try',
+    mixtureNames: {
+      smile: 'Smile',
+      surprise: 'Surprise',
+      sad: 'Sad',
+      angry: 'Angry',
+      blink: 'Blink',
+      wink: 'Wink',
+    } satisfies Record<MixtureName, string>,
+    visemes: 'Visemes',
+    viseme: (name: string) => `Mouth as for “${name}”`,
+    groups: {
+      eyes: 'Eyes',
+      brows: 'Brows',
+      mouth: 'Mouth',
+      jaw: 'Jaw and tongue',
+      cheeks: 'Cheeks and nose',
+    } satisfies Record<UnitGroup, string>,
+    left: (unit: string) => `${unit}, left`,
+    right: (unit: string) => `${unit}, right`,
+    percent: (value: number) => `${Math.round(100 * value)}%`,
   },
 
   space: 'View in your space',

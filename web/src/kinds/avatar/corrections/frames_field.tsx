@@ -1,8 +1,8 @@
 /** The frames that were chosen of a clip: those in which the person moved, or that are blurred, are left out by a click. */
 
 import { clock } from '../../../language/format';
-import type { FrameSheet } from '../types';
-import { cellStyle } from './sheet_cell';
+import { type FrameSheet, picturesOf } from '../types';
+import { cellStyle } from '../../../widgets/sheet_cell';
 import { words as avatarWords } from '../words';
 
 const words = avatarWords.correct;
@@ -41,7 +41,7 @@ export function FramesField({ sheet, url, title, leftOut, onChange }: Props) {
               aria-pressed={out}
               disabled={!out && !mayLeaveOut}
               aria-label={words.frame(place + 1, clock(seconds[place] ?? 0, last))}
-              style={cellStyle(sheet, url, place)}
+              style={cellStyle(picturesOf(sheet), url, place)}
               onClick={() => toggle(frame)}
             />
           );

@@ -3,11 +3,11 @@
 import { useEffect, useId, useRef, useState } from 'preact/hooks';
 import { clock } from '../../../language/format';
 import { Dialog } from '../../../widgets/dialog';
-import type { FrameSheet } from '../types';
+import { type FrameSheet, picturesOf } from '../types';
 import { words as avatarWords } from '../words';
 import type { Landmarks } from './changes';
 import { jointNames, landmarkName, placeIn, withPlace } from './landmarks';
-import { cellStyle } from './sheet_cell';
+import { cellStyle } from '../../../widgets/sheet_cell';
 
 const words = avatarWords.place;
 /** Seconds into a frame, so that it is not the one before that is seen. */
@@ -152,7 +152,7 @@ function Frame({ sheet, sheetUrl, clip, place, label, help, points, here, onPut 
         onClick={click}
         onKeyDown={key}
       >
-        <div style={cellStyle(sheet, sheetUrl, place)} />
+        <div style={cellStyle(picturesOf(sheet), sheetUrl, place)} />
         {clip && !unplayable && (
           <video
             ref={video}

@@ -1,7 +1,5 @@
 /** English: avatars: their studio, how to film for them, their faces, and what is said of them wherever kinds are named. */
 
-import type { MixtureName, UnitGroup } from '../expressions/units';
-
 const english = {
   label: 'Avatar',
   sharedTitle: 'An avatar made of two clips',
@@ -161,8 +159,9 @@ const english = {
     heightRead: (metres: string) => `${metres} m`,
     heightWrong: 'People are between 0.8 and 2.4 m tall.',
     consentTitle: 'Whose body this is',
-    consent:
+    consent: [
       'An avatar is somebody’s body and face. Give clips only of yourself, or of people who agreed to it and to what it will be used for. Deleting the work erases the clips and all that was made of them: frames, measurements, the avatar.',
+    ],
     agreed: 'The clips show me, or somebody who agreed to this.',
 
     animation: 'Animation',
@@ -216,33 +215,6 @@ const english = {
     animation: 'Animation',
     does: (motion: string) => `Motion: ${motion}`,
     textureAlt: 'The avatar’s texture, all of its skin laid flat',
-  },
-
-  face: {
-    title: 'Expressions',
-    closeUp: 'Close-up',
-    reset: 'Reset face',
-    mixtures: 'Expressions to try',
-    mixtureNames: {
-      smile: 'Smile',
-      surprise: 'Surprise',
-      sad: 'Sad',
-      angry: 'Angry',
-      blink: 'Blink',
-      wink: 'Wink',
-    } satisfies Record<MixtureName, string>,
-    visemes: 'Visemes',
-    viseme: (name: string) => `Mouth as for “${name}”`,
-    groups: {
-      eyes: 'Eyes',
-      brows: 'Brows',
-      mouth: 'Mouth',
-      jaw: 'Jaw and tongue',
-      cheeks: 'Cheeks and nose',
-    } satisfies Record<UnitGroup, string>,
-    left: (unit: string) => `${unit}, left`,
-    right: (unit: string) => `${unit}, right`,
-    percent: (value: number) => `${Math.round(100 * value)}%`,
   },
 
   correct: {

@@ -17,7 +17,7 @@ import { asProblem, useLoaded } from '../../../api/loading';
 import { LoadingProblem } from '../../../widgets/problem_alert';
 import { isFileId } from '../../../works/inputs';
 import { mayRepeat } from '../../../result/next_step';
-import { AUTO, performanceUrl } from '../drivers';
+import { AUTO, performanceUrl } from '../../../performances/drivers';
 import { jobLink } from '../../../route';
 import { words as portraitWords } from '../words';
 import { strings } from '../../../language/strings';

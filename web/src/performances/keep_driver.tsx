@@ -1,16 +1,16 @@
 /** Makes a video at hand a driver of one's own, so that its emotions are found. It is sent as orders are: with a pause. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { createDriver, listDrivers, type Problem } from '../../api';
-import { stem } from '../../language/format';
-import { asProblem } from '../../api/loading';
+import { createDriver, listDrivers, type Problem } from '../api';
+import { stem } from '../language/format';
+import { asProblem } from '../api/loading';
 import { driverName } from './drivers';
-import type { Sending } from '../../sending/order';
-import { usePausing } from '../../sending/pausing';
-import { words as portraitWords } from './words';
-import { GIVEN_UP, uploadFile } from '../../api/upload';
-import { SendingBar } from '../../studio/sending_bar';
-import { ProblemAlert } from '../../widgets/problem_alert';
+import type { Sending } from '../sending/order';
+import { usePausing } from '../sending/pausing';
+import { words } from './words';
+import { GIVEN_UP, uploadFile } from '../api/upload';
+import { SendingBar } from '../studio/sending_bar';
+import { ProblemAlert } from '../widgets/problem_alert';
 
 interface Props {
   file: File;
@@ -20,8 +20,6 @@ interface Props {
   /** There is a driver more: of this name, or of no interest any more. */
   onKept: (name: string | null) => void;
 }
-
-const words = portraitWords.studio;
 
 export function KeepDriver({ file, disabled, onKeeping, onKept }: Props) {
   const [step, setStep] = useState<Sending | null>(null);
@@ -61,7 +59,7 @@ export function KeepDriver({ file, disabled, onKeeping, onKept }: Props) {
   return (
     <div class="keep">
       {step ? (
-        <SendingBar files={portraitWords.files} step={step} paused={paused} onPause={pause} onStop={() => stopper.current?.abort(GIVEN_UP)} />
+        <SendingBar files={words.files} step={step} paused={paused} onPause={pause} onStop={() => stopper.current?.abort(GIVEN_UP)} />
       ) : (
         <button type="button" class="button" disabled={disabled} onClick={() => void keep()}>
           {words.keep}

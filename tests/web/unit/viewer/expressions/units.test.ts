@@ -1,4 +1,4 @@
-import { groups, mixtures, unitWords, visemes } from '@web/kinds/avatar/expressions/units';
+import { groups, mixtures, unitWords, visemes } from '@web/viewer/expressions/units';
 import { describe, expect, it } from 'vitest';
 
 const units = Object.values(groups).flat();

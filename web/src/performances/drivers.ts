@@ -1,7 +1,7 @@
-/** What drives a portrait: the names of performances and their moments, and where they play from. */
+/** What drives a face: the names of performances and their moments, and where they play from. */
 
-import type { Job } from '../../api';
-import { fileUrl, isFileId, isUrl, textOf } from '../../works/inputs';
+import type { Job } from '../api';
+import { fileUrl, isFileId, isUrl, textOf } from '../works/inputs';
 
 /** The name under which the service chooses a driver itself. */
 export const AUTO = 'auto';

@@ -1,21 +1,21 @@
 /** The performances on offer, to choose one from: ours, the user's own, or a video at hand. */
 
+import type { ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';
-import { deleteDriver, type Driver, renameDriver } from '../../api';
-import { isVideo, videoTypes } from '../../studio/media_types';
-import { AUTO, ofDriver } from './drivers';
-import type { Performance } from './order';
-import { words as portraitWords } from './words';
-import { plain } from '../../language/strings';
-import { Capture } from '../../studio/capture';
-import { Card, shownOf, symbols } from './performance_card';
-import { SymbolCard } from '../../studio/symbol_card';
-import { Dropzone } from '../../widgets/dropzone';
+import { deleteDriver, type Driver, renameDriver } from '../api';
+import { isVideo, videoTypes } from '../studio/media_types';
+import { ofDriver } from './drivers';
+import type { Performance } from './performance';
+import { words } from './words';
+import { plain } from '../language/strings';
+import { Capture } from '../studio/capture';
+import { Card, shownOf } from './performance_card';
+import { Dropzone } from '../widgets/dropzone';
 import { KeepDriver } from './keep_driver';
-import { KeptList } from '../../studio/kept_list';
+import { KeptList } from '../studio/kept_list';
 
 interface Props {
-  drivers: Driver[];
+  drivers: readonly Driver[];
   chosen: Performance | null;
   onChoose: (performance: Performance) => void;
   /** The file that was chosen last is no video. */
@@ -27,20 +27,23 @@ interface Props {
   onKeeping: (on: boolean) => void;
   /** There is a driver more, or less, or one has another name. */
   onKept: () => void;
+  /** The one that was chosen is no more. */
+  onGone: () => void;
+  /** Cards of what else may be chosen, before the built-in ones. */
+  children?: ComponentChildren;
 }
 
 const STRENGTHS = ['normal', 'strong'] as const;
 type Strength = (typeof STRENGTHS)[number];
 
-const words = portraitWords.studio;
-
-export function Performances({ drivers, chosen, onChoose, refused, onRefused, sending, onKeeping, onKept }: Props) {
+export function PerformancePicker({ drivers, chosen, onChoose, refused, onRefused, sending, onKeeping, ...then }: Props) {
+  const { onKept, onGone, children } = then;
   const [strength, setStrength] = useState<Strength>('normal');
   const name = chosen?.by === 'name' ? chosen.name : null;
   const choose = (name: string): void => onChoose({ by: 'name', name });
   const ours = drivers.filter((driver) => driver.source === 'built-in');
   const own = drivers.filter((driver) => driver.source === 'own');
-  const cards = (members: Driver[]) =>
+  const cards = (members: readonly Driver[]) =>
     members.flatMap(shownOf).map((shown) => (
       <Card key={shown.value} {...shown} checked={shown.value === name} onChoose={() => choose(shown.value)} />
     ));
@@ -65,22 +68,7 @@ export function Performances({ drivers, chosen, onChoose, refused, onRefused, se
             ))}
           </div>
           <div class="cards">
-            <SymbolCard
-              value={AUTO}
-              symbol={symbols.stars}
-              label={words.auto}
-              hint={words.autoHint}
-              checked={name === AUTO}
-              onChoose={() => choose(AUTO)}
-            />
-            <SymbolCard
-              value="reactive"
-              symbol={symbols.touch}
-              label={words.reactive}
-              hint={words.reactiveHint}
-              checked={chosen?.by === 'reactive'}
-              onChoose={() => onChoose({ by: 'reactive' })}
-            />
+            {children}
             {cards(ours.filter((driver) => driver.strength === strength))}
           </div>
         </fieldset>
@@ -103,7 +91,7 @@ export function Performances({ drivers, chosen, onChoose, refused, onRefused, se
           onKept();
         }}
         onRemoved={(gone) => {
-          if (name !== null && ofDriver(name, gone)) choose(AUTO);
+          if (name !== null && ofDriver(name, gone)) onGone();
           onKept();
         }}
       />

@@ -1,15 +1,15 @@
-/** What the avatar's face can do: units on sliders, mixtures of them, and the mouths of speech. */
+/** What a character's face can do: units on sliders, mixtures of them, and the mouths of speech. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { Box3, Vector3 } from 'three';
-import { placeOf } from '../../../viewer/posing/inverse_kinematics';
-import type { Character } from '../../../viewer/scene/character';
-import type { Stage } from '../../../viewer/scene/stage';
-import { words as avatarWords } from '../words';
+import { placeOf } from '../posing/inverse_kinematics';
+import type { Character } from '../scene/character';
+import type { Stage } from '../scene/stage';
+import { words as viewerWords } from '../words';
 import { type Expression, groups, type MixtureName, mixtures, type UnitGroup, unitWords, visemes, visemeTarget } from './units';
-import '../styles/expressions.css';
+import './expressions.css';
 
-const words = avatarWords.face;
+const words = viewerWords.face;
 /** Metres around the middle of a head that a close-up shows. */
 const AROUND_HEAD = 0.17;
 /** How far above the joint of the head its middle is, metres. */

@@ -1,20 +1,10 @@
 /** A performance as a card: a picture that plays when it is pointed at, and a name. */
 
 import { useState } from 'preact/hooks';
-import type { Driver, Moment } from '../../api';
+import type { Driver, Moment } from '../api';
 import { momentName } from './drivers';
-import { words as portraitWords } from './words';
-import { plain } from '../../language/strings';
-
-const words = portraitWords.studio;
-
-/** Drawings of what has no picture: paths in a square of 48. */
-export const symbols = {
-  stars:
-    'M20 12c1.5 8 4.5 11 12 12-7.5 1-10.5 4-12 12-1.5-8-4.5-11-12-12 7.5-1 10.5-4 12-12m15-3c.6 3.5 1.9 4.8 5 5-3.1.6-4.4 1.9-5 5-.6-3.1-1.9-4.4-5-5 3.1-.2 4.4-1.5 5-5',
-  touch:
-    'M19 40c-3-5-6-9-8-12 2-3 5-1 8 2V12c0-4 5-4 5 0v11l9 2c3 1 4 3 3 6l-3 9M11 12a10 10 0 0 1 5-8m11 0a10 10 0 0 1 5 8',
-};
+import { words } from './words';
+import { plain } from '../language/strings';
 
 /** What a card shows, and what a job names to be driven by it. */
 interface Shown {

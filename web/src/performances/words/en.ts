@@ -1,0 +1,39 @@
+/** English: performances: the built-in ones, one's own, and a video at hand. */
+
+const english = {
+  performances: 'Built-in performances',
+  yours: 'Your saved videos',
+  states: {
+    idle: 'Idle',
+    happy: 'Happy',
+    surprise: 'Surprise',
+    anger: 'Anger',
+    fear: 'Fear',
+    sadness: 'Sadness',
+    nod: 'Nod',
+    shake: 'Shake',
+    wink: 'Wink',
+    talk: 'Talk',
+  },
+  strong: (state: string) => `${state}, strong`,
+  strengths: 'Intensity',
+  strengthNames: { normal: 'Normal', strong: 'Strong' },
+  moment: (state: string, number: string, seconds: string) => `${state}${number && ` ${number}`}, ${seconds} s`,
+  momentOf: (driver: string, start: string, end: string) => `${driver}, from ${start} to ${end} s`,
+  searching: (driver: string) => `Looking for emotions in “${driver}”.`,
+  nothingFound: (driver: string) => `No emotion that starts and ends with a neutral look was found in “${driver}”.`,
+  notSearched: (driver: string) => `“${driver}” could not be searched for emotions.`,
+  keep: 'Save it and find the emotions in it',
+  keepHint: 'Each part that starts and ends with a neutral look is offered as a performance.',
+  ownVideo: 'Upload a video',
+  videoDrop: 'Drop a video here',
+  videoBrowse: 'or choose one',
+  videoChosen: (name: string) => `Video: ${name}. Choose another`,
+  wrongVideo: 'This is not a video. Please choose an MP4, MOV, WebM, MKV or GIF file.',
+  /** Files, by what they are to an order. */
+  files: { video: 'the video' },
+};
+
+export type PerformanceWords = typeof english;
+
+export default english;
