@@ -101,7 +101,7 @@ class Settings(BaseSettings):
     job_days: float = Field(0, ge=0, description="How long an ended job is kept with its media; 0 keeps it for good.")
     erase_sources: bool = Field(
         False,
-        description="Whether clips of a person, of which an avatar is made, are erased once their job has succeeded.",
+        description="Whether clips and photos of a person, of which an avatar or a persona is made, are erased once their job has succeeded.",
     )
     file_hours: float = Field(24, gt=0, description="How long an uploaded file waits for a job before it is erased.")
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
@@ -13,7 +14,7 @@ from engine.perception.landmarks import LIPS_INNER, mouth_opening
 from engine.persona.persona import Persona
 from engine.persona.shape.average_shape import average_depth
 from engine.persona.texture.aligned_photos import AlignedPhotos, align_photos
-from engine.persona.texture.appearance_subspace import appearance, exposed
+from engine.persona.texture.appearance_subspace import Appearance, appearance, exposed
 from engine.persona.texture.dense_alignment import align_densely, shifted
 from engine.persona.texture.expression_weights import expression_points
 from engine.persona.texture.template_shape import template_shape
@@ -24,6 +25,19 @@ MOUTH_OPENING = 0.25
 """From which on what a photograph shows between the lips counts in full: of a mouth that is shut it is the lips' own rim, drawn wide."""
 NEUTRAL_SHARE = 0.25
 """Of the photographs, those whose expression is nearest to the median one: their mean is the face at rest."""
+MIN_BELIEVED = 0.45
+"""Of what a photograph shows from the brows down, the share that can be believed: of less, hands, beards and spectacles cover it, or a
+light of its own, or it is painted. Caps leave more."""
+BROWS = (105, 334)
+"""Vertices at the tops of the arches."""
+
+
+@dataclass(frozen=True)
+class LearntPersona:
+    """A persona, and which of the N photographs it is of, (N,): not those in which next to nothing can be believed."""
+
+    persona: Persona
+    used: NDArray[np.bool_]
 
 
 def learn_persona(
@@ -31,34 +45,49 @@ def learn_persona(
     photo: Callable[[int], NDArray[np.uint8]],
     size: tuple[int, int],
     tick: Callable[[float], None] = lambda fraction: None,
-) -> Persona:
-    """Of `meshes` (N, 478, 3) in the photographs that `photo` gives by number, (h, w, 3) uint8; textures of `size` (height, width)."""
-    front = frontalise(meshes)
+    insisted: Collection[int] = (),
+) -> LearntPersona:
+    """Of `meshes` (N, 478, 3) in the photographs that `photo` gives by number, (h, w, 3) uint8; textures of `size` (height, width). Those
+    that are `insisted` on are used however little of them can be believed."""
     mesh = template_shape(meshes)
     frame = texture_frame(mesh, size)
     aligned = align_photos(frame, list(meshes), photo, lambda fraction: tick(0.4 * fraction))
-    shown = aligned.shown * _mouths(frame, mouth_opening(front))
+    shown = aligned.shown * _mouths(frame, mouth_opening(frontalise(meshes)))
     first = appearance(exposed(aligned.grey(), frame.face), shown, frame.covered)
+    used = believed_share(frame, first, shown) >= MIN_BELIEVED
+    used[list(insisted)] = True
+    if not used.all():
+        aligned, shown, meshes = AlignedPhotos(aligned.colours[used], aligned.shown[used]), shown[used], meshes[used]
+        first = appearance(first.exposed[used], shown, frame.covered)
+    front = frontalise(meshes)
     offsets, seen = align_densely(first, shown, frame.covered, lambda fraction: tick(0.4 + 0.5 * fraction))
     colours = _moved(AlignedPhotos(balanced(aligned.colours, seen.weights, frame.face), shown), offsets)
     depth = average_depth(frame, seen)
     tick(1.0)
-    return Persona(
-        mesh,
-        _neutral(front),
-        colours,
-        np.rint(seen.weights * 255).astype(np.uint8),
-        expression_points(front).astype(np.float32),
-        depth.astype(np.float32),
-    )
+    belief = np.rint(seen.weights * 255).astype(np.uint8)
+    points = expression_points(front).astype(np.float32)
+    persona = Persona(mesh, _neutral(front), colours, belief, points, depth.astype(np.float32))
+    return LearntPersona(persona, used)
+
+
+def believed_share(frame: TextureFrame, seen: Appearance, shown: NDArray[np.float32]) -> NDArray[np.float64]:
+    """(N,) how much of what each photograph shows of the face, from the brows down and beside the lips' inside, can be believed."""
+    below = np.arange(frame.size[0])[:, None] > frame.places[list(BROWS), 1].min()
+    inner = frame.face & below & ~_between_lips(frame)
+    believed, there = seen.weights[:, inner].sum(axis=1), shown[:, inner].sum(axis=1)
+    return np.asarray(believed / np.maximum(there, 1e-6), np.float64)
 
 
 def _mouths(frame: TextureFrame, openings: NDArray[np.floating]) -> NDArray[np.float32]:
     """(N, H, W) how far each photograph counts: less between the lips, the less its mouth is open."""
+    share = np.minimum(np.asarray(openings) / MOUTH_OPENING, 1) ** 2
+    return np.where(_between_lips(frame)[None], share[:, None, None], 1).astype(np.float32)
+
+
+def _between_lips(frame: TextureFrame) -> NDArray[np.bool_]:
     inside = np.zeros(frame.size, np.uint8)
     cv2.fillPoly(inside, [np.rint(frame.places[list(LIPS_INNER), :2]).astype(np.int32)], 1)
-    share = np.minimum(np.asarray(openings) / MOUTH_OPENING, 1) ** 2
-    return np.where(inside[None] > 0, share[:, None, None], 1).astype(np.float32)
+    return inside > 0
 
 
 def _moved(photos: AlignedPhotos, offsets: NDArray[np.float32]) -> NDArray[np.uint8]:

@@ -20,6 +20,7 @@ from engine.media.excerpt import Excerpt
 from engine.media.video import read_video
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.identity.backend import descriptor_distances, descriptor_name
+from engine.persona.collection.coverage import rare, shown_expressions, shown_sides
 from engine.persona.collection.face_sheet import write_faces
 from engine.persona.collection.photos import Photos, read_photos
 from engine.persona.collection.sorting import Choice
@@ -90,15 +91,29 @@ def _learnt(paths: Sequence[Path], options: PersonaOptions, out: Path, run: Run)
     described_by = descriptor_name(os.environ)
     found = run.stage("find_faces", find_faces_of_photos, photos, described_by, run.tick)
     choice = Choice(options.keep, options.leave_out)
-    chosen: SortedFaces = sort_faces(found, descriptor_distances(os.environ), choice, options.example)
-    for early in write_faces(
-        out, photos, chosen.faces, chosen.reasons, chosen.whose.distance.tolist(), run.mark_synthetic
-    ):
-        run.publish(early)  # before anything is refused: the numbers in it are those of what mends it
+    chosen = sort_faces(found, descriptor_distances(os.environ), choice, options.example)
+    _tell_faces(out, photos, chosen, run)  # before anything is refused: its numbers are those of what mends it
     chosen.require_enough()
-    kept = tuple(chosen.kept)
-    persona = run.stage("learn_persona", learn, photos, kept, options.texture_width or texture_width(kept), run.tick)
-    return persona, {"photos": len(photos), "files_skipped": len(photos.skipped), "faces": len(chosen.faces)}
+    width = options.texture_width or texture_width(chosen.kept)
+    learnt = run.stage("learn_persona", learn, photos, chosen, options.keep, width, run.tick)
+    if not learnt.used.all():
+        chosen = chosen.without_covered(learnt.used)
+        _tell_faces(out, photos, chosen, run)
+        chosen.require_enough()
+    expressions, sides = shown_expressions(chosen.kept), shown_sides(chosen.kept)
+    if few := rare(expressions):
+        run.warn(
+            "expressions_rare",
+            f"Few photos show: {few}. Where a driver does, what is nearest stands in for it: add photos that show it.",
+        )
+    told = {"photos": len(photos), "files_skipped": len(photos.skipped), "faces": len(chosen.faces)}
+    return learnt.persona, {**told, "expressions": expressions, "sides": sides}
+
+
+def _tell_faces(out: Path, photos: Photos, chosen: SortedFaces, run: Run) -> None:
+    distances = chosen.whose.distance.tolist()
+    for early in write_faces(out, photos, chosen.faces, chosen.reasons, distances, run.mark_synthetic):
+        run.publish(early)
 
 
 def _animated(persona: Persona, driver: Path, options: PersonaOptions, out: Path, run: Run) -> dict[str, object]:

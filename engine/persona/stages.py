@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.perception.identity.backend import face_descriptor
 from engine.perception.identity.descriptor import IdentityDistances
+from engine.persona.collection.coverage import rare, shown_expressions, shown_sides
 from engine.persona.collection.person import Belonging, belonging
 from engine.persona.collection.photo_face import PhotoFace, faces_of
 from engine.persona.collection.photos import Photos
 from engine.persona.collection.sorting import Choice, Reason, reasons_against
-from engine.persona.learning import learn_persona
-from engine.persona.persona import Persona
+from engine.persona.learning import LearntPersona, learn_persona
 
 MIN_PHOTOS = 15
 """That can be used, for a persona."""
@@ -36,6 +37,7 @@ WORDS: dict[Reason, str] = {
     "tiny": "are too small",
     "blurred": "are blurred",
     "duplicate": "are there twice",
+    "covered": "are covered, in a light of their own, or painted",
     "left_out": "were left out",
 }
 
@@ -67,10 +69,17 @@ class SortedFaces:
         if kept < MIN_PHOTOS:
             raise InputError(
                 "too_few_photos",
-                f"{MIN_PHOTOS} photos of the person are needed, and {kept} can be used: {MIN_PHOTOS - kept} more, from before, with"
-                f" mouth and brows as they come.{_spoken(self.reasons)}",
+                f"{MIN_PHOTOS} photos of the person are needed, and {kept} can be used: {MIN_PHOTOS - kept} more, from before."
+                f"{_lacking(self.kept)}{_spoken(self.reasons)}",
                 ("photos",),
             )
+
+    def without_covered(self, used: NDArray[np.bool_]) -> SortedFaces:
+        """With those of `kept` that were not `used` left out as covered."""
+        kept = [number for number, reason in enumerate(self.reasons) if reason is None]
+        covered = {number for number, one in zip(kept, used, strict=True) if not one}
+        reasons = ("covered" if number in covered else reason for number, reason in enumerate(self.reasons))
+        return SortedFaces(self.faces, tuple(reasons), self.whose)
 
 
 def find_faces_of_photos(photos: Photos, described_by: str, tick: Callable[[float], None]) -> PhotoFaces:
@@ -89,11 +98,16 @@ def sort_faces(found: PhotoFaces, distances: IdentityDistances, choice: Choice, 
     return SortedFaces(found.faces, reasons_against(found.faces, whose, choice), whose)
 
 
-def learn(photos: Photos, kept: Sequence[PhotoFace], width: int, tick: Callable[[float], None]) -> Persona:
-    """The persona of the faces that are of use; textures `width` pixels wide."""
-    meshes = np.array([face.mesh for face in kept])
+def learn(
+    photos: Photos, chosen: SortedFaces, insisted: Collection[int], width: int, tick: Callable[[float], None]
+) -> LearntPersona:
+    """The persona of the faces that are of use, those among them that are `insisted` on, by their numbers among all, whatever covers
+    them; textures `width` pixels wide."""
+    kept = [(number, face) for number, face in enumerate(chosen.faces) if chosen.reasons[number] is None]
+    meshes = np.array([face.mesh for _, face in kept])
     size = round(width * ASPECT), width
-    return learn_persona(meshes, lambda number: photos.picture(kept[number].photo), size, tick)
+    sure = [place for place, (number, _) in enumerate(kept) if number in insisted]
+    return learn_persona(meshes, lambda place: photos.picture(kept[place][1].photo), size, tick, sure)
 
 
 def texture_width(kept: Sequence[PhotoFace]) -> int:
@@ -105,3 +119,8 @@ def texture_width(kept: Sequence[PhotoFace]) -> int:
 def _spoken(reasons: Sequence[Reason | None]) -> str:
     told = Counter(reason for reason in reasons if reason is not None).most_common()
     return f" Of the others {', '.join(f'{count} {WORDS[reason]}' for reason, count in told)}." if told else ""
+
+
+def _lacking(kept: Sequence[PhotoFace]) -> str:
+    few = rare(shown_expressions(kept) | shown_sides(kept))
+    return f" Those that can be used show little of: {few}." if kept and few else ""

@@ -22,7 +22,7 @@ Collection = tuple[np.ndarray, list[np.ndarray]]
 @pytest.fixture(scope="module")
 def persona(collection: Collection) -> Persona:
     meshes, photos = collection
-    return learn_persona(meshes, lambda number: photos[number], SIZE)
+    return learn_persona(meshes, lambda number: photos[number], SIZE).persona
 
 
 def textures(persona: Persona, numbers: list[int]) -> np.ndarray:
@@ -45,6 +45,19 @@ def test_it_has_all_photographs_in_one_frame(collection: Collection, persona: Pe
     spread = persona.colours[:, face].astype(float).std(axis=0).mean()
     assert spread < 22, "grey levels: eyes lie on eyes, and lips on lips"
     assert persona.belief[:, face].mean() > 0.75 * 255
+
+
+def test_what_is_covered_is_left_out_unless_somebody_insists(collection: Collection) -> None:
+    meshes, photos = collection
+    covered = [photo.copy() for photo in photos]
+    low, high = meshes[4, :, :2].min(axis=0), meshes[4, :, :2].max(axis=0)
+    noise = np.random.default_rng(1).integers(0, 256, (16, 12, 3), np.uint8)
+    hand = cv2.resize(noise, (int(high[0] - low[0]), int(0.75 * (high[1] - low[1]))), interpolation=cv2.INTER_NEAREST)
+    top, left = int(low[1] + 0.25 * (high[1] - low[1])), int(low[0])
+    covered[4][top : top + hand.shape[0], left : left + hand.shape[1]] = hand
+    learnt = learn_persona(meshes, lambda number: covered[number], SIZE)
+    assert np.flatnonzero(~learnt.used).tolist() == [4] and len(learnt.persona) == len(photos) - 1
+    assert learn_persona(meshes, lambda number: covered[number], SIZE, insisted=[4]).used.all()
 
 
 def test_textures_are_as_sharp_as_photographs(persona: Persona) -> None:

@@ -66,8 +66,8 @@ def test_the_stranger_is_told_and_the_person_is_kept(photos: Photos, found: Phot
     reasons = dict(zip((face.photo for face in sorted_.faces), sorted_.reasons, strict=True))
     assert reasons[12] == "somebody_else"
     assert len(sorted_.kept) >= MIN_PHOTOS
-    persona = learn(photos, sorted_.kept, 194, lambda fraction: None)
-    assert persona.colours.shape == (len(sorted_.kept), 244, 194, 3)
+    learnt = learn(photos, sorted_, (), 194, lambda fraction: None)
+    assert learnt.used.all() and learnt.persona.colours.shape == (len(sorted_.kept), 244, 194, 3)
 
 
 def test_an_example_chooses_whose_persona_it_is(found: PhotoFaces) -> None:
@@ -83,6 +83,20 @@ def test_too_few_say_how_many_more_and_why(found: PhotoFaces) -> None:
         sort_faces(found, DISTANCES, Choice(leave_out=leave_out), None).require_enough()
     assert error.value.code == "too_few_photos"
     assert "were left out" in error.value.detail and "more" in error.value.detail
+
+
+def test_what_lacks_is_told(found: PhotoFaces) -> None:
+    leave_out = set(range(len(found.faces) - 9))
+    with pytest.raises(InputError, match=r"show little of: .*pursed lips \(none\)"):
+        sort_faces(found, DISTANCES, Choice(leave_out=leave_out), None).require_enough()
+
+
+def test_faces_that_were_not_used_are_covered(found: PhotoFaces) -> None:
+    chosen = sort_faces(found, DISTANCES, Choice(), None)
+    used = np.arange(len(chosen.kept)) != 2
+    after = chosen.without_covered(used)
+    assert after.kept == [face for face, one in zip(chosen.kept, used, strict=True) if one]
+    assert after.reasons.count("covered") == 1
 
 
 def test_textures_are_as_large_as_photographs_ask_for(found: PhotoFaces) -> None:

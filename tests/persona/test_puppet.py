@@ -17,7 +17,7 @@ Collection = tuple[np.ndarray, list[np.ndarray]]
 @pytest.fixture(scope="module")
 def persona(collection: Collection) -> Persona:
     meshes, photos = collection
-    return learn_persona(meshes[::2], lambda number: photos[2 * number], SIZE)
+    return learn_persona(meshes[::2], lambda number: photos[2 * number], SIZE).persona
 
 
 def turned(degrees: float) -> np.ndarray:

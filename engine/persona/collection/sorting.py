@@ -21,7 +21,8 @@ MAX_BLUR = 0.62
 DUPLICATE_CORRELATION, DUPLICATE_DISTANCE = 0.98, 0.25
 """Of chips and of descriptors, at once: the same picture, in another size or another file."""
 
-Reason = Literal["left_out", "somebody_else", "uncertain", "turned", "tiny", "blurred", "duplicate"]
+Reason = Literal["left_out", "somebody_else", "uncertain", "turned", "tiny", "blurred", "duplicate", "covered"]
+"""`covered` is told of a whole collection, once its photographs lie on one another (`engine.persona.learning`)."""
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 
 RANK = 4
 """A convex face under any light is a mixture of four pictures to within a few hundredths (R. Basri, D. W. Jacobs, PAMI 2003)."""
+MIN_PHOTOS_OF_DIMENSION = 3.0
+"""In which a dimension of the subspace has to lie."""
 MIN_BELIEF = 0.01
 """Weight of all pixels as they are, so that a photograph of which next to nothing is believed has a light, too."""
 RESIDUAL_SIGMA = 14.0
@@ -84,14 +86,20 @@ def _low_rank(
 ) -> NDArray[np.float32]:
     """(N, P) rows of the `rank` dimensions that rows `filled` (N, P) span best, each nearest to its row of `seen` where `weights` (N, P)
     believe it."""
-    _, vectors = np.linalg.eigh((filled @ filled.T).astype(np.float64))
-    basis = vectors[:, -rank:].astype(np.float32).T @ filled
+    basis = _common(np.linalg.eigh((filled @ filled.T).astype(np.float64))[1], rank).astype(np.float32).T @ filled
     basis /= np.linalg.norm(basis, axis=1, keepdims=True)
     products = (basis[:, None] * basis[None]).reshape(rank * rank, -1)
     normal = (weights @ products.T).reshape(-1, rank, rank).astype(np.float64)
     normal += MIN_BELIEF * np.eye(rank)
     wanted = (weights * seen) @ basis.T + MIN_BELIEF * (filled @ basis.T)
     return np.asarray(np.linalg.solve(normal, wanted[..., None].astype(np.float64))[..., 0], np.float32) @ basis
+
+
+def _common(vectors: NDArray[np.float64], rank: int) -> NDArray[np.float64]:
+    """(N, rank) those of the eigenvectors (N, N), the largest eigenvalue's last, that lie in several photographs: what one alone has is not
+    light on the common face but what covers it. The number of photographs is the inverse participation ratio."""
+    many = np.flatnonzero(1 / (vectors**4).sum(axis=0) >= min(MIN_PHOTOS_OF_DIMENSION, len(vectors)) - 1e-6)
+    return vectors[:, many[-rank:]] if len(many) >= rank else vectors[:, -rank:]
 
 
 def _believed(residual: NDArray[np.float32], sigma: float) -> NDArray[np.float32]:

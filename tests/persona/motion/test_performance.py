@@ -22,7 +22,7 @@ Collection = tuple[np.ndarray, list[np.ndarray]]
 @pytest.fixture(scope="module")
 def persona(collection: Collection) -> Persona:
     meshes, photos = collection
-    return learn_persona(meshes, lambda number: photos[number], (244, 194))
+    return learn_persona(meshes, lambda number: photos[number], (244, 194)).persona
 
 
 @pytest.fixture(scope="module")
