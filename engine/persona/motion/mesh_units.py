@@ -1,0 +1,204 @@
+"""The tracked face mesh on the template's face, and what ARKit's face units do to all of its vertices.
+
+The canonical face mesh is laid on the template and bent so that its lids and lips lie where the template's are, as these are
+seen from before: lids end where eyeballs begin, and lips part where an open jaw parts the skin. What each vertex then lies on, moves
+it. `engine.body.face.face_mesh_points` has fewer vertices, those that tell most of what a tracked face does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import RBFInterpolator
+from scipy.ndimage import distance_transform_edt, minimum_filter
+
+from engine.body.body_space import BodySpace
+from engine.body.face.face_capture import CAPTURED_UNITS
+from engine.body.face.face_points import PICTURE_TO_TEMPLATE, lay_canonical_face
+from engine.body.template import Template
+from engine.geometry.registration.rigid import fit_similarity
+from engine.geometry.surface import triangulate
+from engine.perception.head_pose import canonical_face, mirror_vertices
+from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, RIGID_VERTICES, eye_distance
+from engine.render.rasteriser import Raster, rasterise
+
+PIXELS_PER_METRE = 5000.0
+"""Of the picture in which the template is looked at."""
+MARGIN = 0.01
+"""Metres about the laid face that it shows."""
+MOUTH_REACH = 0.012
+"""Metres above and below the laid mouth within which the template's is sought."""
+LIP_STEP = 0.003
+"""Metres by which an open jaw moves one lip farther than the other: where it is less, nothing parts."""
+BESIDE = 4.0
+"""Pixels from where lids or lips part to the skin that is looked up."""
+CREVICE_PIXELS, CREVICE_DEPTH = 15, 0.015
+"""Pixels about a place and metres that it is deeper than the highest there: between closed lips the throat is seen."""
+EYES = {"Left": LEFT_EYE, "Right": RIGHT_EYE}
+EYEBALLS = ("left_eye", "right_eye")
+
+
+@dataclass(frozen=True)
+class MeshUnits:
+    """The template's mean face as the tracker would have it, and its face units.
+
+    rest : (478, 3) float64, from the front, in eye distances, in the axes of pictures (y down, z away). names : U of
+    `CAPTURED_UNITS`. moved : (U, 478, 3) float64, what each does at its full.
+    """
+
+    rest: NDArray[np.float64]
+    names: tuple[str, ...]
+    moved: NDArray[np.float64]
+
+
+def mesh_units(template: Template, space: BodySpace) -> MeshUnits:
+    """The units at all vertices; those of the irises move as the skin about them, lids but no eyes."""
+    laid = lay_canonical_face(template, space)[1]
+    view = _front_view(template, space.mean.astype(np.float64), laid)
+    bent = _bent(view, view.pixels(laid)[:, :2])
+    at = np.clip(np.rint(bent + _aside(bent)), 0, np.array(view.shown.shape[::-1]) - 1).astype(int)
+    rows, columns = view.nearest_skin[:, at[:, 1], at[:, 0]]
+    corners, weights = view.triangles[view.shown[rows, columns]], view.raster.barycentrics[rows, columns]
+    depth = -view.raster.depth[rows, columns] / PIXELS_PER_METRE
+    rest = np.column_stack([view.metres(bent), depth])
+    units = template.face_units.dense(CAPTURED_UNITS).astype(np.float64)
+    moved = np.einsum("uvkc,vk->uvc", units[:, corners], weights)
+    return _as_tracked(rest @ PICTURE_TO_TEMPLATE, moved @ PICTURE_TO_TEMPLATE)
+
+
+@dataclass(frozen=True)
+class _FrontView:
+    """The template's face from before. `low`: x and y, metres, of the top-left pixel. `jaw` (H, W): how far an open jaw moves what
+    is seen; `eyes` (H, W) bool: where eyeballs are."""
+
+    raster: Raster
+    triangles: NDArray[np.int32]
+    low: NDArray[np.float64]
+    jaw: NDArray[np.float64]
+    eyes: NDArray[np.bool_]
+
+    @property
+    def shown(self) -> NDArray[np.int32]:
+        return self.raster.triangle
+
+    @property
+    def nearest_skin(self) -> NDArray[np.intp]:
+        """(2, H, W) rows and columns of the nearest pixel that shows skin."""
+        depth = np.where(self.shown < 0, np.inf, self.raster.depth)
+        within = depth > minimum_filter(depth, CREVICE_PIXELS) + CREVICE_DEPTH * PIXELS_PER_METRE
+        none = (self.shown < 0) | self.eyes | within
+        return np.asarray(distance_transform_edt(none, return_distances=False, return_indices=True), np.intp)
+
+    def pixels(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
+        """Points (N, 3), metres, as the rasteriser takes them."""
+        across, up = (points[:, :2] - self.low).T * PIXELS_PER_METRE
+        return np.column_stack([across, -up, -points[:, 2] * PIXELS_PER_METRE])
+
+    def metres(self, pixels: NDArray[np.floating]) -> NDArray[np.float64]:
+        """x and y (N, 2) of pixels (N, 2)."""
+        return np.asarray(pixels * (1, -1) / PIXELS_PER_METRE + self.low, np.float64)
+
+
+def _front_view(template: Template, mean: NDArray[np.float64], laid: NDArray[np.float64]) -> _FrontView:
+    spans = [slice(*template.parts[part]) for part in ("body", *EYEBALLS)]
+    triangles = triangulate(np.concatenate([template.quads[span] for span in spans]))
+    eyeballs = np.concatenate([template.vertices_of(part) for part in EYEBALLS])
+    low = np.array([laid[:, 0].min() - MARGIN, laid[:, 1].max() + MARGIN])
+    size = (np.ptp(laid[:, [1, 0]], axis=0) + 2 * MARGIN) * PIXELS_PER_METRE
+    blank = np.zeros((0, 0))
+    view = _FrontView(Raster(*[blank] * 3), triangles, low, blank, blank.astype(np.bool_))  # type: ignore[arg-type]
+    raster = rasterise(view.pixels(mean), triangles, (int(size[0]), int(size[1])), cull=True)
+    corners = triangles[raster.triangle]
+    travel = np.linalg.norm(template.face_units.displacement({"jawOpen": 1.0}), axis=1)
+    jaw = np.where(raster.triangle >= 0, (travel[corners] * raster.barycentrics).sum(axis=-1), 0)
+    return _FrontView(raster, triangles, low, jaw, np.isin(corners[..., 0], eyeballs) & (raster.triangle >= 0))
+
+
+def _bent(view: _FrontView, laid: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(478, 2) pixels of the mesh's vertices, by a thin-plate spline: what is rigid stays, lids and lips go to the template's."""
+    known = [*dict.fromkeys([*RIGID_VERTICES, *FACE_OVAL])]
+    goals = {vertex: laid[vertex] for vertex in known}
+    reach = int(MOUTH_REACH * PIXELS_PER_METRE)
+    for vertex in LIPS_INNER:
+        x, y = np.rint(laid[vertex]).astype(int)
+        steps = np.diff(view.jaw[y - reach : y + reach, x])
+        if steps.max() > LIP_STEP:
+            goals[vertex] = np.array([laid[vertex, 0], y - reach + steps.argmax() + 0.5])
+    for contour in EYES.values():
+        goals |= _lids(view, laid, contour)
+    vertices = list(goals)
+    goal = np.array([goals[vertex] for vertex in vertices])
+    bend = RBFInterpolator(laid[vertices], goal - laid[vertices], kernel="thin_plate_spline")
+    out = laid + bend(laid)
+    out[vertices] = goal
+    return np.asarray(out)
+
+
+def _lids(view: _FrontView, laid: NDArray[np.float64], contour: tuple[int, ...]) -> dict[int, NDArray[np.float64]]:
+    """Where the vertices of an eye's contour go: its outer corner and its lids to the eyeball's rim. The inner corner, where the
+    template has skin, stays."""
+    middle = laid[list(contour)].mean(axis=0)
+    columns = np.flatnonzero(view.eyes.any(axis=0))
+    own = columns[np.abs(columns - middle[0]) < np.ptp(laid[list(contour), 0])]
+    first, last = own.min(), own.max()
+    outer = first if laid[contour[0], 0] < middle[0] else last
+    goals = {contour[0]: np.array([outer, np.flatnonzero(view.eyes[:, outer]).mean()]), contour[8]: laid[contour[8]]}
+    inner = laid[contour[8]]
+    for place, vertex in enumerate(contour):
+        if place in (0, 8):
+            continue
+        share = (laid[vertex, 0] - inner[0]) / (laid[contour[0], 0] - inner[0])
+        x = inner[0] + share * (outer - inner[0])
+        if first < x < last:
+            rows = np.flatnonzero(view.eyes[:, int(np.rint(x))])
+            goals[vertex] = np.array([x, rows.min() - 0.5 if place < 8 else rows.max() + 0.5])
+    return goals
+
+
+def _aside(places: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(478, 2) from lids and lips onto the skin beside the opening: up from upper ones, down from lower ones."""
+    out = np.zeros_like(places)
+    for contour, corner in ((LIPS_INNER, 10), (RIGHT_EYE, 8), (LEFT_EYE, 8)):
+        out[list(contour[1:corner]), 1] = -BESIDE
+        out[list(contour[corner + 1 :]), 1] = BESIDE
+    return out
+
+
+def _as_tracked(rest: NDArray[np.float64], moved: NDArray[np.float64]) -> MeshUnits:
+    """Turned to the front, as `engine.perception.expression.features.frontalise` does it, the eye distance 1."""
+    chosen = list(RIGID_VERTICES)
+    linear = fit_similarity(rest[chosen], canonical_face()[chosen].astype(np.float64)).linear
+    front = rest @ linear.T
+    scale = 1 / float(eye_distance(front))
+    front = (front - front[[33, 133, 263, 362]].mean(axis=0)) * scale
+    found = _symmetric(MeshUnits(front, CAPTURED_UNITS, moved @ linear.T * scale))
+    for side, contour in EYES.items():
+        found.moved[CAPTURED_UNITS.index(f"eyeBlink{side}")] = _met(found, f"eyeBlink{side}", contour)
+    return found
+
+
+def _met(found: MeshUnits, name: str, contour: tuple[int, ...]) -> NDArray[np.float64]:
+    """(478, 3) a blink that ends where the lids meet: the template's upper lid slides over the lower, a tracked one does not."""
+    upper, lower = np.array(contour[1:8]), np.array(contour[:8:-1])
+    moved = found.moved[found.names.index(name)]
+    gap = (found.rest[lower] - found.rest[upper])[:, 1]
+    closing = (moved[upper] - moved[lower])[:, 1]
+    out = moved * np.median(gap / closing)
+    out[upper] = found.rest[lower] + out[lower] - found.rest[upper]
+    return np.asarray(out)
+
+
+def _symmetric(found: MeshUnits) -> MeshUnits:
+    """The mean of both sides: the template has no other one, pixels have."""
+    mirror, across = mirror_vertices().astype(int), np.array([-1.0, 1.0, 1.0])
+    swap = {"Left": "Right", "Right": "Left"}
+    other = [
+        found.names.index(
+            next((f"{name.removesuffix(side)}{swap[side]}" for side in swap if name.endswith(side)), name)
+        )
+        for name in found.names
+    ]
+    rest = (found.rest + found.rest[mirror] * across) / 2
+    return MeshUnits(rest, found.names, (found.moved + found.moved[other][:, mirror] * across) / 2)
