@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from engine.perception.expression.features import frontalise
 from engine.perception.landmarks import LIPS_INNER, mouth_opening
+from engine.persona.collection.rest import at_rest
 from engine.persona.persona import Persona
 from engine.persona.shape.average_shape import average_depth
 from engine.persona.texture.aligned_photos import AlignedPhotos, align_photos
@@ -23,8 +24,6 @@ from engine.persona.texture.white_balance import balanced
 
 MOUTH_OPENING = 0.25
 """From which on what a photograph shows between the lips counts in full: of a mouth that is shut it is the lips' own rim, drawn wide."""
-NEUTRAL_SHARE = 0.25
-"""Of the photographs, those whose expression is nearest to the median one: their mean is the face at rest."""
 MIN_BELIEVED = 0.45
 """Of what a photograph shows from the brows down, the share that can be believed: of less, hands, beards and spectacles cover it, or a
 light of its own, or it is painted. Caps leave more."""
@@ -66,7 +65,7 @@ def learn_persona(
     tick(1.0)
     belief = np.rint(seen.weights * 255).astype(np.uint8)
     points = expression_points(front).astype(np.float32)
-    persona = Persona(mesh, _neutral(front), colours, belief, points, depth.astype(np.float32))
+    persona = Persona(mesh, at_rest(front), colours, belief, points, depth.astype(np.float32))
     return LearntPersona(persona, used)
 
 
@@ -95,11 +94,3 @@ def _moved(photos: AlignedPhotos, offsets: NDArray[np.float32]) -> NDArray[np.ui
     for target, colours, offset in zip(out, photos.colours, offsets, strict=True):
         target[:] = np.clip(np.rint(shifted(colours, offset, cv2.INTER_CUBIC)), 0, 255)
     return out
-
-
-def _neutral(front: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(478, 3) the mean of the faces that show least: those nearest to the median of all, and with the mouth shut as most have it."""
-    points = expression_points(front)
-    off = ((points - np.median(points, axis=0)) ** 2).sum(axis=(1, 2))
-    order = np.argsort(off + np.asarray(mouth_opening(front)) ** 2)
-    return np.asarray(front[order[: max(int(NEUTRAL_SHARE * len(front)), 1)]].mean(axis=0))

@@ -3,29 +3,21 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.export.encoders import VideoTarget
 from engine.export.still import write_first_impression, write_still
-from engine.export.video import VideoWriter
-from engine.face_animation.driver_tracking.neutral import choose_neutral_frame, warn_if_never_at_rest
-from engine.face_animation.stages import follow_driver
 from engine.kind import Given
-from engine.media.excerpt import Excerpt
-from engine.media.video import read_video
-from engine.perception.face_track.track import FaceTrack
 from engine.perception.identity.backend import descriptor_distances, descriptor_name
+from engine.persona.animating import animate_persona
 from engine.persona.collection.coverage import rare, shown_expressions, shown_sides
 from engine.persona.collection.face_sheet import write_faces
 from engine.persona.collection.photos import Photos, read_photos
 from engine.persona.collection.sorting import Choice
-from engine.persona.film import beside, puppet_frames
-from engine.persona.motion.performance import perform
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona, read_persona, write_persona
 from engine.persona.stages import SortedFaces, find_faces_of_photos, learn, sort_faces, texture_width
@@ -33,23 +25,16 @@ from engine.persona.texture.expression_weights import expression_points, express
 from engine.run import Run
 from engine.run_report import write_report
 
-STAGES = {
-    "read_photos": 1.0,
-    "find_faces": 6.0,
-    "learn_persona": 3.0,
-    "write_persona": 1.0,
-    "track_driver": 3.0,
-    "perform": 3.0,
-    "animate": 3.0,
-}
+LEARNING = {"read_photos": 1.0, "find_faces": 12.0, "learn_persona": 8.0}
+ANIMATING = {"find_driver_at_rest": 4.0, "track_driver": 1.0, "perform": 2.0, "animate": 2.0}
 """The stages and their usual share of the time."""
 
 
 def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path, run: Run) -> None:
     """Make a persona of `inputs["photos"]`, or take that of `inputs["persona"]`, and let it play `inputs["driver"]` where there is
     one; leaves the artifacts of the contract in `out`."""
-    run.plan(STAGES)
     photos, kept, driver = inputs.get("photos", ()), inputs.get("persona"), inputs.get("driver")
+    run.plan(_plan(inputs))
     told: dict[str, object] = {}
     if isinstance(kept, Path):
         persona = read_persona(kept)
@@ -63,7 +48,7 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
         if not isinstance(driver, Path):
             write_still(out / "poster.jpg", average, run.mark_synthetic)
     if isinstance(driver, Path):
-        told |= _animated(persona, driver, options, out, run)
+        told |= animate_persona(persona, inputs, options, out, run)
     write_report(
         out / "report.json",
         "persona",
@@ -71,6 +56,17 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
         inputs={"photos_used": len(persona), "texture_size": list(persona.frame.size[::-1]), **told},
         quality={"belief": float(persona.belief[:, persona.frame.face].mean() / 255)},
     )
+
+
+def _plan(inputs: Mapping[str, Given]) -> dict[str, float]:
+    stages = {**({} if "persona" in inputs else LEARNING), "write_persona": 1.0}
+    if "driver" in inputs:
+        stages |= {
+            name: share
+            for name, share in ANIMATING.items()
+            if name != "find_driver_at_rest" or "driver_photos" in inputs
+        }
+    return stages
 
 
 def average_texture(persona: Persona) -> NDArray[np.uint8]:
@@ -114,49 +110,3 @@ def _tell_faces(out: Path, photos: Photos, chosen: SortedFaces, run: Run) -> Non
     distances = chosen.whose.distance.tolist()
     for early in write_faces(out, photos, chosen.faces, chosen.reasons, distances, run.mark_synthetic):
         run.publish(early)
-
-
-def _animated(persona: Persona, driver: Path, options: PersonaOptions, out: Path, run: Run) -> dict[str, object]:
-    track = follow_driver(driver, options.fps, options.trim, options.driver_face_index, run).once()
-    choice = choose_neutral_frame(track, persona.neutral.astype(np.float32), None)
-    warn_if_never_at_rest(choice, run.warn)
-    with run.timed("perform"):
-        performance = perform(persona, track.meshes, choice.frame, run.tick)
-    with run.timed("animate"):
-        width, height = options.size
-        alone = options.composite == "none"
-        frames = puppet_frames(
-            persona, performance, options.size if alone else (width // 2, height), options.background
-        )
-        if alone:
-            _write_film(frames, track, driver, options, out, run)
-        else:
-            excerpt = Excerpt(driver, options.fps, options.trim, run.limits)
-            filmed = read_video(excerpt.path, excerpt.fps, excerpt.trim, excerpt.limits)
-            both = (beside(one.rgb, other, options.size) for one, other in zip(filmed, frames, strict=False))
-            _write_film(both, track, driver, options, out, run)
-    return {"frames": len(track), "fps": track.fps, "driver_size": list(track.size), "rest_frame": choice.frame}
-
-
-def _write_film(
-    frames: Iterator[NDArray[np.uint8]], track: FaceTrack, driver: Path, options: PersonaOptions, out: Path, run: Run
-) -> None:
-    sound = driver if options.sound and track.has_sound else None
-    if options.sound and sound is None:
-        run.warn("driver_has_no_sound", "The driver has no sound to keep.")
-    target = VideoTarget(
-        out / "animation.mp4",
-        options.size,
-        track.fps,
-        sound=sound,
-        sound_trim=options.trim,
-        frames=len(track),
-        times=None if track.even else track.times.tolist(),
-        synthetic=run.mark_synthetic,
-    )
-    with VideoWriter(target, run.warn) as writer:
-        for index, frame in enumerate(frames):
-            writer.write(frame, None)
-            if index == len(track) // 2:
-                write_still(out / "poster.jpg", frame, run.mark_synthetic)
-            run.tick((index + 1) / len(track))

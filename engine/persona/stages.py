@@ -6,22 +6,28 @@ import os
 from collections import Counter
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.perception.identity.backend import face_descriptor
+from engine.media.limits import Limits
+from engine.perception.expression.features import frontalise
+from engine.perception.identity.backend import descriptor_distances, descriptor_name, face_descriptor
 from engine.perception.identity.descriptor import IdentityDistances
 from engine.persona.collection.coverage import rare, shown_expressions, shown_sides
 from engine.persona.collection.person import Belonging, belonging
 from engine.persona.collection.photo_face import PhotoFace, faces_of
-from engine.persona.collection.photos import Photos
+from engine.persona.collection.photos import Photos, read_photos
+from engine.persona.collection.rest import at_rest
 from engine.persona.collection.sorting import Choice, Reason, reasons_against
 from engine.persona.learning import LearntPersona, learn_persona
 
 MIN_PHOTOS = 15
 """That can be used, for a persona."""
+MIN_DRIVER_PHOTOS = 8
+"""That can be used, for what a driver's face is like at rest: the quarter that shows least is of two then."""
 EYE_SHARE = 67 / 194
 """Of a texture's width, between the eyes."""
 ENLARGEMENT = 1.6
@@ -108,6 +114,33 @@ def learn(
     size = round(width * ASPECT), width
     sure = [place for place, (number, _) in enumerate(kept) if number in insisted]
     return learn_persona(meshes, lambda place: photos.picture(kept[place][1].photo), size, tick, sure)
+
+
+@dataclass(frozen=True)
+class DriverAtRest:
+    """A driver's average face, (478, 3) float64 from the front, in eye distances."""
+
+    face: NDArray[np.float64]
+
+
+def rest_of_photos(paths: Sequence[Path], limits: Limits, tick: Callable[[float], None]) -> DriverAtRest:
+    """The average face of whom most of the driver's photographs show, as the persona's own is found.
+
+    Raises
+    ------
+    InputError : `no_common_person`, `too_few_driver_photos`, and what `read_photos` raises.
+    """
+    photos = read_photos(paths, limits)
+    found = find_faces_of_photos(photos, descriptor_name(os.environ), tick)
+    chosen = sort_faces(found, descriptor_distances(os.environ), Choice(), None)
+    if len(chosen.kept) < MIN_DRIVER_PHOTOS:
+        raise InputError(
+            "too_few_driver_photos",
+            f"{MIN_DRIVER_PHOTOS} photos of the driver are needed, and {len(chosen.kept)} can be used: send more, or none; then the"
+            f" video alone tells what the face is like at rest.{_spoken(chosen.reasons)}",
+            ("driver_photos",),
+        )
+    return DriverAtRest(at_rest(frontalise(np.array([face.mesh for face in chosen.kept]))))
 
 
 def texture_width(kept: Sequence[PhotoFace]) -> int:

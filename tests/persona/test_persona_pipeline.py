@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 import pytest
 
+from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.video import probe_video, read_video
 from engine.performances import video
@@ -90,3 +91,25 @@ def test_left_out_faces_are_not_used(whole: Path, tmp_path: Path) -> None:
         make_persona({"photos": photos}, options, tmp_path, run)
     faces = json.loads((tmp_path / "faces.json").read_text())["faces"]
     assert [faces[k]["reason"] for k in (0, 3)] == ["left_out", "left_out"]
+
+
+def test_photos_of_the_driver_tell_what_it_is_like_at_rest(whole: Path, tmp_path: Path) -> None:
+    photos = tuple(sorted((whole / "photos").glob("[01]*.jpg")))
+    laughing = OPTIONS.model_copy(update={"trim": (1.0, 1.2)})  # a driver that is never at rest
+    inputs = {"persona": whole / "out/persona.npz", "driver": video("happy-strong")}
+    left = []
+    for given in (inputs, inputs | {"driver_photos": photos}):
+        out = tmp_path / str(len(left))
+        out.mkdir()
+        with Run(StageStore(whole / "stages")) as run:
+            make_persona(given, laughing, out, run)
+        left.append(next(iter(read_video(out / "animation.mp4"))).rgb.astype(int))
+    assert np.abs(left[0] - left[1]).mean() > 2, "the laugh is played, and not taken for the face at rest"
+
+
+def test_too_few_photos_of_the_driver_are_refused(whole: Path, tmp_path: Path) -> None:
+    photos = tuple(sorted((whole / "photos").glob("0*.jpg")))[:4]
+    inputs = {"persona": whole / "out/persona.npz", "driver": video("happy"), "driver_photos": photos}
+    with Run() as run, pytest.raises(InputError) as error:
+        make_persona(inputs, OPTIONS, tmp_path, run)
+    assert error.value.code == "too_few_driver_photos" and error.value.correctable == ("driver_photos",)

@@ -39,12 +39,12 @@ class Performance:
 def perform(
     persona: Persona,
     meshes: NDArray[np.floating],
-    rest: int,
+    driver: NDArray[np.floating],
     tick: Callable[[float], None] = lambda fraction: None,
 ) -> Performance:
-    """What the puppet does when the driver's face does `meshes` (F, 478, 3), pixels of its video; in the frame `rest` it is at rest."""
+    """What the puppet does when the driver's face does `meshes` (F, 478, 3), pixels of its video; at rest this is `driver` (478, 3), from
+    the front, in eye distances."""
     front = frontalise(meshes)
-    driver = front[rest]
     transfer = DeformationTransfer(texture_frame(driver, FRAME_SIZE), texture_frame(persona.neutral, FRAME_SIZE))
     faces = persona.neutral + transfer.of_frames(front - driver, tick)
     scale = persona.frame.scale * _reference(persona)

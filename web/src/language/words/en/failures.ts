@@ -30,6 +30,7 @@ export const failures = {
     no_photos: 'There is no photo',
     too_many_photos: 'There are too many photos',
     too_few_photos: 'There are too few photos of use',
+    too_few_driver_photos: 'There are too few photos of the driver',
     no_common_person: 'The photos show nobody twice',
     several_people: 'The photos show several people',
     persona_unreadable: 'The file is no persona of this service',

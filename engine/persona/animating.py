@@ -1,0 +1,82 @@
+"""A persona plays a driver: its film, alone, or beside the driver."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.export.encoders import VideoTarget
+from engine.export.still import write_still
+from engine.export.video import VideoWriter
+from engine.face_animation.driver_tracking.neutral import choose_neutral_frame, warn_if_never_at_rest
+from engine.face_animation.stages import follow_driver
+from engine.kind import Given
+from engine.media.excerpt import Excerpt
+from engine.media.video import read_video
+from engine.perception.expression.features import frontalise
+from engine.perception.face_track.track import FaceTrack
+from engine.persona.film import beside, puppet_frames
+from engine.persona.motion.performance import perform
+from engine.persona.options import PersonaOptions
+from engine.persona.persona import Persona
+from engine.persona.stages import rest_of_photos
+from engine.run import Run
+
+
+def animate_persona(
+    persona: Persona, inputs: Mapping[str, Given], options: PersonaOptions, out: Path, run: Run
+) -> dict[str, object]:
+    """Film the puppet as it plays `inputs["driver"]`, whose face at rest `inputs["driver_photos"]` tell, if there are any; what the report
+    says of it."""
+    driver, photos = inputs["driver"], inputs.get("driver_photos", ())
+    assert isinstance(driver, Path) and isinstance(photos, tuple)
+    track = follow_driver(driver, options.fps, options.trim, options.driver_face_index, run).once()
+    if photos:
+        rest, told = run.stage("find_driver_at_rest", rest_of_photos, photos, run.limits, run.tick).face, {}
+    else:
+        choice = choose_neutral_frame(track, persona.neutral.astype(np.float32), None)
+        warn_if_never_at_rest(choice, run.warn)
+        rest, told = frontalise(track.meshes[[choice.frame]])[0], {"rest_frame": choice.frame}
+    with run.timed("perform"):
+        performance = perform(persona, track.meshes, rest, run.tick)
+    with run.timed("animate"):
+        width, height = options.size
+        alone = options.composite == "none"
+        frames = puppet_frames(
+            persona, performance, options.size if alone else (width // 2, height), options.background
+        )
+        if alone:
+            _write_film(frames, track, driver, options, out, run)
+        else:
+            excerpt = Excerpt(driver, options.fps, options.trim, run.limits)
+            filmed = read_video(excerpt.path, excerpt.fps, excerpt.trim, excerpt.limits)
+            both = (beside(one.rgb, other, options.size) for one, other in zip(filmed, frames, strict=False))
+            _write_film(both, track, driver, options, out, run)
+    return {"frames": len(track), "fps": track.fps, "driver_size": list(track.size), **told}
+
+
+def _write_film(
+    frames: Iterator[NDArray[np.uint8]], track: FaceTrack, driver: Path, options: PersonaOptions, out: Path, run: Run
+) -> None:
+    sound = driver if options.sound and track.has_sound else None
+    if options.sound and sound is None:
+        run.warn("driver_has_no_sound", "The driver has no sound to keep.")
+    target = VideoTarget(
+        out / "animation.mp4",
+        options.size,
+        track.fps,
+        sound=sound,
+        sound_trim=options.trim,
+        frames=len(track),
+        times=None if track.even else track.times.tolist(),
+        synthetic=run.mark_synthetic,
+    )
+    with VideoWriter(target, run.warn) as writer:
+        for index, frame in enumerate(frames):
+            writer.write(frame, None)
+            if index == len(track) // 2:
+                write_still(out / "poster.jpg", frame, run.mark_synthetic)
+            run.tick((index + 1) / len(track))
