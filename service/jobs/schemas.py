@@ -11,7 +11,8 @@ from service.job_records.schemas import PriorityName
 from service.tables.jobs import TITLE_CHARACTERS, TITLE_PATTERN
 from service.webhooks.schemas import Events, Url
 
-Given = str | Annotated[list[str], Field(fail_fast=True, max_length=200)]
+Given = str | Annotated[list[str], Field(fail_fast=True, max_length=800)]
+"""Of an input that takes many, as many as photos of a persona may be (`engine.persona`)."""
 Title = Annotated[str, Field(min_length=1, max_length=TITLE_CHARACTERS, pattern=TITLE_PATTERN)]
 
 

@@ -29,6 +29,11 @@ export const GIVEN_UP = 'given up';
 /** After so many milliseconds each, a broken line is tried again; then the visitor is told. */
 const RETRIES = [0, 1000, 3000, 5000];
 
+/** Answers after which the same may be welcome: another request is at work on it, or it was too much within a minute. */
+const LATER = [409, 423, 429];
+
+const isWorthAnother = (status: number): boolean => navigator.onLine && (status < 400 || status >= 500 || LATER.includes(status));
+
 /**
  * Send one file; resolves to its id. What was sent of it before, on this page or an earlier one, is not sent again.
  * `onProgress` is told how many of its bytes have been sent.
@@ -51,6 +56,7 @@ export async function uploadFile(
       metadata: { filename: file.name, filetype: file.type },
       retryDelays: RETRIES,
       removeFingerprintOnSuccess: true,
+      onShouldRetry: (error) => isWorthAnother(error.originalResponse?.getStatus() ?? 0),
       onProgress,
       onSuccess: () => end(() => resolve(upload.url?.split('/').at(-1) ?? ''))(),
       onError: (error) =>

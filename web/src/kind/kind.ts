@@ -18,8 +18,14 @@ export interface OrderNames {
   performance: string;
 }
 
+/** Which one of the files that are one part of an order, counted from 1. */
+export interface PlaceInPart {
+  number: number;
+  count: number;
+}
+
 /** Sends a file, unless it has arrived before; its id. */
-export type Upload = (file: File, part: string) => Promise<string>;
+export type Upload = (file: File, part: string, place?: PlaceInPart) => Promise<string>;
 
 /** Options that a result proposes for a revision of its job, such as a pose that was set in the viewer. */
 export type Proposal = Readonly<Record<string, unknown>>;

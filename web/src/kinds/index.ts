@@ -5,9 +5,10 @@ import type { Kinds } from '../kind/kinds';
 import { avatar } from './avatar';
 import { character } from './character';
 import { genericKind } from './generic';
+import { persona } from './persona';
 import { portrait } from './portrait';
 
-const all: Kinds['all'] = [portrait, character, avatar];
+const all: Kinds['all'] = [portrait, character, avatar, persona];
 
 const inspections: readonly string[] = all.flatMap((kind) => kind.inspections);
 

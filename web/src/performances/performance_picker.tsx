@@ -14,7 +14,7 @@ import { Dropzone } from '../widgets/dropzone';
 import { KeepDriver } from './keep_driver';
 import { KeptList } from '../studio/kept_list';
 
-interface Props {
+export interface PickerProps {
   drivers: readonly Driver[];
   chosen: Performance | null;
   onChoose: (performance: Performance) => void;
@@ -36,7 +36,7 @@ interface Props {
 const STRENGTHS = ['normal', 'strong'] as const;
 type Strength = (typeof STRENGTHS)[number];
 
-export function PerformancePicker({ drivers, chosen, onChoose, refused, onRefused, sending, onKeeping, ...then }: Props) {
+export function PerformancePicker({ drivers, chosen, onChoose, refused, onRefused, sending, onKeeping, ...then }: PickerProps) {
   const { onKept, onGone, children } = then;
   const [strength, setStrength] = useState<Strength>('normal');
   const name = chosen?.by === 'name' ? chosen.name : null;

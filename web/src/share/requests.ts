@@ -22,10 +22,11 @@ function inputsOf(job: Job, kind: Kind): { name: string; file: boolean; value: s
   const picture = pictureName(job, kind).toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '') || 'picture';
   const { endings, pictureInput } = kind;
   return Object.entries(job.inputs).flatMap(([name, value]) => {
-    if (typeof value !== 'string') return [];
-    const file = isFileId(value);
+    const [first] = [value].flat(); // of many files an archive of them, or the first, stands for all
+    if (typeof first !== 'string') return [];
+    const file = isFileId(first);
     const stem = name === pictureInput ? picture : name;
-    return [{ name, file, value: file ? `${stem}.${endings[name] ?? 'bin'}` : value }];
+    return [{ name, file, value: file ? `${stem}.${endings[name] ?? 'bin'}` : first }];
   });
 }
 

@@ -20,7 +20,7 @@ export function SendingBar({ files, step, paused, onPause, onStop }: Props) {
   const ordering = step.step === 'ordering';
   const label = ordering
     ? words.ordering
-    : (paused ? words.pausedAt : words.uploading)(files[step.part] ?? plain(step.part).toLowerCase(), percent(step.fraction));
+    : (paused ? words.pausedAt : words.uploading)(partOf(step, files), percent(step.fraction));
   return (
     <div class="sending">
       <label>
@@ -37,4 +37,9 @@ export function SendingBar({ files, step, paused, onPause, onStop }: Props) {
       </button>
     </div>
   );
+}
+
+function partOf({ part, place }: Sending & { step: 'uploading' }, files: Names): string {
+  const name = files[part] ?? plain(part).toLowerCase();
+  return place && place.count > 1 ? words.oneOf(name, place.number, place.count) : name;
 }

@@ -3,6 +3,7 @@
 import { useEffect, useId, useMemo, useRef, useState } from 'preact/hooks';
 import { size } from '../language/format';
 import { strings } from '../language/strings';
+import { DropTarget, Invitation } from './drop_target';
 
 type Media = 'image' | 'video' | 'motion';
 
@@ -26,7 +27,6 @@ interface Props {
 }
 
 export function Dropzone({ file, accept, accepts, words, media, onFile, refused, onRefused }: Props) {
-  const [over, setOver] = useState(false);
   const [tries, setTries] = useState(0);
   const error = useId();
   const held = refused ? null : file;
@@ -37,67 +37,36 @@ export function Dropzone({ file, accept, accepts, words, media, onFile, refused,
     if (await accepts(candidate)) onFile(candidate);
     else onRefused();
   };
-  const drop = (event: DragEvent): void => {
-    event.preventDefault();
-    setOver(false);
-    void take(event.dataTransfer?.files[0]);
-  };
-
   return (
-    <div class={`dropzone ${media} ${over ? 'over' : ''} ${held ? 'filled' : ''}`}>
-      <label
-        onDragOver={(event) => {
-          event.preventDefault();
-          setOver(true);
-        }}
-        onDragLeave={() => setOver(false)}
-        onDrop={drop}
-      >
-        <input
-          type="file"
-          accept={accept}
-          aria-label={held ? words.chosen(held.name) : `${words.drop} ${words.browse}`}
-          aria-invalid={refused}
-          aria-describedby={refused ? error : undefined}
-          onChange={(event) => {
-            void take(event.currentTarget.files?.[0]);
-            event.currentTarget.value = ''; // so that choosing the same file again counts as a choice
-          }}
-        />
-        {held ? (
-          <Preview file={held} media={media} />
-        ) : refused ? (
-          <Refusal key={tries} id={error} words={words} />
-        ) : (
-          <Invitation words={words} />
-        )}
-      </label>
-    </div>
-  );
-}
-
-function Invitation({ words }: { words: Words }) {
-  return (
-    <span class="prompt" aria-hidden="true">
-      <svg viewBox="0 0 24 24" width="28" height="28">
-        <path d="M12 16V4m0 0L7 9m5-5 5 5M4 16v3a1 1 0 0 0 1 1h14a1 1 0 0 0 1-1v-3" />
-      </svg>
-      <strong>{words.drop}</strong>
-      <span>{words.browse}</span>
-    </span>
+    <DropTarget
+      class={`${media} ${held ? 'filled' : ''}`}
+      accept={accept}
+      label={held ? words.chosen(held.name) : `${words.drop} ${words.browse}`}
+      error={refused ? error : undefined}
+      onDrop={({ files }) => void take(files[0])}
+      onBrowse={([first]) => void take(first)}
+    >
+      {held ? (
+        <Preview file={held} media={media} />
+      ) : refused ? (
+        <Refusal key={tries} id={error} wrong={words.wrong} browse={words.browse} />
+      ) : (
+        <Invitation drop={words.drop} browse={words.browse} />
+      )}
+    </DropTarget>
   );
 }
 
 /** Comes into sight, wherever the page was: the file may have been dropped far from its place. */
-function Refusal({ id, words }: { id: string; words: Words }) {
+export function Refusal({ id, wrong, browse }: { id: string; wrong: string; browse: string }) {
   const place = useRef<HTMLSpanElement>(null);
   useEffect(() => place.current?.scrollIntoView({ block: 'nearest' }), []);
   return (
     <span class="prompt wrong-file" ref={place}>
       <strong class="error" role="alert" id={id}>
-        {words.wrong}
+        {wrong}
       </strong>
-      <span aria-hidden="true">{words.browse}</span>
+      <span aria-hidden="true">{browse}</span>
     </span>
   );
 }

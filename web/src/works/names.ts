@@ -16,6 +16,7 @@ export const workName = (job: Job, kind: Kind): string => job.title ?? pictureNa
 
 /** Where the picture itself is, as it was sent. */
 export function pictureUrl(job: Job, { pictureInput }: Kind): string | null {
-  const picture = pictureInput === null ? Object.values(job.inputs).flat().find(isFileId) : job.inputs[pictureInput];
-  return isFileId(picture) ? fileUrl(picture) : null;
+  const given = pictureInput === null ? Object.values(job.inputs) : [job.inputs[pictureInput]];
+  const picture = given.flat().find(isFileId);
+  return picture === undefined ? null : fileUrl(picture);
 }

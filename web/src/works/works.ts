@@ -30,9 +30,10 @@ interface Later {
   next: string | null;
 }
 
-/** The works that are wanted; a page has `size` of them. */
-export function useWorks(size: number, { status, words }: Omit<Wanted, 'kinds'>): WorkList {
-  const wanted: Wanted = { kinds: useOffered().map(({ name }) => name), status, words };
+/** The works that are wanted, of all kinds where none are named; a page has `size` of them. */
+export function useWorks(size: number, { kinds, status, words }: Omit<Wanted, 'kinds'> & Partial<Wanted>): WorkList {
+  const offered = useOffered().map(({ name }) => name);
+  const wanted: Wanted = { kinds: kinds ?? offered, status, words };
   const key = `${wanted.kinds} ${status} ${words}`;
   const first = useLoaded(async (signal) => ({ key, page: await listWorks(wanted, size, null, signal) }), key);
   const [later, setLater] = useState<Later | null>(null);

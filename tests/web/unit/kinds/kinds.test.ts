@@ -11,7 +11,7 @@ import { describe, expect, it } from 'vitest';
 
 describe('the list of kinds', () => {
   it('holds each once, under an address that leads to it', () => {
-    expect(kinds.all.map(({ name }) => name)).toEqual(['portrait', 'character', 'avatar']);
+    expect(kinds.all.map(({ name }) => name)).toEqual(['portrait', 'character', 'avatar', 'persona']);
     for (const { name, link } of [...kinds.all, kinds.of('a toy')]) expect(parseRoute(kinds.all, link)).toEqual({ page: 'studio', kind: name });
   });
 
@@ -26,7 +26,7 @@ describe('the list of kinds', () => {
   });
 
   it('has each say which kinds look into files for it, and none of these is a work', () => {
-    expect(kinds.all.map(({ inspections }) => inspections)).toEqual([['moments'], ['motion'], ['motion']]);
+    expect(kinds.all.map(({ inspections }) => inspections)).toEqual([['moments'], ['motion'], ['motion'], []]);
     expect(kinds.offered(kinds.all.flatMap(({ inspections }) => inspections))).toEqual([]);
   });
 

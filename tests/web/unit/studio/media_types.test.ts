@@ -1,4 +1,4 @@
-import { isMotion, isPicture, isVideo } from '@web/studio/media_types';
+import { isMotion, isPicture, isVideo, mediaIn } from '@web/studio/media_types';
 import { describe, expect, it } from 'vitest';
 
 describe('what a file may be', () => {
@@ -20,6 +20,9 @@ describe('what a file may be', () => {
     ['a BVH', '\r\nHIERARCHY\nROOT Hips', 'motion'],
     ['a GLB', 'glTF\x02\0\0\0', 'motion'],
     ['a glTF', '\xef\xbb\xbf{ "asset": {', 'motion'],
+    ['a ZIP', 'PK\x03\x04\x14\0', 'archive'],
+    ['a compressed TAR', '\x1f\x8b\x08\0', 'archive'],
+    ['a TAR', `${'photo.jpg'.padEnd(257, '\0')}ustar\0`, 'archive'],
     ['a text', 'This is a letter.', null],
     ['a sound', 'RIFF\x10\0\0\0WAVEfmt ', null],
     ['a sound in MP4', '\0\0\0\x18ftypM4A ', null],
@@ -29,5 +32,6 @@ describe('what a file may be', () => {
     expect([await isPicture(one), await isVideo(one), await isMotion(one)]).toEqual(
       ['picture', 'video', 'motion'].map((kind) => kind === media),
     );
+    expect(await mediaIn(one)).toBe(media);
   });
 });

@@ -4,8 +4,8 @@ import { useState } from 'preact/hooks';
 import { getJob, getReport, type Job } from '../../api';
 import { useLoaded } from '../../api/loading';
 import type { ResultProps } from '../../kind/kind';
-import { size } from '../../language/format';
 import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
+import { Download } from '../../result/download';
 import { Player } from '../../result/player';
 import type { Character } from '../../viewer/scene/character';
 import type { Stage } from '../../viewer/scene/stage';
@@ -89,16 +89,5 @@ function Film({ job, view }: { job: Job; view: 'animation' | 'turntable' }) {
       start={0}
       hasSound={false}
     />
-  );
-}
-
-/** Nothing where the job left no file of that name. */
-function Download({ job, name, label, primary }: { job: Job; name: string; label: string; primary?: boolean }) {
-  const file = job.artifacts[name];
-  if (!file) return null;
-  return (
-    <a class={primary ? 'button primary' : 'button'} href={file.url} download={name}>
-      {label} <small>{size(file.size)}</small>
-    </a>
   );
 }

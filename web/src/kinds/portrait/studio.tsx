@@ -5,14 +5,13 @@ import { type Choices, FoldedChoices, optionsOf, defaults } from './choices';
 import { useDropsAnywhere } from '../../studio/drops';
 import { Demo } from '../../studio/demo';
 import { AUTO } from '../../performances/drivers';
-import { PerformancePicker } from '../../performances/performance_picker';
+import { PerformancePanel } from '../../performances/performance_panel';
 import { useDrivers } from '../../performances/use_drivers';
 import { words as performanceWords } from '../../performances/words';
 import { SpecialCards } from './special_cards';
 import { StudioForm, useStudioTitle } from '../../studio/form';
 import { PicturePanel } from '../../studio/picture_panel';
 import { RecentWorks } from '../../works/recent_works';
-import { ProblemAlert } from '../../widgets/problem_alert';
 import { useDraft } from '../../studio/draft';
 import { useRefusals } from '../../studio/refusals';
 import { isPicture, isVideo } from '../../studio/media_types';
@@ -107,31 +106,21 @@ export default function PortraitStudio({ kind }: StudioProps) {
           onFile={setPortrait}
           onRefused={refusePortrait}
         />
-        <section class="panel" aria-labelledby="performance-title">
-          <h2 id="performance-title">{words.performance}</h2>
-          <p class="hint">{words.performanceHint}</p>
-          {drivers.problem && (
-            <ProblemAlert code={drivers.problem.code} detail={drivers.problem.detail}>
-              <button type="button" class="button" onClick={drivers.reload}>
-                {strings.retry}
-              </button>
-            </ProblemAlert>
-          )}
-          <PerformancePicker
-            drivers={drivers.value ?? []}
-            chosen={performance?.by === 'reactive' ? null : performance}
-            onChoose={setPerformance}
-            refused={refused.video === true}
-            onRefused={refuseVideo}
-            sending={sending.step !== null}
-            onKeeping={setKeeping}
-            onKept={drivers.reload}
-            onGone={() => setPerformance({ by: 'name', name: AUTO })}
-          >
-            <SpecialCards chosen={performance} onChoose={setPerformance} />
-          </PerformancePicker>
-          <FoldedChoices value={choices} mayHaveSound={hasSound} onChange={(choices) => change({ choices })} />
-        </section>
+        <PerformancePanel
+          title={words.performance}
+          hint={words.performanceHint}
+          drivers={drivers}
+          chosen={performance?.by === 'reactive' ? null : performance}
+          onChoose={setPerformance}
+          refused={refused.video === true}
+          onRefused={refuseVideo}
+          sending={sending.step !== null}
+          onKeeping={setKeeping}
+          onGone={() => setPerformance({ by: 'name', name: AUTO })}
+          options={<FoldedChoices value={choices} mayHaveSound={hasSound} onChange={(choices) => change({ choices })} />}
+        >
+          <SpecialCards chosen={performance} onChoose={setPerformance} />
+        </PerformancePanel>
       </StudioForm>
       <RecentWorks />
     </>

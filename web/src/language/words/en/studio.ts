@@ -21,6 +21,7 @@ export const studio = {
     options: 'Options',
     chosen: (picture: string, performance: string) => `${picture} · ${performance}`,
     uploading: (part: string, percent: string) => `Uploading ${part}: ${percent}`,
+    oneOf: (part: string, number: number, count: number) => `${part} ${number} of ${count}`,
     ordering: 'Starting',
     stop: 'Stop',
     pause: 'Pause',

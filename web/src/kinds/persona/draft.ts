@@ -1,0 +1,26 @@
+/** What is being chosen in the studio of personas. */
+
+import type { Performance } from '../../performances/performance';
+import type { Collected } from '../../studio/collection';
+import { useDraft } from '../../studio/draft';
+import type { Options } from '../generic/fields';
+import type { Earlier } from './order';
+
+export interface Draft {
+  from: 'photos' | 'persona';
+  photos: readonly Collected[];
+  /** How many of the files that were given last were no photos. */
+  others: number;
+  persona: Earlier | null;
+  /** Undefined: nobody has chosen yet. Null: none. */
+  performance: Performance | null | undefined;
+  agreed: boolean;
+  options: Options;
+}
+
+const EMPTY: Draft = {
+  ...{ from: 'photos', photos: [], others: 0, persona: null },
+  ...{ performance: undefined, agreed: false, options: {} },
+};
+
+export const usePersonaDraft = () => useDraft('persona', EMPTY);

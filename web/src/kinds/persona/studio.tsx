@@ -1,0 +1,172 @@
+/** The start page of personas: photos or an earlier persona, who agreed, what it is to play, and off it goes. */
+
+import { useState } from 'preact/hooks';
+import type { StudioProps } from '../../kind/kind';
+import { strings } from '../../language/strings';
+import { PerformancePanel } from '../../performances/performance_panel';
+import type { Performance } from '../../performances/performance';
+import { useDrivers } from '../../performances/use_drivers';
+import { words as performanceWords } from '../../performances/words';
+import { useSending } from '../../sending/use_sending';
+import { type Collected, collectedFrom, joined } from '../../studio/collection';
+import { Consent } from '../../studio/consent';
+import { useDataAnywhere } from '../../studio/drops';
+import { StudioForm, useStudioTitle } from '../../studio/form';
+import { isVideo } from '../../studio/media_types';
+import { useRefusals } from '../../studio/refusals';
+import { SymbolCard } from '../../studio/symbol_card';
+import { RecentWorks } from '../../works/recent_works';
+import { Advice } from './collection/advice';
+import { EarlierPersonas } from './collection/earlier_personas';
+import { photosAmong } from './collection/photo_files';
+import { PhotosPanel } from './collection/photos_panel';
+import { type Draft, usePersonaDraft } from './draft';
+import { PersonaOptionFields } from './option_fields';
+import { personaOrder, type Source } from './order';
+import { MOST_FILES } from './types';
+import { words as personaWords } from './words';
+import './styles/studio.css';
+
+const words = personaWords.studio;
+const DEFAULT_PERFORMANCE = 'happy';
+/** A path in a square of 48: a face without an expression. */
+const FACE = 'M24 8a16 16 0 1 1 0 32 16 16 0 0 1 0-32M18 20v2m12-2v2M18 31h12';
+
+export default function PersonaStudio({ kind }: StudioProps) {
+  const [draft, change] = usePersonaDraft();
+  const { refused, refuse, accept } = useRefusals<'photos' | 'video'>(kind.name);
+  const [reading, setReading] = useState(0);
+  const [keeping, setKeeping] = useState(false);
+  const drivers = useDrivers();
+  const sending = useSending();
+  useStudioTitle(kind);
+
+  const give = async (files: Promise<readonly Collected[]>): Promise<void> => {
+    setReading((turns) => turns + 1);
+    try {
+      const given = await files;
+      if (!given.length) return;
+      const { photos, others } = await photosAmong(given);
+      if (!photos.length) return refuse('photos');
+      accept('photos');
+      // others may show somebody else: that has to be said anew
+      change((before) => ({ from: 'photos', photos: joined(before.photos, photos), others, agreed: false }));
+    } finally {
+      setReading((turns) => turns - 1);
+    }
+  };
+  const play = (performance: Performance | null): void => {
+    accept('video');
+    change({ performance });
+  };
+  useDataAnywhere(async (data) => {
+    const given = await collectedFrom(data);
+    const [first] = given;
+    if (given.length === 1 && (await isVideo(first!.file))) play({ by: 'file', file: first!.file });
+    else await give(Promise.resolve(given));
+  });
+
+  const usual = drivers.value?.find(({ name }) => name === DEFAULT_PERFORMANCE);
+  const performance = refused.video ? null : draft.performance === undefined ? (usual ? { by: 'name' as const, name: usual.name } : null) : draft.performance;
+  const source = sourceOf(draft);
+  const { sound, ...silent } = draft.options;
+  const options = performance?.by === 'file' ? draft.options : silent;
+  return (
+    <>
+      <StudioForm
+        kind={kind}
+        title={words.title}
+        lead={words.lead}
+        sending={sending}
+        missing={keeping ? words.keepingFirst : missingIn(draft, refused)}
+        order={source && (() => personaOrder(source, performance, options))}
+        label={draft.from === 'photos' ? words.start : words.startAgain}
+      >
+        <section class="panel wide" aria-labelledby="source-title">
+          <h2 id="source-title">{draft.from === 'photos' ? words.photos : words.earlier}</h2>
+          <div class="actions" role="group" aria-label={words.sources}>
+            {(['photos', 'persona'] as const).map((one) => (
+              <button key={one} type="button" class="toggle" aria-pressed={one === draft.from} onClick={() => change({ from: one })}>
+                {words.sourceNames[one]}
+              </button>
+            ))}
+          </div>
+          {draft.from === 'photos' ? (
+            <PhotosPanel
+              photos={draft.photos}
+              others={draft.others}
+              refused={refused.photos === true}
+              reading={reading > 0}
+              onGiven={(files) => void give(files)}
+              onRemoved={(photo) => change(({ photos }) => ({ photos: photos.filter((one) => one !== photo) }))}
+              onCleared={() => change({ photos: [], others: 0, agreed: false })}
+            />
+          ) : (
+            <EarlierPersonas chosen={draft.persona?.id ?? null} onChoose={(persona) => change({ persona })} />
+          )}
+        </section>
+        {draft.from === 'photos' && (
+          <>
+            <Advice />
+            <section class="panel" aria-label={words.consentTitle}>
+              <Consent words={words} given={draft.agreed} onChange={(agreed) => change({ agreed })} />
+            </section>
+          </>
+        )}
+        <PerformancePanel
+          wide
+          title={words.performance}
+          hint={words.performanceHint}
+          drivers={drivers}
+          chosen={performance}
+          onChoose={play}
+          refused={refused.video === true}
+          onRefused={() => {
+            refuse('video');
+            change({ performance: null });
+          }}
+          sending={sending.step !== null}
+          onKeeping={setKeeping}
+          onGone={() => play(null)}
+          options={
+            <details class="choices">
+              <summary>{strings.studio.options}</summary>
+              <PersonaOptionFields
+                value={draft.options}
+                mayHaveSound={performance?.by === 'file'}
+                onChange={(options) => change({ options })}
+              />
+            </details>
+          }
+        >
+          {draft.from === 'photos' && (
+            <SymbolCard
+              value="none"
+              symbol={FACE}
+              label={words.none}
+              hint={words.noneHint}
+              checked={performance === null && !refused.video && drivers.value !== null}
+              onChoose={() => play(null)}
+            />
+          )}
+        </PerformancePanel>
+      </StudioForm>
+      <RecentWorks />
+    </>
+  );
+}
+
+function sourceOf({ from, photos, persona }: Draft): Source | null {
+  if (from === 'photos') return photos.length ? { by: 'photos', photos } : null;
+  return persona && { by: 'persona', ...persona };
+}
+
+/** What stands in the way of an order; empty where nothing does. */
+function missingIn(draft: Draft, refused: { photos?: boolean; video?: boolean }): string {
+  if (refused.video) return performanceWords.wrongVideo;
+  if (draft.from === 'persona') return draft.persona ? (draft.performance === null ? words.needPerformance : '') : words.needPersona;
+  if (refused.photos) return words.wrongPhotos;
+  if (!draft.photos.length) return words.needPhotos;
+  if (draft.photos.length > MOST_FILES) return words.tooMany(MOST_FILES);
+  return draft.agreed ? '' : words.needConsent;
+}
