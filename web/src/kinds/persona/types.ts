@@ -11,7 +11,7 @@ export const personaOptions = (of: Job): PersonaOptions => of.options as Persona
 export const LEAST_PHOTOS = 15;
 
 /** Why a face is of no use, in the order in which they are told: first what somebody has to say of. */
-export const reasons = ['uncertain', 'left_out', 'turned', 'blurred', 'tiny', 'duplicate', 'somebody_else'] as const;
+export const reasons = ['uncertain', 'left_out', 'covered', 'turned', 'blurred', 'tiny', 'duplicate', 'somebody_else'] as const;
 export type Reason = (typeof reasons)[number];
 
 /** A face of the collection, and what became of it. Faces are known by their places in the list. */
@@ -19,7 +19,8 @@ export interface Face {
   /** The name of the photo's file. */
   photo: string;
   kept: boolean;
-  reason: Reason | null;
+  /** A later version of the service may have others. */
+  reason: string | null;
 }
 
 /** The faces of all photos (faces.json), whose pictures are on a sheet (faces.jpg). */

@@ -1,7 +1,8 @@
 /** The faces that were found in a collection: those that are used, and the others with the reasons. */
 
 import { cellStyle } from '../../../widgets/sheet_cell';
-import { picturesOf, type Reason } from '../types';
+import { plain } from '../../../language/strings';
+import { picturesOf } from '../types';
 import { words as personaWords } from '../words';
 import { groupsOf } from './face_groups';
 import type { Faces } from './use_faces';
@@ -9,8 +10,8 @@ import '../styles/faces.css';
 
 const words = personaWords.faces;
 
-export const groupTitle = (reason: Reason | null, count: number): string =>
-  reason === null ? words.used(count) : words.reason(words.reasons[reason], count);
+export const groupTitle = (reason: string | null, count: number): string =>
+  reason === null ? words.used(count) : words.reason((words.reasons as Record<string, string>)[reason] ?? plain(reason), count);
 
 export function FaceList({ faces: { sheet, url } }: { faces: Faces }) {
   const pictures = picturesOf(sheet);

@@ -15,6 +15,7 @@ const english = {
     find_faces: 'Finding faces',
     learn_persona: 'Learning the face',
     write_persona: 'Writing the persona',
+    find_driver_at_rest: 'Finding the performer’s face at rest',
     track_driver: 'Tracking the performance',
     perform: 'Carrying over the performance',
     animate: 'Animating',
@@ -42,6 +43,7 @@ const english = {
     photos: 'photos',
     persona: 'persona',
     driver: 'performance',
+    driver_photos: 'photos of the performer',
     keep: 'faces used',
     leave_out: 'faces left out',
     example: 'person meant',
@@ -141,6 +143,7 @@ const english = {
     reasons: {
       uncertain: 'May be somebody else',
       left_out: 'Left out by you',
+      covered: 'Covered, or in hard light',
       turned: 'Turned too far aside, up or down',
       blurred: 'Blurred',
       tiny: 'Too small',
