@@ -64,8 +64,8 @@ KIND = Kind(
         ),
         Input(
             "driver",
-            "video",
-            "A video of anybody's face, whose performance the puppet plays.",
+            "performance",
+            "A video of anybody's face, whose performance the puppet plays; or a picture, whose expression it takes on.",
             required=False,
             library="performances",
             offers_auto=False,

@@ -1,4 +1,4 @@
-"""A persona plays a driver: its film, alone, or beside the driver."""
+"""A persona plays a driver: a video, which becomes a film of the puppet, alone or beside it, or a picture."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from engine.face_animation.driver_tracking.neutral import choose_neutral_frame, 
 from engine.face_animation.stages import follow_driver
 from engine.kind import Given
 from engine.media.excerpt import Excerpt
+from engine.media.sniff import IMAGE_TYPES, VIDEO_TYPES, is_still_webp, sniff
 from engine.media.video import read_video
 from engine.perception.expression.features import frontalise
 from engine.perception.face_track.track import FaceTrack
@@ -23,23 +24,32 @@ from engine.persona.motion.performance import perform
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona
 from engine.persona.stages import rest_of_photos
+from engine.persona.still import play_picture
 from engine.run import Run
 
 
 def animate_persona(
     persona: Persona, inputs: Mapping[str, Given], options: PersonaOptions, out: Path, run: Run
 ) -> dict[str, object]:
-    """Film the puppet as it plays `inputs["driver"]`, whose face at rest `inputs["driver_photos"]` tell, if there are any; what the report
-    says of it."""
+    """Let the puppet play `inputs["driver"]`, a video or a picture, whose face at rest `inputs["driver_photos"]` tell, if there are any;
+    what the report says of it."""
     driver, photos = inputs["driver"], inputs.get("driver_photos", ())
     assert isinstance(driver, Path) and isinstance(photos, tuple)
+    rest = run.stage("find_driver_at_rest", rest_of_photos, photos, run.limits, run.tick).face if photos else None
+    if sniff(driver) in IMAGE_TYPES - VIDEO_TYPES or is_still_webp(driver):
+        return play_picture(persona, driver, rest, options, out, run)
+    return _play_video(persona, driver, rest, options, out, run)
+
+
+def _play_video(
+    persona: Persona, driver: Path, rest: NDArray[np.float64] | None, options: PersonaOptions, out: Path, run: Run
+) -> dict[str, object]:
     track = follow_driver(driver, options.fps, options.trim, options.driver_face_index, run).once()
-    if photos:
-        rest, told = run.stage("find_driver_at_rest", rest_of_photos, photos, run.limits, run.tick).face, {}
-    else:
+    told: dict[str, object] = {"frames": len(track), "fps": track.fps, "driver_size": list(track.size)}
+    if rest is None:
         choice = choose_neutral_frame(track, persona.neutral.astype(np.float32), None)
         warn_if_never_at_rest(choice, run.warn)
-        rest, told = frontalise(track.meshes[[choice.frame]])[0], {"rest_frame": choice.frame}
+        rest, told["rest_frame"] = frontalise(track.meshes[[choice.frame]])[0], choice.frame
     with run.timed("perform"):
         performance = perform(persona, track.meshes, rest, run.tick)
     with run.timed("animate"):
@@ -55,7 +65,7 @@ def animate_persona(
             filmed = read_video(excerpt.path, excerpt.fps, excerpt.trim, excerpt.limits)
             both = (beside(one.rgb, other, options.size) for one, other in zip(filmed, frames, strict=False))
             _write_film(both, track, driver, options, out, run)
-    return {"frames": len(track), "fps": track.fps, "driver_size": list(track.size), **told}
+    return told
 
 
 def _write_film(

@@ -12,6 +12,8 @@ import pytest
 from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.video import probe_video, read_video
+from engine.perception.faces import FaceTracker
+from engine.perception.landmarks import mouth_opening
 from engine.performances import video
 from engine.persona.options import PersonaOptions
 from engine.persona.pipeline import make_persona
@@ -113,3 +115,25 @@ def test_too_few_photos_of_the_driver_are_refused(whole: Path, tmp_path: Path) -
     with Run() as run, pytest.raises(InputError) as error:
         make_persona(inputs, OPTIONS, tmp_path, run)
     assert error.value.code == "too_few_driver_photos" and error.value.correctable == ("driver_photos",)
+
+
+def test_a_picture_gives_its_expression(whole: Path, tmp_path: Path) -> None:
+    openings, persona = [], whole / "out/persona.npz"
+    for number in (0, 20):  # at rest, and greatly surprised
+        (out := tmp_path / str(number)).mkdir()
+        picture = whole / f"photos/{number:02}.jpg"
+        with Run() as run:
+            make_persona({"persona": persona, "driver": picture}, PersonaOptions(size=(300, 400)), out, run)
+        assert [notice.code for notice in run.notices] == ["driver_rest_estimated"]
+        with FaceTracker(alone=True) as tracker:
+            openings.append(float(mouth_opening(tracker(read_image(out / "still.png").rgb)[0])))
+        assert not (out / "animation.mp4").exists()
+    assert openings[0] < 0.1 < openings[1] - 0.1, "shut, and open"
+
+
+def test_a_picture_without_a_face_is_refused(whole: Path, tmp_path: Path) -> None:
+    write_image(tmp_path / "sky.png", np.full((200, 300, 3), (90, 140, 220), np.uint8))
+    inputs = {"persona": whole / "out/persona.npz", "driver": tmp_path / "sky.png"}
+    with Run() as run, pytest.raises(InputError) as error:
+        make_persona(inputs, OPTIONS, tmp_path, run)
+    assert error.value.code == "no_face_in_driver"
