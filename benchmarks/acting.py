@@ -59,7 +59,7 @@ class Acting:
         )
         ratios = RatioImages(*given, outliers=refined, refined=refined)
         moments = zip(animation.motions(), ratios, strict=True)
-        yield from draw_in_order(animation, (moment for moment in moments if moment[0].frame % step == 0))
+        yield from draw_in_order(animation.draw, (moment for moment in moments if moment[0].frame % step == 0))
 
 
 def read_target(folder: Path, rgb: NDArray[np.uint8], options: PortraitOptions) -> tuple[TargetFace, Layers, Rig]:

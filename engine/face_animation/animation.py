@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -128,7 +128,7 @@ class FaceAnimation:
 
         `ratios` are the driver's ratio images, one (*CROP,) float32 for each frame. Memory does not grow with the length.
         """
-        return draw_in_order(self, zip(self.motions(), ratios, strict=True))
+        return draw_in_order(self.draw, zip(self.motions(), ratios, strict=True))
 
     def motions(self) -> Iterator[ControlMotion]:
         """Where the control points go, frame by frame (section 4)."""
@@ -166,14 +166,15 @@ class FaceAnimation:
 
 
 def draw_in_order(
-    animation: FaceAnimation, poses: Iterable[tuple[ControlMotion, NDArray[np.float32]]]
+    draw: Callable[..., NDArray[np.uint8]], poses: Iterable[tuple[object, ...]]
 ) -> Iterator[NDArray[np.uint8]]:
-    """A frame for each pose, drawn side by side on all cores: what `draw` makes of motion and ratio image."""
+    """A frame for each pose, drawn side by side on all cores: what `draw` makes of the pose's parts, such as
+    `FaceAnimation.draw` of motion and ratio image."""
     threads = os.cpu_count() or 1
     waiting: deque[Future[NDArray[np.uint8]]] = deque()
     with ThreadPoolExecutor(threads, thread_name_prefix="render") as pool:
-        for motion, ratio in poses:
-            waiting.append(pool.submit(animation.draw, motion, ratio))
+        for pose in poses:
+            waiting.append(pool.submit(draw, *pose))
             if len(waiting) > FRAMES_AHEAD * threads:
                 yield waiting.popleft().result()
         while waiting:

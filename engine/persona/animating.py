@@ -1,4 +1,5 @@
-"""A persona plays a driver: a video, which becomes a film of the puppet, alone or beside it, or a picture."""
+"""A persona plays a driver: a video, which becomes a film of the puppet, alone or beside it, or of the person as a photograph shows them;
+or a picture."""
 
 from __future__ import annotations
 
@@ -8,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.errors import InputError
 from engine.export.encoders import VideoTarget
 from engine.export.still import write_still
 from engine.export.video import VideoWriter
@@ -19,6 +21,7 @@ from engine.media.sniff import IMAGE_TYPES, VIDEO_TYPES, is_still_webp, sniff
 from engine.media.video import read_video
 from engine.perception.expression.features import frontalise
 from engine.perception.face_track.track import FaceTrack
+from engine.persona.composite.photo_performance import perform_photo
 from engine.persona.film import beside, puppet_frames
 from engine.persona.motion.performance import perform
 from engine.persona.options import PersonaOptions
@@ -35,8 +38,22 @@ def animate_persona(
     what the report says of it."""
     driver, photos = inputs["driver"], inputs.get("driver_photos", ())
     assert isinstance(driver, Path) and isinstance(photos, tuple)
+    still = sniff(driver) in IMAGE_TYPES - VIDEO_TYPES or is_still_webp(driver)
+    if options.composite == "photo":
+        if still:
+            raise InputError(
+                "composite_needs_video",
+                "A photo that acts follows a video: give one as driver, or have the puppet alone play the picture.",
+                ("driver", "composite"),
+            )
+        if photos:
+            run.warn(
+                "driver_photos_unused",
+                "A photo that acts begins with what it shows: the driver's frame nearest to that counts, and its photos do not.",
+            )
+        return _film_photo(persona, driver, options, out, run)
     rest = run.stage("find_driver_at_rest", rest_of_photos, photos, run.limits, run.tick).face if photos else None
-    if sniff(driver) in IMAGE_TYPES - VIDEO_TYPES or is_still_webp(driver):
+    if still:
         return play_picture(persona, driver, rest, options, out, run)
     return _play_video(persona, driver, rest, options, out, run)
 
@@ -66,6 +83,15 @@ def _play_video(
             both = (beside(one.rgb, other, options.size) for one, other in zip(filmed, frames, strict=False))
             _write_film(both, track, driver, options, out, run)
     return told
+
+
+def _film_photo(persona: Persona, driver: Path, options: PersonaOptions, out: Path, run: Run) -> dict[str, object]:
+    played = perform_photo(persona, driver, options, run)
+    with run.timed("animate"):
+        _write_film(played.frames, played.track, driver, options.model_copy(update={"size": played.size}), out, run)
+    track = played.track
+    told = {"frames": len(track), "fps": track.fps, "driver_size": list(track.size), "rest_frame": played.rest}
+    return {**told, "size": list(played.size)}
 
 
 def _write_film(

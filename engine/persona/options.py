@@ -39,8 +39,13 @@ class PersonaOptions(BaseModel):
     driver_face_index: Annotated[int, Field(ge=0, le=99)] = Field(
         0, description="Which face of the driver, counted from the largest in the first frame that shows any."
     )
-    composite: Literal["none", "side_by_side"] = Field(
-        "none", description="The puppet alone on a plain background, or beside the driver."
+    composite: Literal["none", "photo", "side_by_side"] = Field(
+        "none",
+        description="The puppet alone on a plain background, the person as they are in one of the photos, or the puppet beside the driver.",
+    )
+    photo: FaceNumber | None = Field(
+        None,
+        description="Whose photo acts, with `composite` as `photo`: a face by its number in `faces.json`. Default: the best one.",
     )
     background: tuple[Channel, Channel, Channel] = Field(
         (58, 60, 64), description="Red, green and blue of the plain background."

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -11,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.texture.synthesis import TextureSynthesis, texture_synthesis
 from engine.persona.texture.texture_frame import TextureFrame, texture_frame
 
@@ -33,6 +35,8 @@ class Persona:
     belief : (N, H, W) uint8, 255 where a pixel can be believed.
     points : (N, 51, 2) float32, what expression each photograph shows, in eye distances.
     depth : (H, W) float32, pixels away from the viewer.
+    portrait : the photograph that acts where the person is to be seen as in a photograph; None where none shows a head.
+    teeth : the photograph that lends its teeth; None where none shows any.
     """
 
     mesh: NDArray[np.float64]
@@ -41,6 +45,8 @@ class Persona:
     belief: NDArray[np.uint8]
     points: NDArray[np.float32]
     depth: NDArray[np.float32]
+    portrait: FacePhoto | None = None
+    teeth: FacePhoto | None = None
 
     def __len__(self) -> int:
         return len(self.colours)
@@ -58,8 +64,13 @@ class Persona:
 
 
 def write_persona(path: Path, persona: Persona) -> None:
-    """Write an npz, whose arrays are those of `Persona` by their names, and `version`."""
+    """Write an npz, whose arrays are those of `Persona` by their names, those of its photographs as `portrait_rgb` and so on, and
+    `version`."""
     arrays = {name: getattr(persona, name) for name in _SHAPES}
+    for name in _PHOTOS:
+        photo: FacePhoto | None = getattr(persona, name)
+        if photo is not None:
+            arrays |= {f"{name}_rgb": photo.rgb, f"{name}_mesh": photo.mesh, f"{name}_number": np.int64(photo.number)}
     with path.open("wb") as file:
         np.savez_compressed(file, version=np.int64(VERSION), **arrays)
 
@@ -72,6 +83,8 @@ _SHAPES = {
     "points": (np.float32, ("N", 51, 2)),
     "depth": (np.float32, ("H", "W")),
 }
+_PHOTOS = ("portrait", "teeth")
+MAX_PHOTO_SIDE = 4096
 
 
 def read_persona(path: Path) -> Persona:
@@ -91,13 +104,28 @@ def read_persona(path: Path) -> Persona:
                     "persona_unreadable", "The persona was made by another release: make it again of its photos."
                 )
             found = {name: arrays[name] for name in _SHAPES}
-        _require_sound(found)
+            _require_sound(found)
+            photos = {name: _photo(name, arrays, len(found["colours"])) for name in _PHOTOS}
     except (OSError, ValueError, KeyError, TypeError, zipfile.BadZipFile, EOFError, NotImplementedError) as broken:
         raise InputError(
             "persona_unreadable",
             "The file is no `persona.npz` as jobs of personas leave it: give such a file, or the job's id.",
         ) from broken
-    return Persona(**found)
+    return Persona(**found, portrait=photos["portrait"], teeth=photos["teeth"])
+
+
+def _photo(name: str, arrays: Mapping[str, NDArray[np.generic]], count: int) -> FacePhoto | None:
+    """A photograph that was kept; None where none was."""
+    if f"{name}_rgb" not in arrays:
+        return None
+    rgb, mesh, number = arrays[f"{name}_rgb"], arrays[f"{name}_mesh"], int(arrays[f"{name}_number"])
+    if rgb.dtype != np.uint8 or rgb.ndim != 3 or rgb.shape[2] != 3 or not 1 <= max(rgb.shape[:2]) <= MAX_PHOTO_SIDE:
+        raise ValueError(name)
+    if mesh.dtype != np.float32 or mesh.shape != (478, 3) or not 0 <= number < count:
+        raise ValueError(name)
+    if not np.abs(np.asarray(mesh, np.float64)).max() <= 2 * MAX_PHOTO_SIDE:
+        raise ValueError(name)
+    return FacePhoto(np.asarray(rgb, np.uint8), np.asarray(mesh, np.float32), number)
 
 
 def _require_sound(arrays: dict[str, NDArray[np.generic]]) -> None:

@@ -18,6 +18,8 @@ from engine.persona.collection.coverage import rare, shown_expressions, shown_si
 from engine.persona.collection.face_sheet import write_faces
 from engine.persona.collection.photos import Photos, read_photos
 from engine.persona.collection.sorting import Choice
+from engine.persona.composite.acting_photos import with_acting_photos
+from engine.persona.composite.photo_performance import PHOTO_STAGES
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona, read_persona, write_persona
 from engine.persona.stages import SortedFaces, find_faces_of_photos, learn, sort_faces, texture_width
@@ -34,9 +36,15 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
     """Make a persona of `inputs["photos"]`, or take that of `inputs["persona"]`, and let it play `inputs["driver"]` where there is
     one; leaves the artifacts of the contract in `out`."""
     photos, kept, driver = inputs.get("photos", ()), inputs.get("persona"), inputs.get("driver")
-    run.plan(_plan(inputs))
+    run.plan(_plan(inputs, options))
     told: dict[str, object] = {}
     if isinstance(kept, Path):
+        if options.photo is not None:
+            raise InputError(
+                "photo_needs_photos",
+                "A persona that was kept has its photo: send the photos to choose another.",
+                ("photo",),
+            )
         persona = read_persona(kept)
     else:
         assert isinstance(photos, tuple)
@@ -58,13 +66,14 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
     )
 
 
-def _plan(inputs: Mapping[str, Given]) -> dict[str, float]:
+def _plan(inputs: Mapping[str, Given], options: PersonaOptions) -> dict[str, float]:
     stages = {**({} if "persona" in inputs else LEARNING), "write_persona": 1.0}
     if "driver" in inputs:
+        acts = options.composite == "photo"
         stages |= {
             name: share
-            for name, share in ANIMATING.items()
-            if name != "find_driver_at_rest" or "driver_photos" in inputs
+            for name, share in (ANIMATING | (PHOTO_STAGES if acts else {})).items()
+            if name != "find_driver_at_rest" or ("driver_photos" in inputs and not acts)
         }
     return stages
 
@@ -90,6 +99,8 @@ def _learnt(paths: Sequence[Path], options: PersonaOptions, out: Path, run: Run)
     chosen = sort_faces(found, descriptor_distances(os.environ), choice, options.example)
     _tell_faces(out, photos, chosen, run)  # before anything is refused: its numbers are those of what mends it
     chosen.require_enough()
+    if options.photo is not None:
+        chosen.place(options.photo)  # refused early where it is left out
     width = options.texture_width or texture_width(chosen.kept)
     learnt = run.stage("learn_persona", learn, photos, chosen, options.keep, width, run.tick)
     if not learnt.used.all():
@@ -103,7 +114,10 @@ def _learnt(paths: Sequence[Path], options: PersonaOptions, out: Path, run: Run)
             f"Few photos show: {few}. Where a driver does, what is nearest stands in for it: add photos that show it.",
         )
     told = {"photos": len(photos), "files_skipped": len(photos.skipped), "faces": len(chosen.faces)}
-    return learnt.persona, {**told, "expressions": expressions, "sides": sides}
+    wanted = None if options.photo is None else chosen.place(options.photo)
+    faces = chosen.kept
+    persona = with_acting_photos(learnt.persona, faces, lambda place: photos.picture(faces[place].photo), wanted)
+    return persona, {**told, "expressions": expressions, "sides": sides}
 
 
 def _tell_faces(out: Path, photos: Photos, chosen: SortedFaces, run: Run) -> None:

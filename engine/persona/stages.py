@@ -80,6 +80,16 @@ class SortedFaces:
                 ("photos",),
             )
 
+    def place(self, number: int) -> int:
+        """Which of `kept` a face is, by its number among all. Raises `InputError` `photo_not_used`."""
+        if number >= len(self.reasons) or self.reasons[number] is not None:
+            raise InputError(
+                "photo_not_used",
+                f"Face {number} is not among those that are used: choose one that `faces.json` says is kept, or name it in `keep`, too.",
+                ("photo", "keep"),
+            )
+        return self.reasons[:number].count(None)
+
     def without_covered(self, used: NDArray[np.bool_]) -> SortedFaces:
         """With those of `kept` that were not `used` left out as covered."""
         kept = [number for number, reason in enumerate(self.reasons) if reason is None]

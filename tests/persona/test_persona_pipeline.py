@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -15,7 +16,9 @@ from engine.media.video import probe_video, read_video
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import mouth_opening
 from engine.performances import video
+from engine.persona.composite.framing import framed
 from engine.persona.options import PersonaOptions
+from engine.persona.persona import read_persona, write_persona
 from engine.persona.pipeline import make_persona
 from engine.run import Run
 from engine.store import StageStore
@@ -137,3 +140,49 @@ def test_a_picture_without_a_face_is_refused(whole: Path, tmp_path: Path) -> Non
     with Run() as run, pytest.raises(InputError) as error:
         make_persona(inputs, OPTIONS, tmp_path, run)
     assert error.value.code == "no_face_in_driver"
+
+
+def test_a_kept_persona_acts_as_its_photograph_shows_it(whole: Path, tmp_path: Path) -> None:
+    options = OPTIONS.model_copy(update={"composite": "photo", "size": (150, 200)})
+    with Run() as run:
+        make_persona({"persona": whole / "out/persona.npz", "driver": video("happy")}, options, tmp_path, run)
+    frames = np.array([frame.rgb for frame in read_video(tmp_path / "animation.mp4")]).astype(int)
+    report = json.loads((tmp_path / "report.json").read_text())
+    assert frames.shape == (9, *report["inputs"]["size"][::-1], 3)
+    portrait = read_persona(whole / "out/persona.npz").portrait
+    assert portrait is not None
+    target = framed(portrait, (150, 200))
+    corner = np.s_[:20, :20]
+    assert np.abs(frames[:, *corner] - target.rgb[corner]).mean() < 6, "its own surroundings"
+    x, y = np.rint(target.mesh[1, :2]).astype(int)
+    middle = np.s_[y - 30 : y + 40, x - 25 : x + 25]
+    assert np.abs(frames[report["inputs"]["rest_frame"]][middle] - target.rgb[middle]).mean() < 8
+    assert np.abs(np.diff(frames[:, *middle], axis=0)).mean() > 0.2
+
+
+def test_the_photograph_can_be_chosen(whole: Path, tmp_path: Path) -> None:
+    photos = tuple(sorted((whole / "photos").iterdir()))
+    used = [n for n, face in enumerate(json.loads((whole / "out/faces.json").read_text())["faces"]) if face["kept"]]
+    with Run(StageStore(whole / "stages")) as run:
+        make_persona({"photos": photos}, OPTIONS.model_copy(update={"photo": used[3]}), tmp_path, run)
+    portrait = read_persona(tmp_path / "persona.npz").portrait
+    assert portrait is not None and portrait.number == 3
+    for change, code in (({"photo": 999}, "photo_not_used"), ({"photo": 0, "leave_out": (0,)}, "photo_not_used")):
+        with Run(StageStore(whole / "stages")) as run, pytest.raises(InputError) as refused:
+            make_persona({"photos": photos}, OPTIONS.model_copy(update=change), tmp_path, run)
+        assert refused.value.code == code
+
+
+def test_without_photographs_no_other_one_can_be_chosen(whole: Path, tmp_path: Path) -> None:
+    with Run() as run, pytest.raises(InputError) as refused:
+        make_persona({"persona": whole / "out/persona.npz"}, OPTIONS.model_copy(update={"photo": 1}), tmp_path, run)
+    assert refused.value.code == "photo_needs_photos"
+
+
+def test_a_persona_whose_photographs_all_cut_the_head_cannot_act_as_one(whole: Path, tmp_path: Path) -> None:
+    persona = replace(read_persona(whole / "out/persona.npz"), portrait=None, teeth=None)
+    write_persona(tmp_path / "persona.npz", persona)
+    given = {"persona": tmp_path / "persona.npz", "driver": video("happy")}
+    with Run() as run, pytest.raises(InputError) as refused:
+        make_persona(given, OPTIONS.model_copy(update={"composite": "photo"}), tmp_path, run)
+    assert refused.value.code == "no_portrait_photo"

@@ -188,7 +188,7 @@ def _draw(
                 segments = act.exits.segments()
                 total = len(act.poses) + sum(one.opens + one.length + HOLD_FRAMES for one in segments)
                 done = 0
-                for frame in draw_in_order(animation, _with_ratios(act.poses, ratios)):
+                for frame in draw_in_order(animation.draw, _with_ratios(act.poses, ratios)):
                     if done == 0 and act.state.name == IDLE_STATE:
                         write_still(out / "poster.jpg", frame, mark)
                     clip.write(frame)
@@ -202,7 +202,7 @@ def _draw(
                 bridges = files.enter_context(
                     VideoWriter(VideoTarget(name, size, fps, entries=entries, synthetic=mark))
                 )
-                for frame in draw_in_order(animation, _with_ratios(act.bridges(), ratios)):
+                for frame in draw_in_order(animation.draw, _with_ratios(act.bridges(), ratios)):
                     bridges.write(frame)
                     done += 1
                     run.tick(done / total, f"{act.state.name}: frame {done} of {total}")

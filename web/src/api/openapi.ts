@@ -1884,11 +1884,16 @@ export interface components {
              */
             driver_face_index?: number;
             /**
-             * @description The puppet alone on a plain background, or beside the driver.
+             * @description The puppet alone on a plain background, the person as they are in one of the photos, or the puppet beside the driver.
              * @default none
              * @enum {string}
              */
-            composite?: "none" | "side_by_side";
+            composite?: "none" | "photo" | "side_by_side";
+            /**
+             * @description Whose photo acts, with `composite` as `photo`: a face by its number in `faces.json`. Default: the best one.
+             * @default null
+             */
+            photo?: number | null;
             /**
              * @description Red, green and blue of the plain background.
              * @default [

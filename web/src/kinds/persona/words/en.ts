@@ -35,6 +35,10 @@ const english = {
     no_common_person: 'The photos show nobody twice',
     several_people: 'The photos show several people',
     persona_unreadable: 'The file is no persona of this service',
+    no_portrait_photo: 'None of the photos shows enough of the head',
+    photo_not_used: 'The chosen face is not among those that are used',
+    photo_needs_photos: 'A photo can only be chosen beside the photos',
+    composite_needs_video: 'A photo that acts needs a video to follow',
     persona_too_large: 'The persona’s file is too large',
   },
 

@@ -1,0 +1,102 @@
+"""A photograph of a persona follows a driver, from the driver's file to drawn frames."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.errors import InputError
+from engine.face_animation.acting_options import ActingOptions
+from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget
+from engine.face_animation.driver_tracking.neutral import choose_neutral_frame, warn_if_never_at_rest
+from engine.face_animation.stages import analyse_driver, follow_driver, prepare_target
+from engine.face_animation.target_face import TargetFace
+from engine.perception.face_track.track import FaceTrack
+from engine.persona.composite.framing import framed
+from engine.persona.composite.photo_film import PhotoActing, act, photo_frames
+from engine.persona.composite.photo_teeth import PhotoTeeth
+from engine.persona.composite.portrait_choice import WHOLE_HEAD_SHARE, head_share
+from engine.persona.composite.retouching import retouching_of
+from engine.persona.composite.skin_colour import is_grey
+from engine.persona.composite.teeth_choice import mouth_dark
+from engine.persona.options import PersonaOptions
+from engine.persona.persona import Persona
+from engine.run import Run
+
+PHOTO_STAGES = {
+    "register_driver": 3.0,
+    "ratio_images": 3.0,
+    "glance_at_driver": 0.5,
+    "separate_layers": 1.0,
+    "rig_target": 0.5,
+    "look_again": 1.0,
+}
+"""The stages beside those of every persona, and their usual share of the time."""
+
+
+@dataclass(frozen=True)
+class PhotoPerformance:
+    """The driver's `track`, its frame at `rest`, and `frames` (h, w, 3) yet to be drawn, of `size` (width, height)."""
+
+    track: FaceTrack
+    rest: int
+    size: tuple[int, int]
+    frames: Iterator[NDArray[np.uint8]]
+
+
+def perform_photo(persona: Persona, driver: Path, options: PersonaOptions, run: Run) -> PhotoPerformance:
+    """The persona's photograph acting what the driver does.
+
+    Raises
+    ------
+    InputError : `no_portrait_photo`, and what following a driver may raise.
+    """
+    target = _target(persona, options.size, run)
+    tracking = follow_driver(driver, options.fps, options.trim, options.driver_face_index, run)
+    prepared = prepare_target(target, run)
+    played = analyse_driver(tracking, lambda track: choose_neutral_frame(track, target.mesh, None), run)
+    warn_if_never_at_rest(played.choice, run.warn)
+    follows = ActingOptions()
+    residuals = played.residuals_on(prepared, follows, run)
+    rigged = RiggedTarget(target, prepared.layers(), prepared.rig())
+    registered = RegisteredDriver(played.track, played.neutral, residuals)
+    with run.timed("perform"):
+        acting = act(rigged, registered, follows, persona)
+        mouth = _mouth(persona, target, acting, run)
+        animation = FaceAnimation(rigged, registered, follows, mouth=mouth)
+        assert persona.portrait is not None
+        base = persona.synthesis(acting.rest[None])[0]
+        retouching = retouching_of(persona, persona.portrait, base, is_grey(target.rgb, target.mesh))
+    frames = photo_frames(animation, retouching, persona, acting, played.ratios)
+    return PhotoPerformance(played.track, played.neutral, target.size, frames)
+
+
+def _target(persona: Persona, size: tuple[int, int], run: Run) -> TargetFace:
+    if persona.portrait is None:
+        raise InputError(
+            "no_portrait_photo",
+            "None of the photos shows enough of the head to act: add one from before with hair and neck, name one as `photo`, or have the"
+            " puppet alone.",
+            ("photos", "photo", "composite"),
+        )
+    if head_share(persona.portrait) < WHOLE_HEAD_SHARE:
+        run.warn(
+            "head_cut",
+            "The photo that acts cuts the head: what lies beyond its edge is not known, and cannot move in. Add a photo with hair and neck,"
+            " or name one as `photo`.",
+        )
+    return framed(persona.portrait, size)
+
+
+def _mouth(persona: Persona, target: TargetFace, acting: PhotoActing, run: Run) -> PhotoTeeth | None:
+    if persona.teeth is None:
+        run.warn(
+            "no_teeth_shown",
+            "None of the photos shows the person's upper teeth from before: what is between the lips is the driver's. Add a photo with a smile.",
+        )
+        return None
+    return PhotoTeeth(target, persona.teeth, mouth_dark(persona), acting.faces)

@@ -1,0 +1,67 @@
+"""Which photograph of the person acts: from before, large, sharp, bare, with a calm face and the whole head."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.landmarks import eye_opening, mouth_opening
+from engine.persona.collection.face_photo import FacePhoto
+from engine.persona.collection.photo_face import PhotoFace
+from engine.persona.composite.framing import head_box
+from engine.persona.composite.skin_colour import is_grey
+
+LARGE_EYE_DISTANCE = 140.0
+"""Pixels from which on a face is as large as any picture asks for."""
+TURN_DEGREES = 8.0
+"""By which a face is turned, that counts as much as if it were half as large; the same is true of the following."""
+OPENING = 0.06
+"""Of the mouth: what is behind closed lips can be drawn, and open ones have a shape of their own."""
+CUT_SHARE = 0.05
+"""Of the head, that the photograph does not show."""
+HIDDEN_SHARE = 0.08
+"""Of the face, that is behind hair, spectacles, hands, or in a hard shadow."""
+BLUR = 0.15
+LEAST_EYE_OPENING = 0.2
+"""Of the eyes; shut ones stay shut."""
+SHUT_PENALTY, GREY_PENALTY = 3.0, 3.0
+LOOKED_AT = 32
+"""Photographs that are looked at, of those whose faces are best."""
+MIN_HEAD_SHARE = 0.5
+"""Of the head that the photograph has to show."""
+WHOLE_HEAD_SHARE = 0.85
+
+
+def portrait_photo(
+    faces: Sequence[PhotoFace], belief: NDArray[np.floating], photo: Callable[[int], NDArray[np.uint8]]
+) -> FacePhoto | None:
+    """The photograph, of `faces` each in what `photo` gives for its number, that is best; None where all of them cut the head.
+
+    `belief` (N,) is the mean of the faces' pixels'.
+    """
+    hidden = np.maximum(float(np.quantile(belief, 0.9)) - belief, 0)
+    scores = np.array([_face_score(face) for face in faces]) - hidden / HIDDEN_SHARE
+    some = np.argsort(-scores, kind="stable")[:LOOKED_AT]
+    found = [FacePhoto(photo(int(number)), faces[number].mesh, int(number)) for number in some]
+    shares = [head_share(one) for one in found]
+    grey = np.array([is_grey(one.rgb, one.mesh) for one in found])
+    whole = scores[some] - (1 - np.array(shares)) / CUT_SHARE - GREY_PENALTY * (grey & (grey.mean() < 0.5))
+    whole[np.array(shares) < MIN_HEAD_SHARE] = -np.inf
+    return found[int(np.argmax(whole))] if np.isfinite(whole).any() else None
+
+
+def head_share(photo: FacePhoto) -> float:
+    """How much of the head lies in the photograph: a share of its area."""
+    low, high = head_box(photo.mesh)
+    inside = np.clip(high, 0, photo.rgb.shape[1::-1]) - np.clip(low, 0, photo.rgb.shape[1::-1])
+    return float(np.prod(inside) / np.prod(high - low))
+
+
+def _face_score(face: PhotoFace) -> float:
+    """In halvings of its size; zero is best."""
+    score = min(float(np.log2(face.eye_distance / LARGE_EYE_DISTANCE)), 0.0)
+    score -= float(np.hypot(face.yaw, face.pitch)) / TURN_DEGREES
+    score -= float(mouth_opening(face.mesh)) / OPENING + face.blur / BLUR
+    return score - SHUT_PENALTY * (float(eye_opening(face.mesh).min()) < LEAST_EYE_OPENING)

@@ -1,0 +1,39 @@
+"""Where a face is retouched: in the persona's frame, so that the mask moves as the face does."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.landmarks import LEFT_EYE, LIPS_OUTER, RIGHT_EYE
+from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
+from engine.persona.texture.texture_frame import TextureFrame
+
+NOSE = (98, 327, 2, 1, 4, 19, 94, 97, 326, 129, 358, 48, 278)
+"""Its tip and wings: nostrils that are a pixel off would be doubled."""
+RIM = (4.0, 16.0)
+"""Pixels of a frame 194 wide from the face's rim, between which the skin begins and is whole."""
+EYES, WINGS, LIPS = (3.0, 2.0), (1.0, 1.5), (1.0, 1.5)
+"""Pixels of such a frame by which eyes, nose and lips are drawn larger, and over which they pass into the skin."""
+
+
+def retouched_skin(frame: TextureFrame) -> NDArray[np.float32]:
+    """(H, W) in [0, 1] the skin of a persona's frame: the face without eyes, the nose's tip and wings, and lips, and nothing at its
+    rim."""
+    inside = cv2.distanceTransform(frame.face.astype(np.uint8), cv2.DIST_L2, 3) * (REFERENCE_WIDTH / frame.size[1])
+    skin = np.clip((inside - RIM[0]) / (RIM[1] - RIM[0]), 0, 1)
+    for contour, reach in ((RIGHT_EYE, EYES), (LEFT_EYE, EYES), (NOSE, WINGS), (LIPS_OUTER, LIPS)):
+        skin = skin * (1 - _grown(frame, contour, reach))
+    return np.asarray(skin, np.float32)
+
+
+def _grown(frame: TextureFrame, contour: tuple[int, ...], reach: tuple[float, float]) -> NDArray[np.float32]:
+    """(H, W) the hull of a contour's vertices, drawn larger and softened."""
+    unit = frame.size[1] / REFERENCE_WIDTH
+    mask = np.zeros(frame.size, np.uint8)
+    hull = cv2.convexHull(np.rint(frame.places[list(contour), :2]).astype(np.int32))
+    cv2.fillConvexPoly(mask, hull, 1)
+    side = 2 * round((reach[0] + 2 * reach[1]) * unit) + 1  # the softened edge lies inside
+    larger = cv2.dilate(mask, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side))).astype(np.float32)
+    return np.asarray(cv2.GaussianBlur(larger, (0, 0), reach[1] * unit), np.float32)

@@ -1,0 +1,32 @@
+"""The colour of skin around a mouth, by which photographs are brought into one another's light."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.landmarks import eye_distance
+
+SKIN_RING = (164, 167, 393, 18, 200, 92, 322, 186, 410)
+"""Vertices on the skin around the mouth."""
+REACH = 0.06
+"""Eye distances about each of them."""
+GREY_SATURATION = 0.06
+"""Of skin, below which a picture is black and white."""
+
+
+def skin_colour(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(3,) the mean sRGB of the skin around the mouth of a face at `mesh` (478, 2 or 3) of a picture."""
+    reach = max(round(REACH * float(eye_distance(mesh[:, :2]))), 1)
+    patches = []
+    for x, y in np.rint(mesh[list(SKIN_RING), :2]).astype(int):
+        patch = rgb[max(y - reach, 0) : max(y + reach + 1, 0), max(x - reach, 0) : max(x + reach + 1, 0)]
+        if patch.size:
+            patches.append(patch.reshape(-1, 3).mean(axis=0))
+    return np.mean(patches, axis=0) if patches else np.full(3, 128.0)
+
+
+def is_grey(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> bool:
+    """Whether a picture of a face at `mesh` (478, 2 or 3) is black and white."""
+    skin = skin_colour(rgb, mesh)
+    return float((skin.max() - skin.min()) / max(float(skin.max()), 1.0)) < GREY_SATURATION

@@ -1,0 +1,100 @@
+"""Which photograph lends its teeth, and how dark the mouth behind them is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.mouth.hidden_regions import LOWER_INNER_LIP, UPPER_INNER_LIP
+from engine.perception.landmarks import LIPS_INNER, eye_distance, mouth_opening
+from engine.persona.collection.face_photo import FacePhoto
+from engine.persona.collection.photo_face import PhotoFace
+from engine.persona.composite.skin_colour import is_grey
+from engine.persona.persona import Persona
+
+MAX_YAW = 15.0
+"""Degrees up to which a face shows both halves of its teeth."""
+OPENINGS = (0.10, 0.40)
+"""Of the mouth: of less nothing is seen of teeth, and of more too much beside them."""
+LOOKED_AT = 24
+"""Photographs that are looked at, the largest of those that can be meant."""
+BRIGHT_SHARES = (0.35, 0.85)
+"""Of the skin's grey, between which a pixel becomes one of a tooth's."""
+LARGE_EYE_DISTANCE = 120.0
+YAW_DEGREES, PITCH_DEGREES = 60.0, 90.0
+"""By which a face is turned, that counts as much as teeth that are not seen at all; size and colour as follows."""
+SIZE_SHARE, GREY_SHARE = 0.3, 1.0
+ROWS = 10
+"""From lip to lip at which an opening is looked at."""
+BURNT = 250.0
+TEETH_HEIGHT = 0.13
+"""Eye distances of upper teeth that are seen wholly."""
+WELL_LIT = 160.0
+"""Of skin."""
+EDGE_SHARE = 0.3
+"""Of teeth seen, that the dark below them counts: without it where they end is the lower lip's line, which is no tooth's."""
+DARK_PERCENTILE = 12
+MIN_OPENING = 0.2
+"""Of mouths in which the dark is looked for."""
+INNER_TOP, INNER_BOTTOM, RIGHT_CORNER, LEFT_CORNER = 45, 49, 31, 37
+"""Of the 51 points of an expression: the inner lips' middles, and the corners."""
+LEAST_DARK = (30.0, 12.0, 12.0)
+
+
+def teeth_photo(
+    faces: Sequence[PhotoFace], photo: Callable[[int], NDArray[np.uint8]], grey: bool = False
+) -> FacePhoto | None:
+    """The photograph whose upper teeth are seen best, of `faces`, each in what `photo` gives for its number; None where none shows
+    any. `grey` : the person is known in black and white alone."""
+    able = [
+        number
+        for number, face in enumerate(faces)
+        if abs(face.yaw) < MAX_YAW and OPENINGS[0] <= float(mouth_opening(face.mesh)) <= OPENINGS[1]
+    ]
+    able.sort(key=lambda number: -faces[number].eye_distance)
+    best: tuple[float, FacePhoto] | None = None
+    for number in able[:LOOKED_AT]:
+        one = FacePhoto(photo(number), faces[number].mesh, number)
+        score = _seen(one) + SIZE_SHARE * np.log(min(faces[number].eye_distance, LARGE_EYE_DISTANCE) / 30)
+        score -= abs(faces[number].yaw) / YAW_DEGREES + abs(faces[number].pitch) / PITCH_DEGREES
+        score -= GREY_SHARE * (is_grey(one.rgb, one.mesh) and not grey)
+        if best is None or score > best[0]:
+            best = float(score), one
+    return best[1] if best else None
+
+
+def mouth_dark(persona: Persona) -> NDArray[np.float32]:
+    """(3,) sRGB of the dark in a person's mouth; a usual one where no mouth is open."""
+    lips = persona.points[:, [INNER_TOP, INNER_BOTTOM]], persona.points[:, [RIGHT_CORNER, LEFT_CORNER]]
+    gap, width = (np.linalg.norm(pair[:, 0] - pair[:, 1], axis=-1) for pair in lips)
+    inside = np.zeros(persona.frame.size, np.uint8)
+    cv2.fillPoly(inside, [np.rint(persona.frame.places[list(LIPS_INNER), :2]).astype(np.int32)], 1)
+    inner = cv2.erode(inside, np.ones((3, 3), np.uint8)) > 0
+    pixels = persona.colours[gap > MIN_OPENING * width][:, inner].reshape(-1, 3).astype(np.float32)
+    if not len(pixels):
+        return np.array(LEAST_DARK, np.float32)
+    grey = pixels.mean(axis=1)
+    dark = np.median(pixels[grey <= np.percentile(grey, DARK_PERCENTILE)], axis=0)
+    return np.maximum(dark, LEAST_DARK).astype(np.float32)
+
+
+def _seen(photo: FacePhoto) -> float:
+    """How well upper teeth are seen: how much of their height, not burnt white, in good light, and whether the dark below them shows
+    where they end."""
+    upper, lower = (photo.mesh[list(lip), :2] for lip in (UPPER_INNER_LIP, LOWER_INNER_LIP))
+    down = (np.arange(ROWS) + 0.5)[:, None, None] / ROWS
+    at = np.asarray(upper + down * (lower - upper), np.float32)
+    pixels = np.asarray(cv2.remap(photo.rgb, at[..., 0], at[..., 1], cv2.INTER_LINEAR)).max(axis=-1).astype(np.float32)
+    whole = photo.mesh[:, :2]
+    a, b = np.floor(whole.min(axis=0)).astype(int).clip(0), np.ceil(whole.max(axis=0)).astype(int) + 1
+    skin = max(float(np.percentile(photo.rgb[a[1] : b[1], a[0] : b[0]].max(axis=-1), 60)), 1.0)
+    bright = np.clip((pixels / skin - BRIGHT_SHARES[0]) / (BRIGHT_SHARES[1] - BRIGHT_SHARES[0]), 0, 1)[:, 2:-2]
+    burnt = (pixels[:, 2:-2] > BURNT).mean()
+    gap = np.linalg.norm(lower - upper, axis=1)[2:-2] / float(eye_distance(photo.mesh[:, :2]))
+    height = float((bright.mean(axis=0) * gap).mean()) / TEETH_HEIGHT
+    ends = float(np.clip(bright[: ROWS // 2].mean() - bright[-2:].mean(), 0, 1))
+    dark = 1 - min(skin / WELL_LIT, 1.0)
+    return min(height, 1.0) - float(burnt) + EDGE_SHARE * ends - 2 * dark

@@ -1,0 +1,97 @@
+"""Teeth of one photograph in a mouth that moves."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+
+from engine.face_animation.target_face import TargetFace
+from engine.perception.head_pose import canonical_face
+from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES
+from engine.persona.collection.face_photo import FacePhoto
+from engine.persona.composite.photo_teeth import PhotoTeeth
+from engine.persona.composite.skull import skull_camera
+
+SKIN = (190, 150, 130)
+CAVITY = np.array([50.0, 20.0, 20.0])
+LOWER = [146, 91, 181, 84, 17, 314, 405, 321, 375, 95, 88, 178, 87, 14, 317, 402, 318, 324]
+
+
+def face(gap: float, eyes: float = 80.0, middle: tuple[float, float] = (160.0, 150.0)) -> np.ndarray:
+    """(478, 3) pixels, the lower lip and the chin `gap` eye distances down."""
+    mesh = canonical_face().astype(np.float64)
+    mesh -= mesh[list(RIGID_VERTICES)].mean(axis=0)
+    mesh /= np.linalg.norm(mesh[[33, 133]].mean(axis=0) - mesh[[263, 362]].mean(axis=0))
+    mesh[LOWER, 1] += gap
+    return (mesh * eyes + (*middle, 0)).astype(np.float32)
+
+
+def picture(mesh: np.ndarray) -> np.ndarray:
+    """Skin, red lips, and between them striped teeth above, dark below."""
+    rgb = np.full((320, 320, 3), SKIN, np.uint8)
+    cv2.fillPoly(rgb, [np.rint(mesh[list(LIPS_OUTER), :2]).astype(np.int32)], (170, 70, 80))
+    inner = np.zeros((320, 320), np.uint8)
+    cv2.fillPoly(inner, [np.rint(mesh[list(LIPS_INNER), :2]).astype(np.int32)], 1)
+    rows, columns = np.nonzero(inner)
+    upper = rows < mesh[13, 1] + 0.6 * (mesh[14, 1] - mesh[13, 1])
+    rgb[rows, columns] = CAVITY
+    rgb[rows[upper], columns[upper]] = (225, 215, 200)
+    stripe = upper & (columns % 8 < 2)
+    rgb[rows[stripe], columns[stripe]] = (150, 135, 120)
+    return rgb
+
+
+@pytest.fixture(scope="module")
+def mouth() -> PhotoTeeth:
+    smile, rest = face(0.14), face(0.0)
+    target = TargetFace(picture(rest), None, rest, np.zeros((1, 4), np.float32), (320, 320), np.eye(2, 3))
+    return PhotoTeeth(target, FacePhoto(picture(smile), smile, 0), CAVITY, np.array([face(0.2)[:, :2], rest[:, :2]]))
+
+
+def test_the_skull_is_found_whatever_the_mouth_does() -> None:
+    shut, open_wide = (skull_camera(face(0.0) / 80, face(gap)[:, :2]) for gap in (0.0, 0.4))
+    np.testing.assert_allclose(shut[0], open_wide[0], atol=1e-3)
+    np.testing.assert_allclose(shut[0], 80 * np.eye(3)[:2], atol=1e-2)
+
+
+def test_teeth_stay_in_the_skull_where_lips_move(mouth: PhotoTeeth) -> None:
+    corner, shape = np.array([130.0, 170.0]), (60, 60)
+    before, after = (mouth.origins(face(gap), corner, shape) for gap in (0.1, 0.3))
+    np.testing.assert_allclose(before, after, atol=0.02)
+
+
+@pytest.mark.parametrize(("degrees", "scale"), [(0, 1.0), (20, 1.0), (-15, 1.3)])
+def test_teeth_go_where_the_head_goes(mouth: PhotoTeeth, degrees: float, scale: float) -> None:
+    angle = np.radians(degrees)
+    turn = scale * np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    shift = np.array([12.0, -7.0])
+    rest = face(0.2)
+    moved = rest.copy()
+    moved[:, :2] = rest[:, :2] @ turn.T + shift
+    point = rest[13, :2] + (2.0, 8.0)
+    there = point @ turn.T + shift
+    one = mouth.origins(rest, point, (1, 1))[0, 0]
+    np.testing.assert_allclose(mouth.origins(moved, there, (1, 1))[0, 0], one, atol=0.05)
+
+
+def test_between_teeth_and_lower_lip_is_the_dark_of_the_mouth(mouth: PhotoTeeth) -> None:
+    rest = face(0.3)
+    height = int(rest[14, 1] - rest[13, 1])
+    inside = mouth.inside(rest, rest[13, :2] - (60, 0), (height, 120))
+    dark = inside[int(0.6 * height), 60]
+    assert dark.max() < 90 and dark[0] >= dark[1:].max() - 1, "dark, and red rather than blue"
+    bright = inside[4, 40:80].mean()
+    assert bright > 1.6 * dark.mean()
+
+
+def test_it_is_drawn_between_the_lips_alone_and_only_where_they_part(mouth: PhotoTeeth) -> None:
+    for gap, drawn in ((0.0, False), (0.25, True)):
+        mesh = face(gap)
+        frame = np.full((320, 320, 3), 128, np.uint8)
+        mouth.draw(frame, mesh[:, :2], 0)
+        changed = (frame != 128).any(axis=-1)
+        inner = np.zeros(frame.shape[:2], np.uint8)
+        cv2.fillPoly(inner, [np.rint(mesh[list(LIPS_INNER), :2]).astype(np.int32)], 1)
+        assert changed.any() == drawn
+        assert not changed[cv2.dilate(inner, np.ones((5, 5), np.uint8)) == 0].any()
