@@ -20,6 +20,7 @@ from engine.persona.collection.photos import Photos, read_photos
 from engine.persona.collection.sorting import Choice
 from engine.persona.composite.acting_photos import with_acting_photos
 from engine.persona.composite.photo_performance import PHOTO_STAGES
+from engine.persona.early_average import EarlyAverage
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona, read_persona, write_persona
 from engine.persona.stages import SortedFaces, find_faces_of_photos, learn, sort_faces, texture_width
@@ -94,8 +95,9 @@ def _learnt(paths: Sequence[Path], options: PersonaOptions, out: Path, run: Run)
     for early in write_first_impression(out, photos.picture(0), None, run.mark_synthetic):
         run.publish(early)
     described_by = descriptor_name(os.environ)
-    found = run.stage("find_faces", find_faces_of_photos, photos, described_by, run.tick)
     choice = Choice(options.keep, options.leave_out)
+    early_average = EarlyAverage(out, run.publish, descriptor_distances(os.environ), choice, run.mark_synthetic)
+    found = run.stage("find_faces", find_faces_of_photos, photos, described_by, run.tick, early_average.add)
     chosen = sort_faces(found, descriptor_distances(os.environ), choice, options.example)
     _tell_faces(out, photos, chosen, run)  # before anything is refused: its numbers are those of what mends it
     chosen.require_enough()

@@ -98,12 +98,21 @@ class SortedFaces:
         return SortedFaces(self.faces, tuple(reasons), self.whose)
 
 
-def find_faces_of_photos(photos: Photos, described_by: str, tick: Callable[[float], None]) -> PhotoFaces:
-    """All faces, each with what decides whether it is of use. `described_by` names the model that tells people apart."""
+def find_faces_of_photos(
+    photos: Photos,
+    described_by: str,
+    tick: Callable[[float], None],
+    on_photo: Callable[[NDArray[np.uint8], Sequence[PhotoFace]], None] = lambda rgb, faces: None,
+) -> PhotoFaces:
+    """All faces, each with what decides whether it is of use. `described_by` names the model that tells people apart; `on_photo` is
+    called with each photograph (H, W, 3) and its faces."""
     describe = face_descriptor(os.environ)
     found: list[PhotoFace] = []
     for number in range(len(photos)):
-        found += faces_of(photos.picture(number), number, describe)
+        rgb = photos.picture(number)
+        faces = faces_of(rgb, number, describe)
+        found += faces
+        on_photo(rgb, faces)
         tick((number + 1) / len(photos))
     return PhotoFaces(tuple(found))
 

@@ -60,8 +60,8 @@ export default function PersonaPanel({ job, onProblem }: CorrectionsProps) {
           </div>
         </section>
       )}
-      {faces && <PersonField faces={faces} examples={examples} value={draft.example} onChange={(example) => wish({ example })} />}
       {sorted && <FacesField faces={faces} before={before} value={draft} onChange={wish} />}
+      {faces && <PersonField faces={faces} examples={examples} value={draft.example} onChange={(example) => wish({ example })} />}
       <section class="panel whole" aria-label={words.performance}>
         <details class="choices">
           <summary>{words.performance}</summary>
