@@ -43,7 +43,8 @@ class Input:
     """Shows somebody as they are: an operator may have it erased once the job has succeeded. Only stored stages may read it then."""
     artifact: str | None = None
     """Where set, the input may also be an earlier job of the same kind, by its id: the artifact of this name that it left."""
-
+    erased_together: bool = False
+    """Whether a job that takes it from an earlier job is erased with that one: it shows the same person."""
     named_by: str | None = None
     """Where set, the option of this name names something built in that stands in for the input: in a shell either may
     be given in its place."""

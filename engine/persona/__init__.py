@@ -61,6 +61,7 @@ KIND = Kind(
             "The persona of an earlier job, instead of photos: that job's id, or its `persona.npz`.",
             required=False,
             artifact="persona.npz",
+            erased_together=True,
         ),
         Input(
             "driver",

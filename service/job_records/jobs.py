@@ -24,6 +24,12 @@ def get_locked(session: Session, job_id: str) -> Job | None:
     return session.get(Job, job_id, with_for_update=True, populate_existing=True)
 
 
+def of_kind_locked(session: Session, owner: str, kind: str) -> Sequence[Job]:
+    """An owner's jobs of a kind, oldest first, that nobody else changes or erases until this transaction ends."""
+    query = select(Job).where(Job.owner == owner, Job.kind == kind).order_by(Job.id).with_for_update()
+    return session.scalars(query).all()
+
+
 def page(
     session: Session,
     owner: str,

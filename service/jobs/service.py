@@ -155,18 +155,39 @@ def cancel(context: Context, owner: str, job_id: str) -> None:
 
 
 def delete(context: Context, owner: str, job_id: str) -> None:
-    """Erase a job and its media; one that runs is stopped. What a revision of it still uses stays."""
+    """Erase a job and its media, and those that show the same person because they began with it; one that runs is stopped. What a
+    revision of it still uses stays."""
     with context.database.write() as session:
-        root = lock_own_job(session, owner, job_id).tree
-        file_ids = repository.files_of(session, job_id)
-        stored = [artifact.key for artifact in artifacts.of_jobs(session, [job_id])[job_id]]
-        repository.erase(session, job_id)
+        begun_with = _begun_with(session, context.kinds, own_job(session, owner, job_id))
+        doomed = [lock_own_job(session, owner, job_id), *begun_with]
+        ids = [job.id for job in doomed]
+        file_ids = [file for one in ids for file in repository.files_of(session, one)]
+        stored = [artifact.key for some in artifacts.of_jobs(session, ids).values() for artifact in some]
+        folders = {*ids, *(job.tree for job in doomed)}
+        for one in ids:
+            repository.erase(session, one)
         erased = files.erase_unused(session, file_ids)
-        unneeded = {job_id, root} - repository.with_folder(session, [job_id, root])
+        unneeded = folders - repository.with_folder(session, sorted(folders))
     context.storage.delete(stored)
     forget(context, erased)
     for one in unneeded:
         stages.erase(context, one)
+
+
+def _begun_with(session: Session, kinds: Mapping[str, Kind], job: Job) -> list[Job]:
+    """The owner's jobs, locked, that took what this one has made by an input that is erased together with it, and those that took
+    what they have made."""
+    kind = kinds.get(job.kind)
+    names = [item.name for item in kind.inputs if item.erased_together] if kind is not None else []
+    if not names:
+        return []
+    others = repository.of_kind_locked(session, job.owner, job.kind)
+    found, made = [], {job.id}
+    for other in others:  # the oldest first: nothing begins with what is made later
+        if any(isinstance(source := other.sources.get(name), dict) and source.get("job") in made for name in names):
+            found.append(other)
+            made.add(other.id)
+    return found
 
 
 def _shown(kind: Kind, given: Mapping[str, Value]) -> dict[str, str | list[str]]:

@@ -178,3 +178,9 @@ FOLLOWING = replace(
     ),
 )
 """Takes what an earlier job of it left."""
+TOGETHER = replace(
+    FOLLOWING,
+    name="together",
+    inputs=tuple(replace(item, erased_together=item.name == "earlier") for item in FOLLOWING.inputs),
+)
+"""Shows whom the earlier job shows, and is erased with it."""

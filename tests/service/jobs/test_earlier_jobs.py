@@ -17,7 +17,7 @@ PICTURE_INPUT = "/inputs/earlier"
 @pytest.fixture(scope="module")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
     folder = tmp_path_factory.mktemp("earlier") / "data"
-    with Running(folder, kinds="tiny_kind:KIND,tiny_kind:FOLLOWING") as running:
+    with Running(folder, kinds="tiny_kind:KIND,tiny_kind:FOLLOWING,tiny_kind:TOGETHER") as running:
         yield running
 
 
@@ -101,3 +101,18 @@ def test_a_job_whose_beginning_is_erased_while_it_waits_says_so(service: Running
     service.client.delete(f"/v1/jobs/{done['id']}").raise_for_status()
     service.client.post(f"/v1/jobs/{before}/cancel").raise_for_status()
     assert service.until(waiting["id"], "failed")["error"]["code"] == "input_erased"
+
+
+def test_what_shows_the_same_person_is_erased_together(service: Running, picture: bytes) -> None:
+    image = uploaded(service, picture)
+    first, other = (submit(service, {"image": image}, "together").json() for _ in range(2))
+    second = submit(service, {"earlier": first["id"]}, "together").json()
+    third = submit(service, {"earlier": second["id"]}, "together", level=1.0).json()
+    beside = submit(service, {"earlier": other["id"]}, "together").json()
+    addresses = [job["artifacts"]["preview.jpg"]["url"] for job in (first, second, third)]
+    service.client.delete(f"/v1/jobs/{first['id']}").raise_for_status()
+    assert [service.client.get(f"/v1/jobs/{job['id']}").status_code for job in (first, second, third)] == [404] * 3
+    assert [service.client.get(address).status_code for address in addresses] == [404] * 3
+    assert not any((service.data_dir / "jobs" / job["id"]).exists() for job in (first, second, third))
+    for job in (other, beside):
+        service.client.get(job["artifacts"]["preview.jpg"]["url"]).raise_for_status()

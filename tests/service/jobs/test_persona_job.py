@@ -87,3 +87,14 @@ def test_a_persona_of_something_else_is_refused(service: Running, archive: Path)
     order = {"kind": "persona", "options": json.dumps(OPTIONS), "driver": "happy"}
     job = service.client.post("/v1/jobs", data=order, files=files).raise_for_status().json()["id"]
     assert ended(service, job)["error"]["code"] == "persona_unreadable"
+
+
+def test_erasing_a_persona_erases_all_that_was_made_of_the_photos(service: Running, made: dict[str, Any]) -> None:
+    film = ended(service, ordered(service, OPTIONS, persona=made["id"], driver="happy"))
+    photos = made["inputs"]["photos"]
+    versions = service.client.get(f"/v1/jobs/{made['id']}/revisions").raise_for_status().json()["items"]
+    for version in versions:
+        service.client.delete(f"/v1/jobs/{version['id']}").raise_for_status()
+    assert service.client.get(f"/v1/jobs/{film['id']}").status_code == 404
+    assert [service.client.get(f"/v1/files/{one}").status_code for one in photos] == [404]
+    assert not any((service.data_dir / "jobs" / job["id"]).exists() for job in (*versions, film))
