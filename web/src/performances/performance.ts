@@ -5,5 +5,8 @@ import { plain } from '../language/strings';
 
 export type Performance = { by: 'name'; name: string } | { by: 'file'; file: File };
 
+/** Whether a file that was chosen is a picture; a GIF moves. */
+export const isStill = ({ type }: File): boolean => type.startsWith('image/') && type !== 'image/gif';
+
 export const performanceTitle = (performance: Performance): string =>
   performance.by === 'name' ? plain(performance.name) : fileTitle(performance.file);

@@ -3,9 +3,9 @@
 import type { ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';
 import { deleteDriver, type Driver, renameDriver } from '../api';
-import { isVideo, videoTypes } from '../studio/media_types';
+import { isPicture, isVideo, pictureTypes, videoTypes } from '../studio/media_types';
 import { ofDriver } from './drivers';
-import type { Performance } from './performance';
+import { isStill, type Performance } from './performance';
 import { words } from './words';
 import { plain } from '../language/strings';
 import { Capture } from '../studio/capture';
@@ -18,7 +18,9 @@ export interface PickerProps {
   drivers: readonly Driver[];
   chosen: Performance | null;
   onChoose: (performance: Performance) => void;
-  /** The file that was chosen last is no video. */
+  /** Whether a picture will do, too: its expression is taken on. */
+  pictures?: boolean;
+  /** The file that was chosen last is none of these. */
   refused: boolean;
   onRefused: () => void;
   /** Something is being sent. */
@@ -37,7 +39,8 @@ const STRENGTHS = ['normal', 'strong'] as const;
 type Strength = (typeof STRENGTHS)[number];
 
 export function PerformancePicker({ drivers, chosen, onChoose, refused, onRefused, sending, onKeeping, ...then }: PickerProps) {
-  const { onKept, onGone, children } = then;
+  const { onKept, onGone, children, pictures = false } = then;
+  const file = pictures ? words.ownEither : words.ownVideo;
   const [strength, setStrength] = useState<Strength>('normal');
   const name = chosen?.by === 'name' ? chosen.name : null;
   const choose = (name: string): void => onChoose({ by: 'name', name });
@@ -95,23 +98,23 @@ export function PerformancePicker({ drivers, chosen, onChoose, refused, onRefuse
           onKept();
         }}
       />
-      <h3>{words.ownVideo}</h3>
+      <h3>{file.title}</h3>
       <Dropzone
         media="video"
         file={chosen?.by === 'file' ? chosen.file : null}
-        accept={videoTypes}
-        accepts={isVideo}
+        accept={pictures ? `${videoTypes},${pictureTypes}` : videoTypes}
+        accepts={pictures ? isEither : isVideo}
         words={{
-          drop: words.videoDrop,
+          drop: file.drop,
           browse: words.videoBrowse,
-          chosen: words.videoChosen,
-          wrong: words.wrongVideo,
+          chosen: file.chosen,
+          wrong: file.wrong,
         }}
         onFile={(file) => onChoose({ by: 'file', file })}
         refused={refused}
         onRefused={onRefused}
       />
-      {chosen?.by === 'file' && (
+      {chosen?.by === 'file' && !isStill(chosen.file) && (
         <KeepDriver
           file={chosen.file}
           disabled={sending}
@@ -126,6 +129,8 @@ export function PerformancePicker({ drivers, chosen, onChoose, refused, onRefuse
     </>
   );
 }
+
+const isEither = async (file: File): Promise<boolean> => (await isVideo(file)) || isPicture(file);
 
 /** How far the search for emotions in one's own driver is, where there is something to say. */
 function Search({ driver }: { driver: Driver }) {

@@ -8,7 +8,7 @@ import { strings } from '../language/strings';
 import { words } from './words';
 import { useSkeletonLines, useSurroundings, useWideView } from './scene/surroundings';
 import { OrbitView } from './orbit/orbit_view';
-import { peopleOf, standTogether, type HasArtifacts } from './artifacts/people';
+import { peopleOf, standOnFloor, standTogether, type HasArtifacts } from './artifacts/people';
 import type { Character } from './scene/character';
 import { type Pose } from './posing/pose';
 import { PosingView } from './posing/posing_view';
@@ -86,9 +86,11 @@ export default function Viewer({ job, renew, first, pose = {}, onPose, film, bes
               </button>
             ))}
         </div>
-        <button type="button" class="button" onClick={() => setInSpace(true)}>
-          {words.space}
-        </button>
+        {standOnFloor(job) && (
+          <button type="button" class="button" onClick={() => setInSpace(true)}>
+            {words.space}
+          </button>
+        )}
         {people.length > 1 && (
           <PersonSelect
             people={people}
@@ -184,7 +186,7 @@ function Modes({ stage, cast, people, mode, view, pose, onPose, tools }: ModesPr
   const lines = useSkeletonLines(stage, cast, mode === 'look');
   const common = (
     <>
-      {mode === 'look' && (
+      {mode === 'look' && cast.every(({ character }) => character.stands) && (
         <Tool label={words.skeleton} pressed={lines.on} onUse={lines.toggle} icon="M12 8v6m0-4.5L7 12m5-2.5L17 12m-5 2-3 7m3-7 3 7M12 3a2.5 2.5 0 1 1 0 5 2.5 2.5 0 0 1 0-5" />
       )}
       <Tool label={around.dark ? words.light : words.dark} onUse={around.toggle} icon="M12 4a8 8 0 1 0 0 16zM12 4a8 8 0 0 1 0 16" />

@@ -75,7 +75,7 @@ function Preview({ file, media }: { file: File; media: Media }) {
   const url = useObjectUrl(file);
   const [unshowable, setUnshowable] = useState<File | null>(null);
   const giveUp = (): void => setUnshowable(file);
-  const moving = media === 'video' && file.type !== 'image/gif';
+  const moving = media === 'video' && !file.type.startsWith('image/');
   return (
     <span class="held">
       {media === 'motion' ? null : unshowable === file ? (

@@ -12,6 +12,8 @@ export interface Draft {
   /** How many of the files that were given last were no photos. */
   others: number;
   persona: Earlier | null;
+  /** Photos of who performs. */
+  performer: readonly Collected[];
   /** Undefined: nobody has chosen yet. Null: none. */
   performance: Performance | null | undefined;
   agreed: boolean;
@@ -19,7 +21,7 @@ export interface Draft {
 }
 
 const EMPTY: Draft = {
-  ...{ from: 'photos', photos: [], others: 0, persona: null },
+  ...{ from: 'photos', photos: [], others: 0, persona: null, performer: [] },
   ...{ performance: undefined, agreed: false, options: {} },
 };
 

@@ -36,11 +36,12 @@ export const persona: Kind<PersonaOrder> = {
     hasSound: false,
     downloads: [
       [/^animation\.mp4$/, words.show.video],
+      [/^still\.png$/, words.show.picture],
       [/^puppet\.glb$/, words.show.glb],
     ],
     // never the photos' faces, nor what it can be driven with
-    opened: /^(animation\.mp4|puppet\.glb|poster\.jpg)$/,
+    opened: /^(animation\.mp4|still\.png|puppet\.glb|puppet_textures\.(webp|json)|poster\.jpg)$/,
   },
   files: words.files,
-  endings: { photos: 'zip', persona: 'npz', driver: 'mp4' },
+  endings: { photos: 'zip', persona: 'npz', driver: 'mp4', driver_photos: 'zip' },
 };

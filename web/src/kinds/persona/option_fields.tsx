@@ -2,7 +2,6 @@
 
 import { useId } from 'preact/hooks';
 import { useDescriptions } from '../../kind/offered';
-import { plain } from '../../language/strings';
 import { Checkbox } from '../../widgets/checkbox';
 import { SelectField } from '../../widgets/select';
 import { OptionFields, type Options } from '../generic/fields';
@@ -14,7 +13,6 @@ const words = personaWords.studio;
 const sizes = ['600x800', '900x1200', '800x800', '1280x720'] as const;
 const [usualSize] = sizes;
 /** What the service has where nothing is said. */
-const USUAL_COMPOSITE = 'none';
 const USUAL_BACKGROUND = [58, 60, 64] as const;
 
 interface Props {
@@ -26,9 +24,7 @@ interface Props {
 export function PersonaOptionFields({ value, mayHaveSound, onChange }: Props) {
   const id = useId();
   const description = useDescriptions()?.find(({ name }) => name === 'persona');
-  const fields = fieldsOf(description?.options_schema ?? {});
-  const composites = fields.flatMap((field) => (field.name === 'composite' && field.type === 'choice' ? field.choices.map(String) : []));
-  const others = fields.flatMap((field): Field[] => {
+  const others = fieldsOf(description?.options_schema ?? {}).flatMap((field): Field[] => {
     const label = words.options[field.name]; // what has no word here is asked for elsewhere
     return label ? [{ ...field, label }] : [];
   });
@@ -37,16 +33,8 @@ export function PersonaOptionFields({ value, mayHaveSound, onChange }: Props) {
     onChange(wanted === undefined ? kept : { ...kept, [name]: wanted });
   };
   const size = Array.isArray(value.size) ? value.size.join('x') : usualSize;
-  const composite = String(value.composite ?? USUAL_COMPOSITE);
   return (
     <div class="fields paired">
-      <SelectField
-        label={words.composite}
-        value={composite}
-        choices={composites.length ? composites : [USUAL_COMPOSITE]}
-        nameOf={(one) => words.composites[one] ?? plain(one)}
-        onChange={(one) => set('composite', one === USUAL_COMPOSITE ? undefined : one)}
-      />
       <SelectField
         label={words.videoSize}
         value={size}
@@ -54,7 +42,7 @@ export function PersonaOptionFields({ value, mayHaveSound, onChange }: Props) {
         nameOf={(one) => words.videoSizes[one] ?? one}
         onChange={(one) => set('size', one === usualSize ? undefined : one.split('x').map(Number))}
       />
-      {composite !== 'photo' && (
+      {value.composite !== 'photo' && (
         <div class="field">
           <label for={id}>{words.background}</label>
           <input

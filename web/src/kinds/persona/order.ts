@@ -23,11 +23,14 @@ export interface PersonaOrder extends Order {
   source: Source;
   /** Null: it is made, and plays nothing. */
   performance: Performance | null;
+  /** Photos of who performs. */
+  performer: readonly Collected[];
   options: object;
 }
 
-export const personaOrder = (source: Source, performance: Performance | null, options: object): PersonaOrder => ({
-  ...{ kind: 'persona', source, performance, options },
+export const personaOrder = (given: Pick<PersonaOrder, 'source' | 'performance' | 'performer' | 'options'>): PersonaOrder => ({
+  ...given,
+  kind: 'persona',
   ...{ key: randomKey(), sent: {} },
 });
 
@@ -46,16 +49,18 @@ export const namesOf = ({ source, performance }: PersonaOrder): OrderNames => ({
 });
 
 export async function request(order: PersonaOrder, upload: Upload): Promise<JobRequest> {
-  const { source, performance, options } = order;
+  const { source, performance, performer, options } = order;
   const inputs: JobRequest['inputs'] = {};
   if (source.by === 'persona') inputs.persona = source.id;
-  else {
-    const ids: string[] = [];
-    const count = source.photos.length;
-    for (const [index, { file }] of source.photos.entries()) ids.push(await upload(file, 'photos', { number: index + 1, count }));
-    inputs.photos = ids;
-  }
+  else inputs.photos = await sentOneByOne(source.photos, 'photos', upload);
   if (performance) inputs.driver = performance.by === 'name' ? performance.name : await upload(performance.file, 'driver');
+  if (performance && performer.length) inputs.driver_photos = await sentOneByOne(performer, 'driver_photos', upload);
   const names = namesOf(order);
   return { inputs, options, metadata: { picture: names.picture, ...(performance && { performance: names.performance }) } };
+}
+
+async function sentOneByOne(all: readonly Collected[], part: string, upload: Upload): Promise<string[]> {
+  const ids: string[] = [];
+  for (const [index, { file }] of all.entries()) ids.push(await upload(file, part, { number: index + 1, count: all.length }));
+  return ids;
 }

@@ -23,12 +23,13 @@ import { carriedOver, personaOptions } from './types';
 import { words as personaWords } from './words';
 import './styles/result.css';
 
-const Expressions = later(() => import('../../viewer/expressions/panel'));
+const Expressions = later(() => import('./puppet/expressions'));
 const words = personaWords.show;
 
 /** What can be looked at, and the file without which there is none. */
 const views = {
   animation: 'animation.mp4',
+  still: 'still.png',
   model: 'puppet.glb',
   average: 'average.png',
   gallery: 'gallery.jpg',
@@ -37,11 +38,12 @@ const views = {
   faces: 'faces.json',
 } as const;
 type View = keyof typeof views;
-type Still = 'average' | 'gallery' | 'angles' | 'light';
-const stills: readonly string[] = ['average', 'gallery', 'angles', 'light'] satisfies Still[];
+type Still = 'still' | 'average' | 'gallery' | 'angles' | 'light';
+const stills: readonly string[] = ['still', 'average', 'gallery', 'angles', 'light'] satisfies Still[];
 const isStill = (view: View): view is Still => stills.includes(view);
 
-const expressions = (stage: Stage, character: Character) => <Expressions stage={stage} character={character} />;
+/** Beside the model. */
+const expressionsOf = (job: Job) => (stage: Stage, character: Character) => <Expressions job={job} stage={stage} character={character} />;
 
 export default function PersonaResult({ job, report }: ResultProps) {
   const shown = (Object.keys(views) as View[]).filter((view) => views[view] in job.artifacts);
@@ -59,12 +61,13 @@ export default function PersonaResult({ job, report }: ResultProps) {
           </div>
         )}
         {view === 'animation' && <Film job={job} />}
-        {view === 'model' && <Viewer job={job} renew={(signal) => getJob(job.id, signal)} first="look" beside={expressions} />}
+        {view === 'model' && <Viewer job={job} renew={(signal) => getJob(job.id, signal)} first="look" beside={expressionsOf(job)} />}
         {view && isStill(view) && <Picture key={view} job={job} view={view} />}
         {view === 'faces' && <FoundFaces job={job} />}
       </div>
       <ResultActions job={job} filesOpen={shown.length === 0}>
         <Download job={job} name="animation.mp4" label={words.video} primary />
+        <Download job={job} name="still.png" label={words.picture} primary />
         <Download job={job} name="puppet.glb" label={words.glb} />
         <Download job={job} name="persona.npz" label={words.persona} />
         <Download job={job} name="average.png" label={words.averageFile} />

@@ -4,11 +4,11 @@ import { useState } from 'preact/hooks';
 import type { StudioProps } from '../../kind/kind';
 import { strings } from '../../language/strings';
 import { PerformancePanel } from '../../performances/performance_panel';
-import type { Performance } from '../../performances/performance';
+import { isStill, type Performance } from '../../performances/performance';
 import { useDrivers } from '../../performances/use_drivers';
 import { words as performanceWords } from '../../performances/words';
 import { useSending } from '../../sending/use_sending';
-import { type Collected, collectedFrom, joined } from '../../studio/collection';
+import { collectedFrom, joined } from '../../studio/collection';
 import { Consent } from '../../studio/consent';
 import { useDataAnywhere } from '../../studio/drops';
 import { StudioForm, useStudioTitle } from '../../studio/form';
@@ -18,12 +18,15 @@ import { SymbolCard } from '../../studio/symbol_card';
 import { RecentWorks } from '../../works/recent_works';
 import { Advice } from './collection/advice';
 import { EarlierPersonas } from './collection/earlier_personas';
-import { photosAmong } from './collection/photo_files';
+import { PerformerPhotos } from './collection/performer_photos';
 import { PhotosPanel } from './collection/photos_panel';
+import { useGiving } from './collection/use_giving';
+import { BEST_COMPOSITE, CompositeField, USUAL_COMPOSITE, useComposites } from './composite_field';
 import { type Draft, usePersonaDraft } from './draft';
 import { PersonaOptionFields } from './option_fields';
 import { personaOrder, type Source } from './order';
-import { MOST_FILES } from './types';
+import type { Options } from '../generic/fields';
+import { LEAST_PHOTOS, MOST_FILES } from './types';
 import { words as personaWords } from './words';
 import './styles/studio.css';
 
@@ -34,27 +37,20 @@ const FACE = 'M24 8a16 16 0 1 1 0 32 16 16 0 0 1 0-32M18 20v2m12-2v2M18 31h12';
 
 export default function PersonaStudio({ kind }: StudioProps) {
   const [draft, change] = usePersonaDraft();
-  const { refused, refuse, accept } = useRefusals<'photos' | 'video'>(kind.name);
-  const [reading, setReading] = useState(0);
+  const { refused, refuse, accept } = useRefusals<'photos' | 'performer' | 'video'>(kind.name);
   const [keeping, setKeeping] = useState(false);
   const drivers = useDrivers();
   const sending = useSending();
   useStudioTitle(kind);
 
-  const give = async (files: Promise<readonly Collected[]>): Promise<void> => {
-    setReading((turns) => turns + 1);
-    try {
-      const given = await files;
-      if (!given.length) return;
-      const { photos, others } = await photosAmong(given);
-      if (!photos.length) return refuse('photos');
+  const giving = useGiving(
+    ({ photos, others }) => {
       accept('photos');
       // others may show somebody else: that has to be said anew
       change((before) => ({ from: 'photos', photos: joined(before.photos, photos), others, agreed: false }));
-    } finally {
-      setReading((turns) => turns - 1);
-    }
-  };
+    },
+    () => refuse('photos'),
+  );
   const play = (performance: Performance | null): void => {
     accept('video');
     change({ performance });
@@ -63,14 +59,16 @@ export default function PersonaStudio({ kind }: StudioProps) {
     const given = await collectedFrom(data);
     const [first] = given;
     if (given.length === 1 && (await isVideo(first!.file))) play({ by: 'file', file: first!.file });
-    else await give(Promise.resolve(given));
+    else giving.give(Promise.resolve(given));
   });
 
   const usual = drivers.value?.find(({ name }) => name === DEFAULT_PERFORMANCE);
   const performance = refused.video ? null : draft.performance === undefined ? (usual ? { by: 'name' as const, name: usual.name } : null) : draft.performance;
   const source = sourceOf(draft);
-  const { sound, ...silent } = draft.options;
-  const options = performance?.by === 'file' ? draft.options : silent;
+  const composites = useComposites();
+  const still = performance?.by === 'file' && isStill(performance.file);
+  const composite = compositeOf(draft, composites, still);
+  const options = optionsOf(draft, performance, composite);
   return (
     <>
       <StudioForm
@@ -79,7 +77,7 @@ export default function PersonaStudio({ kind }: StudioProps) {
         lead={words.lead}
         sending={sending}
         missing={keeping ? words.keepingFirst : missingIn(draft, refused)}
-        order={source && (() => personaOrder(source, performance, options))}
+        order={source && (() => personaOrder({ source, performance, performer: draft.performer, options }))}
         label={draft.from === 'photos' ? words.start : words.startAgain}
       >
         <section class="panel wide" aria-labelledby="source-title">
@@ -93,11 +91,12 @@ export default function PersonaStudio({ kind }: StudioProps) {
           </div>
           {draft.from === 'photos' ? (
             <PhotosPanel
+              words={words.collection}
+              least={LEAST_PHOTOS}
               photos={draft.photos}
               others={draft.others}
               refused={refused.photos === true}
-              reading={reading > 0}
-              onGiven={(files) => void give(files)}
+              giving={giving}
               onRemoved={(photo) => change(({ photos }) => ({ photos: photos.filter((one) => one !== photo) }))}
               onCleared={() => change({ photos: [], others: 0, agreed: false })}
             />
@@ -105,13 +104,11 @@ export default function PersonaStudio({ kind }: StudioProps) {
             <EarlierPersonas chosen={draft.persona?.id ?? null} onChoose={(persona) => change({ persona })} />
           )}
         </section>
-        {draft.from === 'photos' && (
-          <>
-            <Advice />
-            <section class="panel" aria-label={words.consentTitle}>
-              <Consent words={words} given={draft.agreed} onChange={(agreed) => change({ agreed })} />
-            </section>
-          </>
+        {draft.from === 'photos' && <Advice />}
+        {needsConsent(draft) && (
+          <section class={draft.from === 'photos' ? 'panel' : 'panel wide'} aria-label={words.consentTitle}>
+            <Consent words={words} given={draft.agreed} onChange={(agreed) => change({ agreed })} />
+          </section>
         )}
         <PerformancePanel
           wide
@@ -128,15 +125,38 @@ export default function PersonaStudio({ kind }: StudioProps) {
           sending={sending.step !== null}
           onKeeping={setKeeping}
           onGone={() => play(null)}
+          pictures
           options={
-            <details class="choices">
-              <summary>{strings.studio.options}</summary>
-              <PersonaOptionFields
-                value={draft.options}
-                mayHaveSound={performance?.by === 'file'}
-                onChange={(options) => change({ options })}
-              />
-            </details>
+            performance && (
+              <>
+                <CompositeField
+                  value={composite}
+                  still={still}
+                  onChange={(composite) => change(({ options }) => ({ options: { ...options, composite } }))}
+                />
+                {composite !== BEST_COMPOSITE && (
+                  <PerformerPhotos
+                    photos={draft.performer}
+                    refused={refused.performer === true}
+                    onAdded={(photos) => {
+                      accept('performer');
+                      change(({ performer }) => ({ performer: joined(performer, photos), agreed: false }));
+                    }}
+                    onRefused={() => refuse('performer')}
+                    onRemoved={(photo) => change(({ performer }) => ({ performer: performer.filter((one) => one !== photo) }))}
+                    onCleared={() => change({ performer: [] })}
+                  />
+                )}
+                <details class="choices">
+                  <summary>{strings.studio.options}</summary>
+                  <PersonaOptionFields
+                    value={{ ...draft.options, composite }}
+                    mayHaveSound={performance.by === 'file' && !still}
+                    onChange={(options) => change({ options })}
+                  />
+                </details>
+              </>
+            )
           }
         >
           {draft.from === 'photos' && (
@@ -161,12 +181,32 @@ function sourceOf({ from, photos, persona }: Draft): Source | null {
   return persona && { by: 'persona', ...persona };
 }
 
+const needsConsent = ({ from, performer }: Draft): boolean => from === 'photos' || performer.length > 0;
+
+/** As it was chosen, or the best that there is; of a picture as the performance none acts. */
+function compositeOf({ options }: Draft, offered: readonly string[], still: boolean): string {
+  const wanted = String(options.composite ?? BEST_COMPOSITE);
+  return offered.includes(wanted) && !(still && wanted === BEST_COMPOSITE) ? wanted : USUAL_COMPOSITE;
+}
+
+/** What is to be sent: nothing that holds anyway, and nothing that has no meaning here. */
+function optionsOf({ options }: Draft, performance: Performance | null, composite: string): Options {
+  const { sound, composite: _wanted, ...others } = options;
+  const mayHaveSound = performance?.by === 'file' && !isStill(performance.file);
+  return { ...others, ...(sound === true && mayHaveSound && { sound }), ...(performance && composite !== USUAL_COMPOSITE && { composite }) };
+}
+
 /** What stands in the way of an order; empty where nothing does. */
-function missingIn(draft: Draft, refused: { photos?: boolean; video?: boolean }): string {
-  if (refused.video) return performanceWords.wrongVideo;
-  if (draft.from === 'persona') return draft.persona ? (draft.performance === null ? words.needPerformance : '') : words.needPersona;
-  if (refused.photos) return words.wrongPhotos;
-  if (!draft.photos.length) return words.needPhotos;
-  if (draft.photos.length > MOST_FILES) return words.tooMany(MOST_FILES);
-  return draft.agreed ? '' : words.needConsent;
+function missingIn(draft: Draft, refused: { photos?: boolean; performer?: boolean; video?: boolean }): string {
+  if (refused.video) return performanceWords.ownEither.wrong;
+  if (refused.performer) return words.wrongPerformer;
+  if (draft.from === 'persona') {
+    if (!draft.persona) return words.needPersona;
+    if (draft.performance === null) return words.needPerformance;
+  } else {
+    if (refused.photos) return words.wrongPhotos;
+    if (!draft.photos.length) return words.needPhotos;
+    if (draft.photos.length > MOST_FILES) return words.tooMany(MOST_FILES);
+  }
+  return draft.agreed || !needsConsent(draft) ? '' : words.needConsent;
 }

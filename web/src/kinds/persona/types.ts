@@ -9,6 +9,8 @@ export const personaOptions = (of: Job): PersonaOptions => of.options as Persona
 
 /** As many photos that can be used are needed, at least. */
 export const LEAST_PHOTOS = 15;
+/** And of who performs, where any are given. */
+export const LEAST_PERFORMER_PHOTOS = 8;
 
 /** Why a face is of no use, in the order in which they are told: first what somebody has to say of. */
 export const reasons = ['uncertain', 'left_out', 'covered', 'turned', 'blurred', 'tiny', 'duplicate', 'somebody_else'] as const;

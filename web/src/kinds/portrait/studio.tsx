@@ -69,7 +69,7 @@ export default function PortraitStudio({ kind }: StudioProps) {
   }, refusePortrait);
 
   const hasSound = performance?.by === 'file';
-  const wrong = refused.portrait ? strings.studio.wrongPicture : refused.video ? performanceWords.wrongVideo : null;
+  const wrong = refused.portrait ? strings.studio.wrongPicture : refused.video ? performanceWords.ownVideo.wrong : null;
   const needed = wrong ?? (!portrait ? words.needPortrait : !performance ? words.needPerformance : '');
   const missing = keeping ? words.keepingFirst : needed;
   const order =

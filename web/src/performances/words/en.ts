@@ -25,11 +25,19 @@ const english = {
   notSearched: (driver: string) => `“${driver}” could not be searched for emotions.`,
   keep: 'Save it and find the emotions in it',
   keepHint: 'Each part that starts and ends with a neutral look is offered as a performance.',
-  ownVideo: 'Upload a video',
-  videoDrop: 'Drop a video here',
+  ownVideo: {
+    title: 'Upload a video',
+    drop: 'Drop a video here',
+    chosen: (name: string) => `Video: ${name}. Choose another`,
+    wrong: 'This is not a video. Please choose an MP4, MOV, WebM, MKV or GIF file.',
+  },
+  ownEither: {
+    title: 'Upload a video or a picture',
+    drop: 'Drop a video or a picture here',
+    chosen: (name: string) => `Performance: ${name}. Choose another`,
+    wrong: 'This is neither a video nor a picture.',
+  },
   videoBrowse: 'or choose one',
-  videoChosen: (name: string) => `Video: ${name}. Choose another`,
-  wrongVideo: 'This is not a video. Please choose an MP4, MOV, WebM, MKV or GIF file.',
   /** Files, by what they are to an order. */
   files: { video: 'the video' },
 };

@@ -19,11 +19,15 @@ export interface CharacterFiles {
   place: [x: number, y: number, z: number] | null;
 }
 
-/** The first is character.glb, the second character-2.glb, and so on; or there is one alone, avatar.glb. */
+/** Files of one alone, who was not woken out of a picture. */
+const ALONE = ['avatar', 'puppet'];
+
+/** The first is character.glb, the second character-2.glb, and so on; or there is one alone. */
 export function peopleOf({ artifacts }: HasArtifacts, skeleton: Skeleton | null): CharacterFiles[] {
   const people: CharacterFiles[] = [];
+  const first = ALONE.find((name) => `${name}.glb` in artifacts) ?? 'character';
   for (let index = 0; ; index++) {
-    const name = nameOf(index, 'avatar.glb' in artifacts ? 'avatar' : 'character');
+    const name = nameOf(index, first);
     const glb = artifacts[`${name}.glb`];
     if (!glb) return people;
     const told = skeleton?.woken?.[index];
@@ -33,6 +37,9 @@ export function peopleOf({ artifacts }: HasArtifacts, skeleton: Skeleton | null)
 }
 
 const nameOf = (index: number, first: string): string => (index === 0 ? first : `${first}-${index + 1}`);
+
+/** A puppet is a face alone: there is no floor that it could stand on. */
+export const standOnFloor = ({ artifacts }: HasArtifacts): boolean => !('puppet.glb' in artifacts);
 
 /** Whether all can be shown together, where they stood. */
 export const standTogether = (people: readonly CharacterFiles[]): boolean =>

@@ -14,6 +14,8 @@ import type { StagedCharacter } from '../scene/staging';
 import { Tool } from '../../picture_editor/tools';
 /** Metres from the joints to the outline of the body. */
 const FLESH = 0.16;
+/** Metres around a face alone. */
+const AROUND_FACE = 0.03;
 /** At how many moments of a clip it is seen what room it takes: jumps go up, arms are raised. */
 const MOMENTS = 16;
 
@@ -110,6 +112,7 @@ export function resetView(stage: Stage, cast: readonly StagedCharacter[], clip?:
 }
 
 function roomFor(character: Character, clip?: string): Box3 {
+  if (!character.stands) return new Box3().setFromObject(character.root).expandByScalar(AROUND_FACE);
   const played = clip === undefined ? undefined : character.clip(clip);
   const body = new Box3();
   const takeIn = (): void => {

@@ -58,6 +58,11 @@ export class Character {
     this.addCrown();
   }
 
+  /** Whether there is a body, which stands somewhere; a face alone floats. */
+  get stands(): boolean {
+    return this.joints.has('Hips');
+  }
+
   clip(name: string): AnimationClip | undefined {
     return this.clips.find((clip) => clip.name === name);
   }

@@ -16,6 +16,7 @@ export class Face {
   private readonly meshes: readonly Mesh[];
   private readonly acted = new Map<AnimationClip, readonly Acting[]>();
   private byHand: FaceWeights = {};
+  private readonly watchers = new Set<(weights: FaceWeights) => void>();
   private shown: { clip: AnimationClip; second: number } | null = null;
 
   /**
@@ -46,6 +47,14 @@ export class Face {
   set(weights: FaceWeights): void {
     this.byHand = weights;
     this.apply();
+    for (const watcher of this.watchers) watcher(weights);
+  }
+
+  /** Calls back with what is set by hand, now and at each change; returns what ends that. */
+  watch(watcher: (weights: FaceWeights) => void): () => void {
+    this.watchers.add(watcher);
+    watcher(this.byHand);
+    return () => this.watchers.delete(watcher);
   }
 
   private apply(): void {

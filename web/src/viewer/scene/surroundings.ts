@@ -9,7 +9,7 @@ import type { StagedCharacter } from './staging';
 
 /** The page's own colours for sunken places, and a floor that is seen on them. */
 const backgrounds = { light: '#efeae1', dark: '#191714' };
-const grounds = { light: '#fffdf9', dark: '#35302a' };
+const floors = { light: '#fffdf9', dark: '#35302a' };
 const BONES = 0xe2502f;
 /** From above and below, and from before: textures that were photographed have light of their own. */
 const [SKY, FLOOR, SOFT, LAMP] = [0xffffff, 0xcfc6b8, 2.4, 0.9] as const;
@@ -34,19 +34,20 @@ export function useSurroundings(stage: Stage, cast: readonly StagedCharacter[], 
     if (elsewhere) return;
     const places = cast.map(({ character }) => character.root.position);
     const middle = (values: number[]): number => (Math.min(...values) + Math.max(...values)) / 2;
-    const ground = new Ground(middle(places.map(({ x }) => x)), middle(places.map(({ z }) => z)));
-    const shadows = cast.map(({ character }) => new ContactShadow(character));
+    const standing = cast.filter(({ character }) => character.stands);
+    const grounds = standing.length ? [new Ground(middle(places.map(({ x }) => x)), middle(places.map(({ z }) => z)))] : [];
+    const shadows = standing.map(({ character }) => new ContactShadow(character));
     const lamp = new DirectionalLight(0xffffff, LAMP);
     lamp.position.set(0.6, 1.2, 1.5);
     const lights = [new HemisphereLight(SKY, FLOOR, SOFT), lamp]; // of those who are drawn unlit nothing changes
-    const objects = [ground.object, ...shadows.map(({ object }) => object), ...lights];
+    const objects = [...grounds.map(({ object }) => object), ...shadows.map(({ object }) => object), ...lights];
     stage.scene.add(...objects);
-    ground.paint(dark ? grounds.dark : grounds.light);
+    for (const ground of grounds) ground.paint(dark ? floors.dark : floors.light);
     stage.paint(dark ? backgrounds.dark : backgrounds.light);
     const leave = shadows.map((shadow) => stage.add(shadow));
     return () => {
       stage.scene.remove(...objects);
-      for (const one of [ground, ...shadows, ...lights]) one.dispose();
+      for (const one of [...grounds, ...shadows, ...lights]) one.dispose();
       for (const go of leave) go();
     };
   }, [stage, cast, elsewhere, dark]);

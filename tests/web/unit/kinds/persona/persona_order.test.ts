@@ -12,25 +12,35 @@ const byPhotos = (...paths: string[]) => ({ by: 'photos' as const, photos: paths
 
 describe('an order of a persona', () => {
   it('sends photo by photo, and says which of how many each is', async () => {
-    const order = personaOrder(byPhotos('1.jpg', '2.jpg'), { by: 'file', file: new File(['x'], 'a_talk.mp4') }, { sound: true });
+    const order = personaOrder({
+      source: byPhotos('1.jpg', '2.jpg'),
+      performance: { by: 'file', file: new File(['x'], 'a_talk.mp4') },
+      performer: [photo('me.jpg')],
+      options: { sound: true },
+    });
     const sent: string[] = [];
     const asked = await request(order, async (file, part, place) => `${sent.push(`${part} ${place?.number}/${place?.count} ${file.name}`)}`);
-    expect(sent).toEqual(['photos 1/2 1.jpg', 'photos 2/2 2.jpg', 'driver undefined/undefined a_talk.mp4']);
+    expect(sent).toEqual(['photos 1/2 1.jpg', 'photos 2/2 2.jpg', 'driver undefined/undefined a_talk.mp4', 'driver_photos 1/1 me.jpg']);
     expect(asked).toEqual({
-      inputs: { photos: ['1', '2'], driver: '3' },
+      inputs: { photos: ['1', '2'], driver: '3', driver_photos: ['4'] },
       options: { sound: true },
       metadata: { picture: '2 photos', performance: 'A talk' },
     });
   });
 
   it('names an earlier one by its job, and sends nothing then', async () => {
-    const order = personaOrder({ by: 'persona', id: 'a-job', name: 'Aunt' }, { by: 'name', name: 'happy' }, {});
+    const order = personaOrder({
+      source: { by: 'persona', id: 'a-job', name: 'Aunt' },
+      performance: { by: 'name', name: 'happy' },
+      performer: [],
+      options: {},
+    });
     const asked = await request(order, () => Promise.reject(new Error('sent')));
     expect(asked).toEqual({ inputs: { persona: 'a-job', driver: 'happy' }, options: {}, metadata: { picture: 'Aunt', performance: 'Happy' } });
   });
 
   it('is called like the folder, or the archive, or by how many photos there are', () => {
-    const name = (...paths: string[]) => namesOf(personaOrder(byPhotos(...paths), null, {})).picture;
+    const name = (...paths: string[]) => namesOf(personaOrder({ source: byPhotos(...paths), performance: null, performer: [], options: {} })).picture;
     expect([name('aunt_mary/1.jpg', 'aunt_mary/2.jpg'), name('album.zip'), name('1.jpg', '2.jpg', '3.jpg')]).toEqual(
       ['Aunt mary', 'Album', '3 photos'],
     );

@@ -8,39 +8,41 @@ import { archiveTypes, pictureTypes } from '../../../studio/media_types';
 import { DropTarget, Invitation } from '../../../widgets/drop_target';
 import { Refusal } from '../../../widgets/dropzone';
 import { FolderButton } from '../../../widgets/folder_button';
-import { LEAST_PHOTOS } from '../types';
 import { words as personaWords } from '../words';
 import { isArchive } from './photo_files';
 import { PhotoTiles } from './photo_tiles';
+import type { Giving } from './use_giving';
 
 const words = personaWords.studio;
 
 interface Props {
+  /** What is asked for, and what the place says while it is empty, and when it is not. */
+  words: { hint: string; drop: string; more: string };
+  /** As many as are needed at least. */
+  least: number;
   photos: readonly Collected[];
   /** How many of the files that were given last were none. */
   others: number;
   /** There was none among what was given last. */
   refused: boolean;
-  /** What is given is being looked into. */
-  reading: boolean;
-  onGiven: (files: Promise<readonly Collected[]>) => void;
+  giving: Giving;
   onRemoved: (photo: Collected) => void;
   onCleared: () => void;
 }
 
-export function PhotosPanel({ photos, others, refused, reading, onGiven, onRemoved, onCleared }: Props) {
+export function PhotosPanel({ words: asked, least, photos, others, refused, giving, onRemoved, onCleared }: Props) {
   const error = useId();
   const [tries, setTries] = useState(0);
   const give = (files: Promise<readonly Collected[]>): void => {
     setTries(tries + 1);
-    onGiven(files);
+    giving.give(files);
   };
-  const drop = photos.length ? words.more : words.drop;
-  const missing = photos.some(isArchive) ? 0 : LEAST_PHOTOS - photos.length;
+  const drop = photos.length ? asked.more : asked.drop;
+  const missing = photos.some(isArchive) ? 0 : least - photos.length;
   const bytes = photos.reduce((sum, { file }) => sum + file.size, 0);
   return (
     <>
-      <p class="hint">{words.photosHint}</p>
+      <p class="hint">{asked.hint}</p>
       <DropTarget
         class="video"
         accept={`${pictureTypes},${archiveTypes}`}
@@ -61,8 +63,8 @@ export function PhotosPanel({ photos, others, refused, reading, onGiven, onRemov
           </button>
         )}
       </div>
-      <p class="hint" role="status" aria-busy={reading}>
-        {reading
+      <p class="hint" role="status" aria-busy={giving.reading}>
+        {giving.reading
           ? words.reading
           : photos.length > 0 &&
             [words.chosen(photos.length, size(bytes)), missing > 0 && words.few(missing), others > 0 && words.others(others)]

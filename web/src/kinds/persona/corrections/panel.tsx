@@ -14,7 +14,10 @@ import { useFaces } from '../faces/use_faces';
 import { PersonaOptionFields } from '../option_fields';
 import { examplesIn, LEAST_PHOTOS } from '../types';
 import { words as personaWords } from '../words';
-import { draftOf, isChanged, type RevisionDraft, revisionOf } from './changes';
+import { BEST_COMPOSITE, CompositeField, USUAL_COMPOSITE } from '../composite_field';
+import { isStill } from '../../../performances/performance';
+import { ActingPhotoField } from './acting_photo_field';
+import { draftOf, isChanged, isUsed, type RevisionDraft, revisionOf } from './changes';
 import { FacesField, usedCount } from './faces_field';
 import { PerformanceField } from './performance_field';
 import { PersonField } from './person_field';
@@ -36,11 +39,16 @@ export default function PersonaPanel({ job, onProblem }: CorrectionsProps) {
     key.current = randomKey(); // another wish is another order
     setDraft((known) => ({ ...known, ...part }));
   };
+  const setOption = (name: string, wanted: unknown): void => {
+    const { [name]: _before, ...others } = draft.options;
+    wish({ options: wanted === undefined ? others : { ...others, [name]: wanted } });
+  };
   const again = isChanged(before, draft) || mayRepeat(job);
   const examples = examplesIn(job);
   // whose faces there are is not known as long as it is not known who is meant
   const sorted = faces !== null && examples.length === 0 && draft.example === before.example;
   const tooFew = sorted && usedCount(faces, before, draft) < LEAST_PHOTOS;
+  const playsStill = draft.performance !== 'held' && draft.performance.by === 'file' && isStill(draft.performance.file);
   const playsFile = draft.performance === 'held' ? isFileId(job.inputs.driver) : draft.performance.by === 'file';
   return (
     <form
@@ -74,7 +82,20 @@ export default function PersonaPanel({ job, onProblem }: CorrectionsProps) {
         </details>
         <details class="choices">
           <summary>{words.options}</summary>
-          <PersonaOptionFields value={draft.options} mayHaveSound={playsFile} onChange={(options) => wish({ options })} />
+          <CompositeField
+            value={String(draft.options.composite ?? USUAL_COMPOSITE)}
+            still={playsStill}
+            onChange={(one) => setOption('composite', one === USUAL_COMPOSITE ? undefined : one)}
+          />
+          {sorted && draft.options.composite === BEST_COMPOSITE && (
+            <ActingPhotoField
+              faces={faces}
+              isUsed={(number) => isUsed(number, faces.sheet.faces[number]!, before, draft)}
+              value={(draft.options.photo as number | null | undefined) ?? null}
+              onChange={(photo) => setOption('photo', photo ?? undefined)}
+            />
+          )}
+          <PersonaOptionFields value={draft.options} mayHaveSound={playsFile && !playsStill} onChange={(options) => wish({ options })} />
         </details>
       </section>
       <div class="launch">

@@ -40,6 +40,7 @@ export function PerformanceField({ job, value, sending, onChange }: Props) {
           onChange('held');
         }}
         sending={sending}
+        pictures
         onKeeping={() => undefined}
         onKept={drivers.reload}
         onGone={() => choose('held')}
