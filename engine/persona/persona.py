@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.persona.collection.face_photo import FacePhoto
+from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
+from engine.persona.texture.expression_weights import expression_points, expression_weights
 from engine.persona.texture.synthesis import TextureSynthesis, texture_synthesis
 from engine.persona.texture.texture_frame import TextureFrame, texture_frame
 
@@ -61,6 +63,16 @@ class Persona:
     def synthesis(self) -> TextureSynthesis:
         """What mixes them: half a second for a hundred photographs."""
         return texture_synthesis(self.colours, self.belief / np.float32(255))
+
+    def weights(self, faces: NDArray[np.floating], smoothing: float = 0.0) -> NDArray[np.float32]:
+        """(F, N) how much each photograph counts for `faces` (F, 478, 3) from the front, in eye distances; `smoothing` as
+        `expression_weights` has it."""
+        return self.weights_of_points(expression_points(faces), smoothing)
+
+    def weights_of_points(self, points: NDArray[np.floating], smoothing: float = 0.0) -> NDArray[np.float32]:
+        """(F, N) the same for faces of which the points of `expression_points` are known, (F, 51, 2)."""
+        scale = self.frame.scale * REFERENCE_WIDTH / self.frame.size[1]
+        return expression_weights(points * scale, self.points * scale, smoothing)
 
 
 def write_persona(path: Path, persona: Persona) -> None:

@@ -23,8 +23,8 @@ from engine.persona.composite.photo_performance import PHOTO_STAGES
 from engine.persona.early_average import EarlyAverage
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona, read_persona, write_persona
+from engine.persona.results.writing import write_results
 from engine.persona.stages import SortedFaces, find_faces_of_photos, learn, sort_faces, texture_width
-from engine.persona.texture.expression_weights import expression_points, expression_weights
 from engine.run import Run
 from engine.run_report import write_report
 
@@ -56,6 +56,9 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
         write_still(out / "average.png", average, run.mark_synthetic)
         if not isinstance(driver, Path):
             write_still(out / "poster.jpg", average, run.mark_synthetic)
+    if not (isinstance(kept, Path) and isinstance(driver, Path)):  # an earlier job has left them
+        with run.timed("write_results"):
+            told["photos_near"] = write_results(out, persona, average, options.background, run.mark_synthetic)
     if isinstance(driver, Path):
         told |= animate_persona(persona, inputs, options, out, run)
     write_report(
@@ -69,6 +72,8 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
 
 def _plan(inputs: Mapping[str, Given], options: PersonaOptions) -> dict[str, float]:
     stages = {**({} if "persona" in inputs else LEARNING), "write_persona": 1.0}
+    if not {"persona", "driver"} <= {*inputs}:
+        stages["write_results"] = 2.0
     if "driver" in inputs:
         acts = options.composite == "photo"
         stages |= {
@@ -81,9 +86,7 @@ def _plan(inputs: Mapping[str, Given], options: PersonaOptions) -> dict[str, flo
 
 def average_texture(persona: Persona) -> NDArray[np.uint8]:
     """(H, W, 3) the face at rest, of all photographs."""
-    scale = persona.frame.scale
-    at_rest = expression_points(persona.neutral[None]) * scale
-    return persona.synthesis(expression_weights(at_rest, persona.points * scale))[0]
+    return persona.synthesis(persona.weights(persona.neutral[None]))[0]
 
 
 def _learnt(paths: Sequence[Path], options: PersonaOptions, out: Path, run: Run) -> tuple[Persona, dict[str, object]]:

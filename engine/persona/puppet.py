@@ -48,18 +48,27 @@ class Puppet:
         face : (478, 3) its vertices from the front, in eye distances. texture : (H, W, 3) of the persona's frame. placing : a matrix
         (3, 3), rotation times pixels for an eye distance, and a shift (3,): where vertices are in the picture.
         """
-        finer = self._subdivision[0] @ np.asarray(face, np.float64)[:FACE_VERTICES]
-        finer[:, 2] += self._relief
         linear, shift = placing
-        points = finer @ np.asarray(linear, np.float64).T + shift
+        points = self.vertices(face) @ np.asarray(linear, np.float64).T + shift
         points[:, 2] += DISTANCE - points[:, 2].mean()
         drawn = picture.copy()
-        surface = self._surface._replace(mipmap=build_mipmap(texture))
+        surface = self.surface._replace(mipmap=build_mipmap(texture))
         draw_surface(drawn, False, surface, points.astype(np.float32), Scratch())
         return drawn
 
+    def vertices(self, face: NDArray[np.floating]) -> NDArray[np.float64]:
+        """(M, 3) the vertices that are drawn of a `face` (478, 3), with the average shape's relief; in eye distances."""
+        finer = self.finer(face)
+        finer[:, 2] += self._relief
+        return finer
+
+    def finer(self, values: NDArray[np.floating]) -> NDArray[np.float64]:
+        """(M, 3) what the face mesh's vertices have, (478, 3), at those that are drawn."""
+        return np.asarray(self._subdivision[0] @ np.asarray(values, np.float64)[:FACE_VERTICES])
+
     @cached_property
-    def _surface(self) -> Surface:
+    def surface(self) -> Surface:
+        """The triangles that are drawn, and where their vertices are on the persona's frame."""
         triangles = self._subdivision[1]
         size = self.persona.frame.size
         uv = ((self._at[:, :2] + 0.5) / np.array(size[::-1])).astype(np.float32)

@@ -21,7 +21,15 @@ from engine.body.template import Template
 from engine.geometry.registration.rigid import fit_similarity
 from engine.geometry.surface import triangulate
 from engine.perception.head_pose import canonical_face, mirror_vertices
-from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, RIGID_VERTICES, eye_distance
+from engine.perception.landmarks import (
+    FACE_OVAL,
+    LEFT_EYE,
+    LIPS_INNER,
+    LIPS_OUTER,
+    RIGHT_EYE,
+    RIGID_VERTICES,
+    eye_distance,
+)
 from engine.render.rasteriser import Raster, rasterise
 
 PIXELS_PER_METRE = 5000.0
@@ -36,6 +44,19 @@ BESIDE = 4.0
 """Pixels from where lids or lips part to the skin that is looked up."""
 CREVICE_PIXELS, CREVICE_DEPTH = 15, 0.015
 """Pixels about a place and metres that it is deeper than the highest there: between closed lips the throat is seen."""
+UPPER_LIP_RINGS = (
+    LIPS_INNER[1:10],
+    (183, 42, 41, 38, 12, 268, 271, 272, 407),
+    (184, 74, 73, 72, 11, 302, 303, 304, 408),
+    LIPS_OUTER[1:10],
+)
+"""Vertices between the lips' contours, from the inner one to the outer, but for the mouth's corners."""
+LOWER_LIP_RINGS = (
+    LIPS_INNER[11:],
+    (325, 319, 403, 316, 15, 86, 179, 89, 96),
+    (307, 320, 404, 315, 16, 85, 180, 90, 77),
+    LIPS_OUTER[11:],
+)
 EYES = {"Left": LEFT_EYE, "Right": RIGHT_EYE}
 EYEBALLS = ("left_eye", "right_eye")
 
@@ -57,8 +78,10 @@ def mesh_units(template: Template, space: BodySpace) -> MeshUnits:
     """The units at all vertices; those of the irises move as the skin about them, lids but no eyes."""
     laid = lay_canonical_face(template, space)[1]
     view = _front_view(template, space.mean.astype(np.float64), laid)
-    bent = _bent(view, view.pixels(laid)[:, :2])
-    at = np.clip(np.rint(bent + _aside(bent)), 0, np.array(view.shown.shape[::-1]) - 1).astype(int)
+    bent = _on_their_side(view, _bent(view, view.pixels(laid)[:, :2]), 1.0)
+    at = np.clip(
+        np.rint(_on_their_side(view, bent + _lids_aside(bent), BESIDE)), 0, np.array(view.shown.shape[::-1]) - 1
+    ).astype(int)
     rows, columns = view.nearest_skin[:, at[:, 1], at[:, 0]]
     corners, weights = view.triangles[view.shown[rows, columns]], view.raster.barycentrics[rows, columns]
     depth = -view.raster.depth[rows, columns] / PIXELS_PER_METRE
@@ -91,6 +114,13 @@ class _FrontView:
         none = (self.shown < 0) | self.eyes | within
         return np.asarray(distance_transform_edt(none, return_distances=False, return_indices=True), np.intp)
 
+    def seam(self, place: NDArray[np.float64]) -> float | None:
+        """The row near `place` (x, y) where lips part; None where none do."""
+        reach = int(MOUTH_REACH * PIXELS_PER_METRE)
+        x, y = np.rint(place).astype(int)
+        steps = np.diff(self.jaw[y - reach : y + reach, x])
+        return float(y - reach + steps.argmax() + 0.5) if steps.max() > LIP_STEP else None
+
     def pixels(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
         """Points (N, 3), metres, as the rasteriser takes them."""
         across, up = (points[:, :2] - self.low).T * PIXELS_PER_METRE
@@ -120,12 +150,10 @@ def _bent(view: _FrontView, laid: NDArray[np.float64]) -> NDArray[np.float64]:
     """(478, 2) pixels of the mesh's vertices, by a thin-plate spline: what is rigid stays, lids and lips go to the template's."""
     known = [*dict.fromkeys([*RIGID_VERTICES, *FACE_OVAL])]
     goals = {vertex: laid[vertex] for vertex in known}
-    reach = int(MOUTH_REACH * PIXELS_PER_METRE)
     for vertex in LIPS_INNER:
-        x, y = np.rint(laid[vertex]).astype(int)
-        steps = np.diff(view.jaw[y - reach : y + reach, x])
-        if steps.max() > LIP_STEP:
-            goals[vertex] = np.array([laid[vertex, 0], y - reach + steps.argmax() + 0.5])
+        row = view.seam(laid[vertex])
+        if row is not None:
+            goals[vertex] = np.array([laid[vertex, 0], row])
     for contour in EYES.values():
         goals |= _lids(view, laid, contour)
     vertices = list(goals)
@@ -157,12 +185,26 @@ def _lids(view: _FrontView, laid: NDArray[np.float64], contour: tuple[int, ...])
     return goals
 
 
-def _aside(places: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(478, 2) from lids and lips onto the skin beside the opening: up from upper ones, down from lower ones."""
+def _lids_aside(places: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(478, 2) from lids onto the skin beside the opening: up from upper ones, down from lower ones."""
     out = np.zeros_like(places)
-    for contour, corner in ((LIPS_INNER, 10), (RIGHT_EYE, 8), (LEFT_EYE, 8)):
-        out[list(contour[1:corner]), 1] = -BESIDE
-        out[list(contour[corner + 1 :]), 1] = BESIDE
+    for contour in EYES.values():
+        out[list(contour[1:8]), 1] = -BESIDE
+        out[list(contour[9:]), 1] = BESIDE
+    return out
+
+
+def _on_their_side(view: _FrontView, places: NDArray[np.float64], apart: float) -> NDArray[np.float64]:
+    """(478, 2) `places` whose upper lip is above where lips part, and whose lower lip is below it: the innermost vertices by `apart`
+    pixels at least, each further ring by a pixel more."""
+    out = places.copy()
+    for rings, sign in ((UPPER_LIP_RINGS, -1), (LOWER_LIP_RINGS, 1)):
+        for number, ring in enumerate(rings):
+            for vertex in ring:
+                row = view.seam(places[vertex])
+                if row is not None:
+                    least = row + sign * (apart + number)
+                    out[vertex, 1] = sign * max(sign * out[vertex, 1], sign * least)
     return out
 
 
@@ -175,19 +217,19 @@ def _as_tracked(rest: NDArray[np.float64], moved: NDArray[np.float64]) -> MeshUn
     front = (front - front[[33, 133, 263, 362]].mean(axis=0)) * scale
     found = _symmetric(MeshUnits(front, CAPTURED_UNITS, moved @ linear.T * scale))
     for side, contour in EYES.items():
-        found.moved[CAPTURED_UNITS.index(f"eyeBlink{side}")] = _met(found, f"eyeBlink{side}", contour)
+        blink = CAPTURED_UNITS.index(f"eyeBlink{side}")
+        found.moved[blink] = lids_met(found.rest, found.moved[blink], contour)
     return found
 
 
-def _met(found: MeshUnits, name: str, contour: tuple[int, ...]) -> NDArray[np.float64]:
-    """(478, 3) a blink that ends where the lids meet: the template's upper lid slides over the lower, a tracked one does not."""
+def lids_met(rest: NDArray[np.floating], moved: NDArray[np.floating], contour: tuple[int, ...]) -> NDArray[np.float64]:
+    """(478, 3) a blink of the eye in `contour` that ends where lids meet: the template's upper lid slides over the lower one, a tracked
+    one does not. `rest` and `moved` (478, 3): the face, and by how much the blink moves it."""
     upper, lower = np.array(contour[1:8]), np.array(contour[:8:-1])
-    moved = found.moved[found.names.index(name)]
-    gap = (found.rest[lower] - found.rest[upper])[:, 1]
-    closing = (moved[upper] - moved[lower])[:, 1]
-    out = moved * np.median(gap / closing)
-    out[upper] = found.rest[lower] + out[lower] - found.rest[upper]
-    return np.asarray(out)
+    gap, closing = (rest[lower] - rest[upper])[:, 1], (moved[upper] - moved[lower])[:, 1]
+    out = np.asarray(moved * np.median(gap / np.maximum(closing, 1e-6)), np.float64)
+    out[upper] = rest[lower] + out[lower] - rest[upper]
+    return out
 
 
 def _symmetric(found: MeshUnits) -> MeshUnits:

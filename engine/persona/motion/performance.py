@@ -14,8 +14,7 @@ from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import RIGID_VERTICES, eye_distance
 from engine.persona.motion.deformation_transfer import DeformationTransfer
 from engine.persona.persona import Persona
-from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
-from engine.persona.texture.expression_weights import SMOOTHING_FRAMES, expression_points, expression_weights
+from engine.persona.texture.expression_weights import SMOOTHING_FRAMES
 from engine.persona.texture.texture_frame import texture_frame
 
 FRAME_SIZE = (244, 194)
@@ -47,15 +46,9 @@ def perform(
     front = frontalise(meshes)
     transfer = DeformationTransfer(texture_frame(driver, FRAME_SIZE), texture_frame(persona.neutral, FRAME_SIZE))
     faces = persona.neutral + transfer.of_frames(front - driver, tick)
-    scale = persona.frame.scale * _reference(persona)
-    weights = expression_weights(expression_points(faces) * scale, persona.points * scale, SMOOTHING_FRAMES)
+    weights = persona.weights(faces, SMOOTHING_FRAMES)
     linear, shift = _placings(meshes)
     return Performance(faces, weights, linear, shift)
-
-
-def _reference(persona: Persona) -> float:
-    """Pixels of a frame 194 wide for one of the persona's."""
-    return REFERENCE_WIDTH / persona.frame.size[1]
 
 
 def _placings(meshes: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
