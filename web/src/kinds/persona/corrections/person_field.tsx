@@ -41,7 +41,7 @@ export function PersonField({ faces, examples, value, onChange }: Props) {
         {choice(all, words.person)}
       </details>
       <p class="hint" role="status">
-        {value !== null && words.personOf(value)}
+        {value !== null && words.personOf(faces.sheet.faces[value]?.photo ?? '')}
       </p>
     </section>
   );

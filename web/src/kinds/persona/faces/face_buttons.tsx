@@ -39,7 +39,7 @@ export function FaceButtons({ faces: { sheet, url }, label, numbers, isPressed, 
             type="button"
             tabIndex={place === Math.min(stop, numbers.length - 1) ? 0 : -1}
             aria-pressed={isPressed(number)}
-            aria-label={words.face(number, photo)}
+            aria-label={words.face(photo)}
             title={photo}
             style={cellStyle(pictures, url, number)}
             onFocus={() => setStop(place)}

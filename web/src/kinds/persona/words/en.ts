@@ -165,7 +165,7 @@ const english = {
     } satisfies Record<Reason, string>,
     reason: (reason: string, count: number) => `${reason} (${count})`,
     skipped: (count: number) => (count === 1 ? 'One file could not be read as a photo' : `${count} files could not be read as photos`),
-    face: (number: number, photo: string) => `Face ${number}, of ${photo}`,
+    face: (photo: string) => `Face of ${photo}`,
   },
 
   show: {
@@ -189,7 +189,7 @@ const english = {
     },
     captions: {
       still: 'The expression of the picture that was given.',
-      average: 'The average of all photos that are used, at rest.',
+      average: 'The average of all photos that are used, laid flat, with room for what an open mouth shows.',
       gallery: 'Expressions that the collection itself shows.',
       angles: 'At rest and in expressions, turned to both sides.',
       light: 'Each photo, and beside it the same face in the collection’s average light.',
@@ -213,7 +213,7 @@ const english = {
     facesBack: 'Decide by itself again',
     person: 'Who is meant?',
     personHint: 'The photos show two people about as often. Choose the one the persona is to be.',
-    personOf: (number: number) => `The person of face ${number} is meant.`,
+    personOf: (photo: string) => `The person of ${photo} is meant.`,
     otherPerson: 'Somebody else is meant',
     otherPersonHint: 'Click any face of the person that the persona is to be.',
     anotherFace: 'Neither of them: choose any face of the person',
