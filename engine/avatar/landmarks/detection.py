@@ -9,7 +9,13 @@ from numpy.typing import NDArray
 
 from engine.avatar.landmarks.in_frames import FrameLandmarks
 from engine.avatar.landmarks.robust_triangulation import triangulate_robustly
-from engine.avatar.landmarks.spatial import FACE_LANDMARKS, HAND_LANDMARKS, SpatialLandmarks
+from engine.avatar.landmarks.spatial import (
+    EYE_LANDMARKS,
+    FACE_LANDMARKS,
+    HAND_LANDMARKS,
+    LID_LANDMARKS,
+    SpatialLandmarks,
+)
 from engine.body.fitting.hand_fitting import hand_length
 from engine.geometry.camera import Camera
 from engine.geometry.joint_names import SIDES
@@ -22,6 +28,8 @@ HAND_SIGMA_SHARE = 0.08
 """By what share of a hand's size in the frame one of the hand is."""
 MIN_VIEWS = 3
 """Views that must agree on a landmark."""
+BLINK = 0.6
+"""Of the median opening of an eye, below which a frame shows it blinking."""
 MAX_FACE_TURN = 0.65
 """The most by which the tip of the nose may be off the middle between the eyes' outer corners, in halves of their distance: faces
 seen from the side have landmarks that are guessed."""
@@ -38,7 +46,8 @@ def spatial_landmarks(seen: Sequence[tuple[Camera, FrameLandmarks]]) -> SpatialL
         placed = triangulate_robustly(cameras, np.stack([at for _, at, _ in having]), confidence, sigma)
         if placed is not None and placed.agreeing >= MIN_VIEWS:
             body[name] = placed.place
-    return SpatialLandmarks(body, _face(seen), np.stack([_hand(seen, side) for side in SIDES]))
+    hands = np.stack([_hand(seen, side) for side in SIDES])
+    return SpatialLandmarks(body, _face(seen), hands, np.stack([_eye(seen, k) for k in range(len(SIDES))]))
 
 
 def _hand(seen: Sequence[tuple[Camera, FrameLandmarks]], side: str) -> NDArray[np.float64]:
@@ -72,6 +81,38 @@ def _face(seen: Sequence[tuple[Camera, FrameLandmarks]]) -> NDArray[np.float64]:
         if placed is not None and placed.agreeing >= MIN_VIEWS:
             out[k] = placed.place
     return out
+
+
+def _eye(seen: Sequence[tuple[Camera, FrameLandmarks]], side: int) -> NDArray[np.float64]:
+    """(21, 3) one eye's lids and iris, from the views that show the face from the front, blinks left out; NaN where they do not
+    agree."""
+    having = [
+        (camera, found.face, found.eyes[side])
+        for camera, found in seen
+        if found.face is not None and found.eyes is not None and _frontal(found.face)
+    ]
+    out = np.full((EYE_LANDMARKS, 3), np.nan)
+    if len(having) < MIN_VIEWS:
+        return out
+    opening = np.array([eye_opening(eye) for _, _, eye in having])
+    having = [one for one, wide in zip(having, opening >= BLINK * np.median(opening), strict=True) if wide]
+    if len(having) < MIN_VIEWS:
+        return out
+    cameras = [camera for camera, _, _ in having]
+    eyes = np.stack([eye for _, _, eye in having])
+    sigma = FACE_SIGMA_SHARE * np.array([np.linalg.norm(np.ptp(face, axis=0)) for _, face, _ in having])
+    for k in range(EYE_LANDMARKS):
+        placed = triangulate_robustly(cameras, eyes[:, k], np.ones(len(eyes)), sigma)
+        if placed is not None and placed.agreeing >= MIN_VIEWS:
+            out[k] = placed.place
+    return out
+
+
+def eye_opening(eye: NDArray[np.floating]) -> float:
+    """How far the lids of an eye (21, D) are apart in the mean, as a share of its width."""
+    upper, lower = eye[1 : LID_LANDMARKS // 2], eye[LID_LANDMARKS - 1 : LID_LANDMARKS // 2 : -1]
+    width = float(np.linalg.norm(eye[0] - eye[LID_LANDMARKS // 2]))
+    return float(np.linalg.norm(upper - lower, axis=1).mean()) / max(width, 1e-9)
 
 
 def _frontal(face: NDArray[np.float64]) -> bool:

@@ -12,7 +12,7 @@ from engine.geometry.joint_names import SIDES
 from engine.perception.body import BODY_LANDMARKS, Body, find_body
 from engine.perception.faces import find_faces
 from engine.perception.hands import find_hands
-from engine.perception.landmarks import fiducials
+from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS, fiducials
 
 SKELETON_BONES = (
     *(("LeftShoulder", "RightShoulder"), ("LeftHip", "RightHip")),
@@ -33,14 +33,19 @@ HEAD_REACH = 1.6
 """Half the side of the square in which a body's face is looked for, in distances between its shoulders' and eyes' middle."""
 
 
+EYE_POINTS = np.array([[*LEFT_EYE, *LEFT_IRIS], [*RIGHT_EYE, *RIGHT_IRIS]])
+"""Vertices of the face mesh that are an eye, of the left, then of the right: sixteen between the lids, five of the iris."""
+
+
 @dataclass(frozen=True)
 class FrameLandmarks:
     """What one frame shows: `body`, pixels (2,) and confidence by name; `face` (68, 2) pixels or None; `hands`, by side, (21, 2)
-    pixels and confidence."""
+    pixels and confidence; `eyes` (2, 21, 2) pixels, the left and the right one's `EYE_POINTS`, where there is a face."""
 
     body: Mapping[str, tuple[NDArray[np.float64], float]]
     face: NDArray[np.float64] | None
     hands: Mapping[str, tuple[NDArray[np.float64], float]] = field(default_factory=dict)
+    eyes: NDArray[np.float64] | None = None
 
     def scaled(self, factor: float) -> FrameLandmarks:
         """Those of the same frame, larger by `factor`."""
@@ -52,6 +57,7 @@ class FrameLandmarks:
             {name: (at(place), confidence) for name, (place, confidence) in self.body.items()},
             None if self.face is None else at(self.face),
             {side: (at(points), confidence) for side, (points, confidence) in self.hands.items()},
+            None if self.eyes is None else at(self.eyes),
         )
 
 
@@ -66,11 +72,14 @@ def frame_landmarks(rgb: NDArray[np.uint8]) -> FrameLandmarks:
             for finger in KNUCKLES:
                 at, _ = hand.joint(f"{hand.side}Hand{finger}1")
                 named[f"{hand.side}{finger}"] = at.astype(np.float64), hand.confidence
-    return FrameLandmarks(named, _face(rgb, body if named else None), hands)
+    mesh = _face_mesh(rgb, body if named else None)
+    if mesh is None:
+        return FrameLandmarks(named, None, hands)
+    return FrameLandmarks(named, np.asarray(fiducials(mesh)), hands, mesh[EYE_POINTS])
 
 
-def _face(rgb: NDArray[np.uint8], body: Body | None) -> NDArray[np.float64] | None:
-    """(68, 2) the largest face; of a body, that where its head is, if its nose is seen at all."""
+def _face_mesh(rgb: NDArray[np.uint8], body: Body | None) -> NDArray[np.float64] | None:
+    """(478, 2) the largest face; of a body, that where its head is, if its nose is seen at all."""
     within = None
     if body is not None:
         if body.confidence[BODY_LANDMARKS.index("Nose")] < MIN_CONFIDENCE:
@@ -85,7 +94,7 @@ def _face(rgb: NDArray[np.uint8], body: Body | None) -> NDArray[np.float64] | No
             return None
         within = x0, y0, x1, y1
     faces = find_faces(rgb, most=1, within=within)
-    return fiducials(faces[0][:, :2]).astype(np.float64) if faces else None
+    return faces[0][:, :2].astype(np.float64) if faces else None
 
 
 def reliable(body: Body) -> dict[str, tuple[NDArray[np.float64], float]]:

@@ -15,6 +15,8 @@ FACE_LANDMARKS = 68
 """Points of a face (iBUG)."""
 HAND_LANDMARKS = 21
 """Points of a hand (`engine.perception.hands.HAND_JOINTS`)."""
+LID_LANDMARKS, EYE_LANDMARKS = 16, 21
+"""Points of an eye between its lids, from the outer corner over the upper lid, and with those of its iris, the middle first."""
 
 
 @dataclass(frozen=True)
@@ -24,11 +26,13 @@ class SpatialLandmarks:
     `body`: places (3,) by the names of `engine.body.landmarks.landmark_model`; those not found are left out.
     `face` (68, 3): NaN where a point is not known.
     `hands` (2, 21, 3): of the person's own left and right hand; NaN where a point is not known.
+    `eyes` (2, 21, 3): of the person's own left and right eye; NaN where a point is not known.
     """
 
     body: Mapping[str, NDArray[np.float64]]
     face: NDArray[np.float64] = field(default_factory=lambda: np.full((FACE_LANDMARKS, 3), np.nan))
     hands: NDArray[np.float64] = field(default_factory=lambda: np.full((len(SIDES), HAND_LANDMARKS, 3), np.nan))
+    eyes: NDArray[np.float64] = field(default_factory=lambda: np.full((len(SIDES), EYE_LANDMARKS, 3), np.nan))
 
     def without(self, names: frozenset[str]) -> SpatialLandmarks:
         """Those of the body whose names are not among `names`, and all of the face."""
@@ -37,4 +41,4 @@ class SpatialLandmarks:
     def moved(self, change: Similarity) -> SpatialLandmarks:
         """The same landmarks in another world."""
         body = {name: change(at) for name, at in self.body.items()}
-        return SpatialLandmarks(body, change(self.face), change(self.hands))
+        return SpatialLandmarks(body, change(self.face), change(self.hands), change(self.eyes))
