@@ -254,7 +254,8 @@ def stitch_texture(
             away = HEAD_VIEW_REACH * float(np.linalg.norm(camera.eye - head))
             views.append(replace(view, farthest=away) if of_head else view)
     surface = template_surface(human.template, human.rig).wearing(worn)
-    return avatar_texture(surface, human.rig, np.concatenate([fitted.vertices, worn.vertices]), views, size)
+    vertices = np.concatenate([fitted.vertices, worn.vertices])
+    return avatar_texture(surface, human.rig, vertices, views, size, fitted.iris)
 
 
 def in_body_s_world(scans: Sequence[ClipScan], fitted: FittedTemplate) -> list[ClipScan]:

@@ -9,6 +9,7 @@ import numpy as np
 from engine.avatar.acting import Scene
 from engine.avatar.avatar import Avatar, assemble
 from engine.avatar.options import TEMPLATE_TRIANGLES, AvatarOptions
+from engine.avatar.registration.eyes import IRIS_RADIUS
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.texture.template_surface import template_surface
 from engine.avatar.texture.template_texture.placing import place_eyes, place_mouth
@@ -38,6 +39,7 @@ def fitted_template() -> FittedTemplate:
         joints=skeleton.heads.astype(np.float64),
         rotations=np.tile(np.eye(3), (len(rig.names), 1, 1)),
         expressions=units | viseme_displacements(units, len(rest)),
+        iris=IRIS_RADIUS,
         head_to_body=None,
         coefficients=np.zeros(3),
         notices=(),
@@ -50,7 +52,7 @@ def template_avatar(texture_size: int = 256) -> Avatar:
     surface = template_surface(template, rig)
     texture = np.full((texture_size, texture_size, 3), SKIN, np.uint8)
     place_mouth(texture, surface, texel_raster(surface.atlas, texture_size))
-    place_eyes(texture, surface, template.vertices, [], np.ones((0, 3)))
+    place_eyes(texture, surface, template.vertices, [], np.ones((0, 3)), IRIS_RADIUS)
     return assemble(template, rig, fitted_template(), no_attachments(), texture, TEMPLATE_TRIANGLES)
 
 

@@ -1,4 +1,4 @@
-"""Eyeballs between the lids as these were fitted, and the lids' rims on the eyeballs."""
+"""Eyeballs, and what lies before them."""
 
 from __future__ import annotations
 
@@ -6,76 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.avatar.registration.skin import EYE_PARTS, Skin
-from engine.avatar.registration.smooth_field import smooth_field
-from engine.body.template import Template
-from engine.geometry.registration.rigid import Similarity, fit_similarity
-
-SURROUNDINGS = 0.03
-"""Metres about the eyeball's middle within which visible skin says about where it is."""
-SURROUNDINGS_SHARE = 0.2
-"""What that counts beside the rims' distances from the middle."""
-GAUSS_NEWTON_STEPS = 8
-"""Of Gauss and Newton's method, for the middle."""
 LID_GAP = 0.0004
 """Metres that lids stay before the eyeball."""
-
-
-def placed_eyeball(
-    template: Template,
-    skin: Skin,
-    part: str,
-    before: NDArray[np.float64],
-    fitted: NDArray[np.float64],
-    head: Similarity,
-) -> NDArray[np.float64]:
-    """The vertices (E, 3) of an eyeball `part` for the `fitted` skin (S, 3), from the whole template `before` (V, 3) the fit.
-
-    It is as large as the `head` has become and looks where that looks, straight ahead; its middle is where the rims of the
-    lids are as far away as they were.
-    """
-    eyeball, own = before[template.vertices_of(part)], before[skin.vertices]
-    middle, _ = sphere(eyeball)
-    shown = np.flatnonzero(~skin.regions["inner"] & skin.regions["head"])
-    near = shown[np.linalg.norm(own[shown] - middle, axis=1) < SURROUNDINGS]
-    about = fit_similarity(own[near], fitted[near])(middle)
-    rim = skin.regions[f"{part}_rim"]
-    reach = head.scale * np.linalg.norm(own[rim] - middle, axis=1)
-    at = about.copy()
-    for _ in range(GAUSS_NEWTON_STEPS):
-        away = at - fitted[rim]
-        distance = np.linalg.norm(away, axis=1)
-        slopes = away / distance[:, None]
-        matrix = slopes.T @ slopes / len(slopes) + SURROUNDINGS_SHARE * np.eye(3)
-        right = slopes.T @ (distance - reach) / len(slopes) + SURROUNDINGS_SHARE * (at - about)
-        at = at - np.linalg.solve(matrix, right)
-    return np.asarray(at + head.offsets(eyeball - middle))
-
-
-def lids_on_eyes(
-    template: Template, skin: Skin, before: NDArray[np.float64], vertices: NDArray[np.float64], head: Similarity
-) -> NDArray[np.float64]:
-    """The skin (S, 3) of the whole template `vertices` (V, 3) with the lids' rims as far before the eyeballs as they were `before`
-    (V, 3), as large as the `head` has become, and nothing of the lids within an eyeball.
-
-    Lids between their rims and the skin about them keep the folds that they had before, but for a smooth displacement: the fit
-    crumples them where an eye is opened wider, and between them points are of the eye.
-    """
-    fitted = vertices[skin.vertices].copy()
-    own = before[skin.vertices]
-    lids = skin.regions["lids"] & ~skin.regions["inner"]
-    free = lids.copy()
-    for part in EYE_PARTS:
-        rim = np.flatnonzero(skin.regions[f"{part}_rim"])
-        was = np.linalg.norm(own[rim] - sphere(before[template.vertices_of(part)])[0], axis=1)
-        middle = sphere(vertices[template.vertices_of(part)])[0]
-        away = fitted[rim] - middle
-        fitted[rim] = middle + away * (head.scale * was / np.linalg.norm(away, axis=1))[:, None]
-        free[rim] = False
-    fitted[lids] = (head(own) + smooth_field(skin.triangles, free, fitted - head(own)))[lids]
-    for part in EYE_PARTS:
-        fitted[lids] = before_eyeball(vertices[template.vertices_of(part)], fitted[lids])
-    return fitted
 
 
 def before_eyeball(

@@ -1,4 +1,4 @@
-"""Eyes, teeth, tongue and lashes of the fitted face: placed by how the skin about them was deformed, teeth behind the lips."""
+"""Teeth, tongue and lashes of the fitted face: placed by how the skin about them was deformed, teeth behind the lips."""
 
 from __future__ import annotations
 
@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.avatar.registration.eyeballs import placed_eyeball
-from engine.avatar.registration.skin import EYE_PARTS, Skin
+from engine.avatar.registration.skin import Skin
 from engine.body.template import Template
 from engine.geometry.closest_points import closest_points
 from engine.geometry.registration.rigid import Similarity, fit_similarity
@@ -30,14 +29,12 @@ def place_parts(
 ) -> NDArray[np.float64]:
     """All the template's vertices (V, 3) for the `fitted` skin (S, 3), from `model` (V, 3), the whole template before the fit.
 
-    Skin is as it was fitted, eyeballs lie between their lids, what is in the mouth by a similarity (scale, turn, shift) of the
-    skin about it, behind the lips, and what is left (lashes, cages of cloth, joints' cubes) goes with the nearest skin.
+    Skin is as it was fitted, what is in the mouth lies by a similarity (scale, turn, shift) of the skin about it, behind the
+    lips, and what is left (eyeballs, lashes, cages of cloth, joints' cubes) goes with the nearest skin.
     """
     before, after = np.asarray(model, np.float64), np.asarray(fitted, np.float64)
     head = head_change(skin, before[skin.vertices], after)
     out = _carried_by_skin(before, before[skin.vertices], after)
-    for part in EYE_PARTS:
-        out[template.vertices_of(part)] = placed_eyeball(template, skin, part, before, after, head)
     inside = np.concatenate([template.vertices_of(part) for part in MOUTH_PARTS])
     out[inside] = _behind_lips(skin, after, _in_mouth(template, skin, before, after)(before[inside]), head)
     out[skin.vertices] = after

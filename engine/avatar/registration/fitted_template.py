@@ -22,6 +22,7 @@ class FittedTemplate:
     skeleton : the joints of `engine.body.rig.HUMAN_RIG` in T-pose.
     joints : (J, 3) where they are as the person stood.
     rotations : (J, 3, 3) how their axes are turned there from the T-pose, in the world.
+    iris : metres, the radius of the irises.
     expressions : displacements (V, 3) of `rest`, metres, by name: the face units and the visemes.
     head_to_body : from the world of the head's clip to that of the body's; None without such a clip.
     coefficients : (K,) of the space of bodies, in standard deviations.
@@ -33,6 +34,7 @@ class FittedTemplate:
     skeleton: Skeleton
     joints: NDArray[np.float64]
     rotations: NDArray[np.float64]
+    iris: float
     expressions: Mapping[str, NDArray[np.float32]]
     head_to_body: Similarity | None
     coefficients: NDArray[np.float64]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.coarse import CoarseFit, fit_to_landmarks, fit_to_points
 from engine.avatar.registration.expressions import transferred_units
-from engine.avatar.registration.eyeballs import lids_on_eyes
+from engine.avatar.registration.eyes import with_eyes, with_sockets
 from engine.avatar.registration.face_parts import head_change, place_parts
 from engine.avatar.registration.fine import fit_body, fit_head
 from engine.avatar.registration.fitted_template import FittedTemplate
@@ -93,6 +93,7 @@ def register(
         coefficients,
         fitted,
         placed,
+        body.landmarks.eyes if head is None or placed is None else placed(head.landmarks.eyes),
         _notices(by_landmarks, body_fit, coefficients, head is not None and placed is None),
     )
 
@@ -114,14 +115,18 @@ def _person(
     coefficients: NDArray[np.float64],
     fitted: NDArray[np.float64],
     placed: Similarity | None,
+    seen: NDArray[np.float64],
     notices: tuple[Notice, ...],
 ) -> FittedTemplate:
-    """The fitted skin with eyes, teeth and joints, in its pose and in T-pose, with expressions."""
+    """The fitted skin with eyes, as frames have `seen` them (2, 21, 3), teeth and joints, in its pose and in T-pose, with
+    expressions."""
     template, skin, rig = models.template, models.skin, models.rig
     vertices = place_parts(template, skin, coarse.whole, fitted)
     head = head_change(skin, coarse.vertices, fitted)
-    lids = lids_on_eyes(template, skin, coarse.whole, vertices, head)
-    vertices[skin.vertices] = inner_skin(skin, coarse.vertices, lids)
+    eyes = with_eyes(template, skin, coarse.whole, vertices, head, seen)
+    vertices = eyes.vertices
+    vertices[skin.vertices] = inner_skin(skin, coarse.vertices, vertices[skin.vertices])
+    vertices = with_sockets(template, skin, vertices)
     rotations = coarse.rotations
     joints = cage_coordinates(coarse.joints, coarse.vertices, skin.triangles) @ vertices[skin.vertices]
     for joint, part in (("LeftEye", "left_eye"), ("RightEye", "right_eye")):
@@ -138,6 +143,7 @@ def _person(
         joints=joints,
         rotations=rotations,
         expressions=units | viseme_displacements(units, len(rest)),
+        iris=eyes.iris,
         head_to_body=placed,
         coefficients=coefficients,
         notices=notices,

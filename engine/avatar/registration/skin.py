@@ -13,6 +13,7 @@ from scipy.spatial import cKDTree
 
 from engine.avatar.mouth_chart import mouth_faces
 from engine.avatar.registration.face_landmarks import landmark_vertices
+from engine.avatar.registration.lid_rims import lid_rim
 from engine.avatar.registration.lip_contact import lip_contact
 from engine.body.body_space import BodySpace
 from engine.body.cache import cached_arrays
@@ -34,8 +35,6 @@ LID_UNITS = ("eyeBlinkLeft", "eyeBlinkRight")
 EYE_PARTS = ("left_eye", "right_eye")
 LID_RINGS = 3
 """Rings of vertices about the rims of lids that are close to them."""
-LID_REACH = 1.3
-"""Radii of an eyeball about its middle within which the rims of its lids lie."""
 MIN_UNIT_MOTION = 0.002
 """... by more than this, in metres."""
 JAW_DROP = 0.008
@@ -61,7 +60,7 @@ class Skin:
     regions : masks (S,) by name: `head`, `face`, `lips` (with the skin around), `lids`, `hands`, `whole_hands` (those that no forearm moves),
         `feet`, `lower_feet` (what
         a shoe covers at least), `inner` (part of no visible triangle), `hidden_by_cloth` (nipples, navel), `left_eye_rim` and
-        `right_eye_rim` (where lids end before the eyeball), `left_eye_lids` and `right_eye_lids` (close to there).
+        `right_eye_rim` (where lids end before the eyeball: `engine.avatar.registration.lid_rims`), `left_eye_lids` and `right_eye_lids` (close to there).
     face_points : (68,) the face landmarks, all of them vertices that are seen from the front.
     lip_contact : (C, S) the lips' contact (`engine.avatar.registration.lip_contact`).
     """
@@ -101,7 +100,7 @@ def load_skin(template: Template, space: BodySpace, rig: Rig) -> Skin:
     shown[triangles[seen]] = True
     regions["inner"] = ~shown
     for part in EYE_PARTS:
-        rim = _lid_rims(template, part, vertices, triangles[seen & head[triangles].all(1)])
+        rim = np.isin(vertices, lid_rim(template, part))
         regions[f"{part}_rim"] = rim
         regions[f"{part}_lids"] = grown(rim, triangles, LID_RINGS) & shown
         regions["lids"] |= regions[f"{part}_lids"]
@@ -172,19 +171,6 @@ def _largest_piece(triangles: NDArray[np.int32], chosen: NDArray[np.bool_]) -> N
     out = np.zeros(len(chosen), np.bool_)
     out[numbers[piece == np.bincount(piece).argmax()]] = True
     return out
-
-
-def _lid_rims(template: Template, part: str, vertices: NDArray[np.intp], seen: NDArray[np.int32]) -> NDArray[np.bool_]:
-    """(S,) the vertices before an eyeball at which what is seen of the skin ends: `seen` (T, 3)."""
-    eyeball = template.vertices[template.vertices_of(part)].astype(np.float64)
-    middle = (eyeball.max(0) + eyeball.min(0)) / 2
-    radius = float(np.linalg.norm(eyeball - middle, axis=1).mean())
-    sides = np.sort(np.concatenate([seen[:, [0, 1]], seen[:, [1, 2]], seen[:, [2, 0]]]), 1)
-    edges, count = np.unique(sides, axis=0, return_counts=True)
-    ends = np.zeros(len(vertices), np.bool_)
-    ends[edges[count == 1]] = True
-    away = np.linalg.norm(template.vertices[vertices] - middle, axis=1) / radius
-    return np.asarray(ends & (away > 1) & (away < LID_REACH))
 
 
 def _visible(template: Template, space: BodySpace, triangles: NDArray[np.integer]) -> NDArray[np.bool_]:

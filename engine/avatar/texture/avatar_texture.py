@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.avatar.registration.eyes import IRIS_RADIUS
 from engine.avatar.texture.labels import UNSEEN, FaceLabels
 from engine.avatar.texture.stitching import TEXTURE_SIZE, stitch_texture
 from engine.avatar.texture.template_surface import TemplateSurface
@@ -38,9 +39,10 @@ def avatar_texture(
     vertices: NDArray[np.floating],
     views: Sequence[FrameView],
     size: int = TEXTURE_SIZE,
+    iris: float = IRIS_RADIUS,
 ) -> AvatarTexture:
     """The texture, `size` texels a side, of the person whose template vertices are (V, 3), metres, as the cameras of `views`
-    have them.
+    have them, and whose irises have the radius `iris`, metres.
 
     Raises ValueError where no view shows the person.
     """
@@ -48,7 +50,7 @@ def avatar_texture(
     found = stitch_texture(fitted, views, size)
     place_hands(found.texture, found.resolution, surface, found.raster, rig)
     place_mouth(found.texture, surface, found.raster)
-    eyes_seen = place_eyes(found.texture, surface, vertices, views, found.gains)
+    eyes_seen = place_eyes(found.texture, surface, vertices, views, found.gains, iris)
     areas = triangle_areas(fitted.vertices, fitted.triangles) * fitted.stitched
     share = float(areas[found.labels.labels != UNSEEN].sum() / areas.sum())
     charts = charts_of(surface.atlas, found.raster)

@@ -12,6 +12,8 @@ from scipy.spatial import cKDTree
 from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.mouth_chart import mouth_faces
+from engine.avatar.registration.lid_rims import lid_rim
+from engine.avatar.registration.skin import EYE_PARTS
 from engine.avatar.texture.views import ChartedSurface
 from engine.avatar.worn import Attachments
 from engine.body.rig import Rig
@@ -30,10 +32,15 @@ ATTACHED = len(AVATAR_PARTS)
 
 @dataclass(frozen=True)
 class TemplateSurface:
-    """The triangles (T, 3) of `AVATAR_PARTS`, the same for everybody, with `atlas` as they lie on the texture.
+    """The triangles of `AVATAR_PARTS`, the same for everybody, and how they lie on the texture.
 
-    `part` (T,) int: which of `AVATAR_PARTS` each is of, or `ATTACHED`. `mouth` (T,) bool: the bag behind the lips. `hands`: of each side in
-    `SIDES`, (T,) bool. `rest` (V, 3): the template's vertices, in whose shape it is known where everything is.
+    triangles : (T, 3) into the template's vertices, and those of what is worn.
+    atlas : how they lie on the texture.
+    part : (T,) int: which of `AVATAR_PARTS` each is of, or `ATTACHED`.
+    mouth : (T,) bool: the bag behind the lips.
+    hands : of each side in `SIDES`, (T,) bool.
+    rest : (V, 3) the template's vertices, in whose shape it is known where everything is.
+    lid_rims : of each eyeball, the loop of vertices in which its lids end.
     """
 
     triangles: NDArray[np.int32]
@@ -42,6 +49,7 @@ class TemplateSurface:
     mouth: NDArray[np.bool_]
     hands: Mapping[Side, NDArray[np.bool_]]
     rest: NDArray[np.float64]
+    lid_rims: Mapping[str, NDArray[np.intp]]
 
     def fitted(self, vertices: NDArray[np.floating]) -> ChartedSurface:
         """The surface of the person whose template vertices are (V, 3), metres: all of the body's skin but the mouth's bag is
@@ -77,6 +85,7 @@ class TemplateSurface:
             mouth=np.concatenate([self.mouth, none]),
             hands={side: np.concatenate([hand, none]) for side, hand in self.hands.items()},
             rest=np.concatenate([self.rest, worn.vertices]),
+            lid_rims=self.lid_rims,
         )
 
     def of(self, *parts: str) -> NDArray[np.bool_]:
@@ -98,7 +107,8 @@ def template_surface(template: Template, rig: Rig) -> TemplateSurface:
     hands = {side: body & _charts(atlas, np.all(moved[triangles], axis=1), body) for side, moved in of_hand.items()}
     mouth = np.zeros(len(faces), np.bool_)
     mouth[: sizes[AVATAR_PARTS.index("body")]] = mouth_faces(template)
-    return TemplateSurface(triangles, atlas, part, np.tile(mouth, 2), hands, rest)
+    rims = {name: lid_rim(template, name) for name in EYE_PARTS}
+    return TemplateSurface(triangles, atlas, part, np.tile(mouth, 2), hands, rest, rims)
 
 
 def _charts(atlas: TextureAtlas, inside: NDArray[np.bool_], among: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -81,7 +81,7 @@ def test_eyes_have_the_colours_of_the_frames(surface: TemplateSurface, found: Av
     off = np.where(places[:, 2] > 0.13, eye_offsets(surface, places), 1)
     colours = found.texture.reshape(-1, 3)[texels.texels]
     iris = colours[(off > 1.4 * PUPIL_RADIUS) & (off < 0.7 * IRIS_RADIUS)].mean(0)
-    assert np.linalg.norm(lab(iris) - lab(np.array(IRIS))) < 5
+    assert np.linalg.norm(lab(iris) - lab(np.array(IRIS))) < 6  # lashes shade it
     white = colours[(off > 1.4 * IRIS_RADIUS)].mean(0)
     assert np.linalg.norm(lab(white) - lab(np.array(WHITE))) < 5
     assert colours[off < 0.5 * PUPIL_RADIUS].mean() < 60

@@ -8,7 +8,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from engine.avatar.texture.template_texture.iris_in_frame import iris_centre
-from engine.avatar.texture.template_texture.lid_shadow import lid_shadow
+from engine.avatar.texture.template_texture.lid_shadow import lash_shadow, lid_shadow
 from engine.avatar.texture.views import ChartedSurface
 from engine.geometry.texture_atlas import unwrap
 from engine.performances.modelling.eyes import IRIS_RADIUS
@@ -51,3 +51,18 @@ def test_an_eye_is_darker_beneath_its_upper_lid_and_as_it_was_where_the_lid_hide
     assert shade[beneath].mean() < 0.92 < 0.99 < shade[middle].mean()
     assert (shade[hidden] == 1).all()
     assert shade.max() <= 1
+
+
+def test_lashes_darken_what_is_right_beneath_the_upper_lid_alone() -> None:
+    ball, _ = sphere(0.012)
+    turn = np.linspace(0, 2 * np.pi, 28, endpoint=False)
+    across = np.stack([0.009 * np.cos(turn), 0.004 * np.sin(turn)], 1)
+    rim = np.column_stack([across, np.sqrt(0.0124**2 - (across**2).sum(1))])
+    shade = lash_shadow(ball, rim, np.array([0.0, 0.0, 1.0]))
+    middle = (np.abs(ball[:, 0]) < 0.002) & (ball[:, 2] > 0)
+    beneath = middle & (ball[:, 1] > 0.0035) & (ball[:, 1] < 0.0039)
+    assert 0.5 < shade[beneath].mean() < 0.75
+    assert shade[middle & (np.abs(ball[:, 1]) < 0.001)].min() > 0.9
+    assert shade[middle & (ball[:, 1] < -0.003)].min() > 0.98
+    assert (shade[middle & (ball[:, 1] > 0.0045)] == 1).all()
+    assert (shade[ball[:, 2] < -1e-4] == 1).all()

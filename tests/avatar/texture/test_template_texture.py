@@ -84,6 +84,17 @@ def test_a_persons_eyes_have_their_colours_and_keep_the_pupil() -> None:
     np.testing.assert_array_equal(persons_eyes(painted, eyes, blue[:5], white[:5]), painted)
 
 
+@pytest.mark.parametrize("iris", [0.0052, 0.0068])
+def test_an_iris_is_as_large_as_it_was_measured(iris: float) -> None:
+    places = 0.013 * eyeball().places / EYEBALL_RADIUS
+    eyes = Eyeballs.of(places, 0.013, iris, np.zeros(len(places), np.intp), np.zeros((len(places), 3), np.float32))
+    off, ahead = np.hypot(places[:, 0], places[:, 1]), places[:, 2] > 0
+    lightness = painted_eyes(eyes).mean(1)
+    assert lightness[ahead & (off < iris - 0.0008)].max() < 130
+    assert lightness[ahead & (off > iris + 0.0012)].min() > 140
+    np.testing.assert_allclose(np.linalg.norm(eyes.places, axis=1), EYEBALL_RADIUS)
+
+
 def test_teeth_are_light_at_their_edges_and_gum_at_their_roots(surface: TemplateSurface) -> None:
     for part, upper in (("upper_teeth", True), ("lower_teeth", False)):
         places = surface.rest[surface.triangles[surface.of(part)]].mean(1)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.texture.template_texture.iris_in_frame import iris_centre
 from engine.avatar.texture.views import ChartedSurface, FrameView
-from engine.imaging.histogram_matching import matched_in_lab, to_lab
+from engine.imaging.histogram_matching import from_lab, matched_in_lab, to_lab
 from engine.media.tone_mapping import srgb_code
 from engine.performances.modelling.eyes import EYEBALL_RADIUS, IRIS_RADIUS, PUPIL_RADIUS, colour_of_eye
 from engine.render.sampling import bilinear
@@ -28,10 +28,13 @@ MAX_MARGIN = 0.25 * IRIS_RADIUS
 """Metres: the most that a pixel counts, so that something is left of an iris filmed from afar."""
 MIN_SAMPLES = 40
 """Below which an eye's colours stay the template's."""
-WHITE_SHARE, WHITE_CHROMA = 0.5, 22.0
-"""Of the samples of the white, the lightest that count: the others are lids, lashes and their shadow; and the most chroma."""
-IRIS_TAILS = (0.15, 0.95)
-"""Quantiles of lightness between which samples of the iris count: lashes and the pupil are darker, highlights lighter."""
+WHITE_TAILS, WHITE_CHROMA = (0.5, 0.92), 22.0
+"""Quantiles of lightness between which samples of the white count: lids, lashes and their shadow are darker, highlights lighter; and
+the most chroma."""
+IRIS_TAILS = (0.2, 0.7)
+"""The same of the iris: lashes and the pupil are darker, highlights and what they mirror lighter."""
+MAX_IRIS_CONTRAST = 0.75
+"""Of the painted iris' spread of lightness, what a person's has at most: what is painted is for an eye that fills a picture."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,25 @@ class Eyeballs:
     places: NDArray[np.float64]
     triangles: NDArray[np.intp]
     shares: NDArray[np.float32]
+
+    @staticmethod
+    def of(
+        offsets: NDArray[np.floating],
+        radius: float,
+        iris: float,
+        triangles: NDArray[np.intp],
+        shares: NDArray[np.float32],
+    ) -> Eyeballs:
+        """Of an eyeball of a `radius`, metres, with an `iris` of another: places (N, 3) from its middle in whatever scale, moved over
+        the ball so that the iris ends where the painted one does."""
+        places = np.asarray(offsets, np.float64)
+        places = EYEBALL_RADIUS * places / np.linalg.norm(places, axis=1, keepdims=True)
+        off = np.hypot(places[:, 0], places[:, 1])
+        ends = [0, min(iris / radius, 0.9) * EYEBALL_RADIUS, EYEBALL_RADIUS]
+        painted = np.where(places[:, 2] > 0, np.interp(off, ends, [0, IRIS_RADIUS, EYEBALL_RADIUS]), off)
+        across = places[:, :2] * (painted / np.maximum(off, 1e-12))[:, None]
+        ahead = np.sign(places[:, 2]) * np.sqrt(np.maximum(EYEBALL_RADIUS**2 - painted**2, 0))
+        return Eyeballs(np.column_stack([across, ahead]), triangles, shares)
 
     @property
     def off_axis(self) -> NDArray[np.float64]:
@@ -74,20 +96,37 @@ def persons_eyes(
     off = eyes.off_axis
     out = colours.copy()
     on_iris, on_white = (off > PUPIL_RADIUS) & (off < IRIS_RADIUS), off >= IRIS_RADIUS
-    for where, reference in ((on_iris, iris), (on_white, white)):
-        if len(reference) >= MIN_SAMPLES:
-            out[where] = matched_in_lab(colours[where], reference)
+    if len(iris) >= MIN_SAMPLES:
+        out[on_iris] = _toned(colours[on_iris], iris)
+    if len(white) >= MIN_SAMPLES:
+        out[on_white] = matched_in_lab(colours[on_white], white)
     # the rims of iris and pupil are soft: there the new colours come in by and by
     soft = np.clip((off - PUPIL_RADIUS) / (0.15 * PUPIL_RADIUS), 0, 1)[:, None].astype(np.float32)
     return np.where(on_iris[:, None], colours + soft * (out - colours), out).astype(np.float32)
 
 
+def _toned(colours: NDArray[np.floating], reference: NDArray[np.floating]) -> NDArray[np.float32]:
+    """An iris' colours (N, 3) about the median of the reference (M, 3), fibres and rim as much lighter and darker than it as what frames
+    show is at most, and as its lightness leaves room for: dark eyes are plain."""
+    own, goal = to_lab(colours), to_lab(reference)
+    middle, own_middle = np.median(goal, 0), np.median(own, 0)
+    spread = np.subtract(*np.quantile(goal, (0.75, 0.25), axis=0))
+    own_spread = np.subtract(*np.quantile(own, (0.75, 0.25), axis=0))
+    room = min(float(middle[0] / own_middle[0]), MAX_IRIS_CONTRAST)
+    return from_lab(middle + np.minimum(spread / np.maximum(own_spread, 1e-6), room) * (own - own_middle))
+
+
 def eye_samples(
-    surface: ChartedSurface, eyes: Eyeballs, views: Sequence[FrameView], gains: NDArray[np.floating]
+    surface: ChartedSurface,
+    eyes: Eyeballs,
+    views: Sequence[FrameView],
+    gains: NDArray[np.floating],
+    shadow: NDArray[np.floating],
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Colours (M, 3) of the iris and (K, 3) of the white, sRGB, that the frames show best; none where none shows any.
 
-    `surface`: the fitted person. `gains` (N, 3) of the views.
+    `surface`: the fitted person. `gains` (N, 3) of the views. `shadow` (N,): what lids leave of the light at each place, which is
+    taken off the colours.
     """
     off = eyes.off_axis
     corners = surface.vertices[surface.triangles[eyes.triangles]]
@@ -104,11 +143,11 @@ def eye_samples(
         colours = np.clip(bilinear(views[n].picture(), views[n].places(points)) * gains[n], 0, 255).astype(np.float32)
         margin = min(1 / fineness, MAX_MARGIN)
         seen &= eyes.places[:, 2] > 0
-        across, shown = eyes.places[seen, :2], colours[seen]
+        across, shown = eyes.places[seen, :2], np.minimum(colours[seen] / shadow[seen, None], 255)
         away = np.hypot(*(across - iris_centre(across, shown.mean(1))).T)
         iris.append(shown[(away > IRIS_BAND[0]) & (away < IRIS_BAND[1] - margin)])
         white.append(shown[(away > WHITE_BAND[0] + margin) & (away < WHITE_BAND[1])])
-    return _middle(np.concatenate(iris)), _lightest(np.concatenate(white))
+    return _middle(np.concatenate(iris)), _white(np.concatenate(white))
 
 
 def _pupil(points: NDArray[np.floating], off: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -135,9 +174,9 @@ def _middle(colours: NDArray[np.float32]) -> NDArray[np.float32]:
     return colours[(lightness >= low) & (lightness <= high)]
 
 
-def _lightest(colours: NDArray[np.float32]) -> NDArray[np.float32]:
+def _white(colours: NDArray[np.float32]) -> NDArray[np.float32]:
     if not len(colours):
         return colours
     lab = to_lab(colours)
-    light = lab[:, 0] >= np.quantile(lab[:, 0], 1 - WHITE_SHARE)
-    return colours[light & (np.hypot(lab[:, 1], lab[:, 2]) < WHITE_CHROMA)]
+    low, high = np.quantile(lab[:, 0], WHITE_TAILS)
+    return colours[(lab[:, 0] >= low) & (lab[:, 0] <= high) & (np.hypot(lab[:, 1], lab[:, 2]) < WHITE_CHROMA)]

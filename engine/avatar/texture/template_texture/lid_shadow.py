@@ -1,9 +1,10 @@
-"""How dark an eyeball is beneath its lids: which share of the light from above and before it the face lets through."""
+"""How dark an eyeball is beneath its lids: which share of the light from above and before it the face and its lashes let through."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from engine.avatar.texture.views import ChartedSurface
 from engine.geometry.camera import Camera
@@ -20,6 +21,10 @@ FROM_ABOVE = 0.3
 """What light from level with the eye counts beside that from straight above, less that."""
 DARKEST = 0.5
 """What is left of the light where none of the sky is seen: skin lets some through, and the ball shines back."""
+LASHES, LASH_REACH = 0.45, 0.0016
+"""Of the light, what lashes take right beneath the upper lid, and metres below it at which they take a third of that."""
+RIM_STEPS = 12
+"""Places between two vertices of a rim from which it is measured."""
 HIDDEN_SHARE = 0.05
 """Of the most light that any point has, below which a point is hidden behind a lid."""
 
@@ -50,6 +55,26 @@ def lid_shadow(surface: ChartedSurface, points: NDArray[np.float64], gaze: NDArr
         return np.ones(len(points), np.float32)
     shade = DARKEST + (1 - DARKEST) * total / total.max()
     return np.asarray(np.where(seen, np.minimum(shade / shade[seen].mean(), 1), 1), np.float32)
+
+
+def lash_shadow(
+    points: NDArray[np.float64], rim: NDArray[np.float64], gaze: NDArray[np.float64]
+) -> NDArray[np.float32]:
+    """(N,) what an eyeball's colours at `points` (N, 3) are multiplied by for the lashes of the upper lid, which an avatar does not
+    have: least right beneath that lid, 1 where it hides them. `rim` (R, 3): the loop in which the lids end; `gaze` (3,): where the
+    eye looks; y is up."""
+    aside = np.cross([0.0, 1.0, 0.0], gaze)
+    aside /= np.linalg.norm(aside)
+    axes = np.stack([aside, np.cross(gaze, aside)], 1)
+    middle = points.mean(0)
+    seen, loop = (points - middle) @ axes, (rim - middle) @ axes
+    ends = loop[[np.argmin(loop[:, 0]), np.argmax(loop[:, 0])]]
+    share = np.arange(RIM_STEPS) / RIM_STEPS
+    line = (loop[:, None] + share[:, None] * (np.roll(loop, -1, 0) - loop)[:, None]).reshape(-1, 2)
+    upper = line[line[:, 1] >= np.interp(line[:, 0], ends[:, 0], ends[:, 1])]
+    away, nearest = cKDTree(upper).query(seen)
+    beneath = (seen[:, 1] <= upper[nearest, 1]) & ((points - middle) @ gaze > 0)
+    return np.asarray(np.where(beneath, 1 - LASHES * np.exp(-away / LASH_REACH), 1), np.float32)
 
 
 def _sky(gaze: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -7,12 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.avatar.registration.eyeballs import sphere
+from engine.avatar.registration.skin import EYE_PARTS
 from engine.avatar.texture.template_surface import TemplateSurface
 from engine.avatar.texture.template_texture.eyes import Eyeballs, eye_samples, painted_eyes, persons_eyes
 from engine.avatar.texture.template_texture.hand_colours import face_skin, hand_tone, like_skin, toned
 from engine.avatar.texture.template_texture.hand_joining import HandSurface, joined_hand
 from engine.avatar.texture.template_texture.hands import HandBones, hand_bones, painted_hand, past_wrist
-from engine.avatar.texture.template_texture.lid_shadow import lid_shadow
+from engine.avatar.texture.template_texture.lid_shadow import lash_shadow, lid_shadow
 from engine.avatar.texture.template_texture.mouth import painted_lining, painted_teeth, painted_tongue
 from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.avatar.texture.views import FrameView
@@ -20,7 +22,6 @@ from engine.body.rig import Rig
 from engine.geometry.joint_names import SIDES
 from engine.geometry.surface import vertex_normals
 from engine.imaging.histogram_matching import to_lab
-from engine.performances.modelling.eyes import EYEBALL_RADIUS
 from engine.render.rasteriser import Raster
 
 WRIST_LENGTH, CUFF_LENGTH = 0.03, 0.004
@@ -48,26 +49,28 @@ def place_eyes(
     vertices: NDArray[np.floating],
     views: Sequence[FrameView],
     gains: NDArray[np.floating],
+    iris_radius: float,
 ) -> bool:
-    """Paint the eyeballs, in the colours that `views` show of the person whose template vertices are (V, 3). Both eyes have
-    the same colours. Whether frames showed enough of them: if not they are the template's."""
+    """Paint the eyeballs, in the colours that `views` show of the person whose template vertices are (V, 3), with irises of a
+    radius, metres. Both eyes have the same colours. Whether frames showed enough of them: if not they are the template's."""
     fitted = surface.fitted(vertices)
     balls, irises, whites = [], [], []
-    for part in ("left_eye", "right_eye"):
+    for part in EYE_PARTS:
         own = surface.of(part)
         middle = surface.rest[np.unique(surface.triangles[own])].mean(0)
         texels = PartTexels.fine(surface.atlas, own, len(texture))
         offset = texels.blend(surface.rest, surface.triangles) - middle
-        radius = np.linalg.norm(offset, axis=1, keepdims=True)
-        eyes = Eyeballs(offset * EYEBALL_RADIUS / radius, texels.triangles, texels.shares)
-        iris, white = eye_samples(fitted, eyes, views, gains)
-        balls.append((texels, eyes))
+        radius = sphere(fitted.vertices[np.unique(surface.triangles[own])])[1]
+        eyes = Eyeballs.of(offset, radius, iris_radius, texels.triangles, texels.shares)
+        points = texels.blend(fitted.vertices, surface.triangles)
+        gaze = eyes.gaze(points)
+        shadow = lid_shadow(fitted, points, gaze) * lash_shadow(points, fitted.vertices[surface.lid_rims[part]], gaze)
+        iris, white = eye_samples(fitted, eyes, views, gains, shadow)
+        balls.append((texels, eyes, shadow))
         irises.append(iris)
         whites.append(white)
     iris, white = np.concatenate(irises), np.concatenate(whites)
-    for texels, eyes in balls:
-        points = texels.blend(fitted.vertices, surface.triangles)
-        shadow = lid_shadow(fitted, points, eyes.gaze(points))
+    for texels, eyes, shadow in balls:
         texels.put(texture, persons_eyes(painted_eyes(eyes), eyes, iris, white) * shadow[:, None])
     return bool(len(iris) and len(white))
 

@@ -1,0 +1,72 @@
+"""The rim of the lids about an eye: the loop of the template's edges at which its skin turns to the eyeball."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.template import Template
+
+UPPER_LID = 0.25
+"""Radii of the eyeball above its middle beyond which what is near to it is of the upper lid."""
+NEAREST = 1.02, 1.08
+"""Radii of the eyeball about its middle between which the lid's rim lies there."""
+
+
+def lid_rim(template: Template, part: str) -> NDArray[np.intp]:
+    """(R,) the template's vertices about an eyeball `part`, one after the other: from the middle of the upper lid along edges
+    that cross no quad, which is one closed loop.
+
+    Raises ValueError where the template has no such loop.
+    """
+    eyeball = template.vertices[template.vertices_of(part)].astype(np.float64)
+    middle = (eyeball.max(0) + eyeball.min(0)) / 2
+    radius = float(np.linalg.norm(eyeball - middle, axis=1).mean())
+    quads = template.quads[template.faces("body")]
+    skin = np.unique(quads)
+    away = (template.vertices[skin] - middle) / radius
+    reach = np.linalg.norm(away, axis=1)
+    above = (away[:, 1] > UPPER_LID) & (away[:, 2] > 0) & (reach > NEAREST[0]) & (reach < NEAREST[1])
+    if not above.any():
+        raise ValueError(f"no lid lies about {part}")
+    first = int(skin[above][np.argmax(away[above, 2])])
+    edges = _Edges(quads, np.linalg.norm(template.vertices - middle, axis=1) < 2 * radius)
+    loops = [found for beside in edges.beside[first] if (found := edges.loop(first, beside)) is not None]
+    if not loops:
+        raise ValueError(f"no loop of edges lies about {part}")
+    return np.array(min(loops, key=lambda loop: float(np.ptp(template.vertices[loop], axis=0)[2])), np.intp)
+
+
+class _Edges:
+    """The edges of quads (Q, 4) all of whose vertices are `near` (V,)."""
+
+    def __init__(self, quads: NDArray[np.integer], near: NDArray[np.bool_]):
+        self.beside: dict[int, set[int]] = defaultdict(set)
+        self._quads: dict[frozenset[int], set[int]] = defaultdict(set)
+        for number, quad in enumerate(quads[near[quads].all(1)].tolist()):
+            for one, other in zip(quad, [*quad[1:], quad[0]], strict=True):
+                self.beside[one].add(other)
+                self.beside[other].add(one)
+                self._quads[frozenset((one, other))].add(number)
+
+    def loop(self, first: int, second: int) -> list[int] | None:
+        """The vertices of the loop that begins with an edge; None where it does not close."""
+        found = [first, second]
+        while len(found) <= len(self.beside):
+            ahead = self._straight_on(found[-2], found[-1])
+            if ahead is None:
+                return None
+            if ahead == first:
+                return found
+            found.append(ahead)
+        return None
+
+    def _straight_on(self, before: int, at: int) -> int | None:
+        """The vertex across a crossing of four edges."""
+        if len(self.beside[at]) != 4:
+            return None
+        beside = self._quads[frozenset((before, at))]
+        others = [v for v in self.beside[at] if v != before and not self._quads[frozenset((at, v))] & beside]
+        return others[0] if len(others) == 1 else None
