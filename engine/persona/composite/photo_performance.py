@@ -99,4 +99,4 @@ def _mouth(persona: Persona, target: TargetFace, acting: PhotoActing, run: Run) 
             "None of the photos shows the person's upper teeth from before: what is between the lips is the driver's. Add a photo with a smile.",
         )
         return None
-    return PhotoTeeth(target, persona.teeth, mouth_dark(persona), acting.faces)
+    return PhotoTeeth(target, persona.teeth, mouth_dark(persona), persona.neutral, acting.faces)

@@ -21,12 +21,14 @@ OPENINGS = (0.10, 0.40)
 """Of the mouth: of less nothing is seen of teeth, and of more too much beside them."""
 LOOKED_AT = 24
 """Photographs that are looked at, the largest of those that can be meant."""
-BRIGHT_SHARES = (0.35, 0.85)
+BRIGHT_SHARES = (0.5, 1.0)
 """Of the skin's grey, between which a pixel becomes one of a tooth's."""
 LARGE_EYE_DISTANCE = 120.0
-YAW_DEGREES, PITCH_DEGREES = 60.0, 90.0
+YAW_DEGREES, PITCH_DEGREES = 40.0, 40.0
 """By which a face is turned, that counts as much as teeth that are not seen at all; size and colour as follows."""
-SIZE_SHARE, GREY_SHARE = 0.3, 1.0
+SIZE_SHARE, GREY_SHARE = 0.5, 1.0
+SHARP_BLUR, BLUR = 0.4, 0.2
+"""Of faces (`PhotoFace.blur`), from which on teeth are smeared, and by how much more they are worth nothing."""
 ROWS = 10
 """From lip to lip at which an opening is looked at."""
 BURNT = 250.0
@@ -34,7 +36,7 @@ TEETH_HEIGHT = 0.13
 """Eye distances of upper teeth that are seen wholly."""
 WELL_LIT = 160.0
 """Of skin."""
-EDGE_SHARE = 0.3
+EDGE_SHARE = 0.5
 """Of teeth seen, that the dark below them counts: without it where they end is the lower lip's line, which is no tooth's."""
 DARK_PERCENTILE = 12
 MIN_OPENING = 0.2
@@ -60,6 +62,7 @@ def teeth_photo(
         one = FacePhoto(photo(number), faces[number].mesh, number)
         score = _seen(one) + SIZE_SHARE * np.log(min(faces[number].eye_distance, LARGE_EYE_DISTANCE) / 30)
         score -= abs(faces[number].yaw) / YAW_DEGREES + abs(faces[number].pitch) / PITCH_DEGREES
+        score -= max(faces[number].blur - SHARP_BLUR, 0) / BLUR
         score -= GREY_SHARE * (is_grey(one.rgb, one.mesh) and not grey)
         if best is None or score > best[0]:
             best = float(score), one

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from engine.face_animation.target_face import TargetFace
+from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES
 from engine.persona.collection.face_photo import FacePhoto
@@ -15,7 +16,7 @@ from engine.persona.composite.skull import skull_camera
 
 SKIN = (190, 150, 130)
 CAVITY = np.array([50.0, 20.0, 20.0])
-LOWER = [146, 91, 181, 84, 17, 314, 405, 321, 375, 95, 88, 178, 87, 14, 317, 402, 318, 324]
+LOWER = [146, 91, 181, 84, 17, 314, 405, 321, 375, 95, 88, 178, 87, 14, 317, 402, 318, 324, 148, 152, 377]
 
 
 def face(gap: float, eyes: float = 80.0, middle: tuple[float, float] = (160.0, 150.0)) -> np.ndarray:
@@ -46,7 +47,8 @@ def picture(mesh: np.ndarray) -> np.ndarray:
 def mouth() -> PhotoTeeth:
     smile, rest = face(0.14), face(0.0)
     target = TargetFace(picture(rest), None, rest, np.zeros((1, 4), np.float32), (320, 320), np.eye(2, 3))
-    return PhotoTeeth(target, FacePhoto(picture(smile), smile, 0), CAVITY, np.array([face(0.2)[:, :2], rest[:, :2]]))
+    faces = np.array([face(0.2)[:, :2], rest[:, :2]])
+    return PhotoTeeth(target, FacePhoto(picture(smile), smile, 0), CAVITY, frontalise(rest[None])[0], faces)
 
 
 def test_the_skull_is_found_whatever_the_mouth_does() -> None:
@@ -55,34 +57,43 @@ def test_the_skull_is_found_whatever_the_mouth_does() -> None:
     np.testing.assert_allclose(shut[0], 80 * np.eye(3)[:2], atol=1e-2)
 
 
-def test_teeth_stay_in_the_skull_where_lips_move(mouth: PhotoTeeth) -> None:
+def test_upper_teeth_stay_in_the_skull_where_the_mouth_opens(mouth: PhotoTeeth) -> None:
     corner, shape = np.array([130.0, 170.0]), (60, 60)
-    before, after = (mouth.origins(face(gap), corner, shape) for gap in (0.1, 0.3))
-    np.testing.assert_allclose(before, after, atol=0.02)
+    before, after = (mouth.places(face(gap), corner, shape) for gap in (0.1, 0.3))
+    np.testing.assert_allclose(before, after, atol=0.002)
+
+
+def test_lower_teeth_go_down_with_the_jaw(mouth: PhotoTeeth) -> None:
+    assert mouth.jaw_drop(face(0.0)) == pytest.approx(0, abs=0.005)
+    assert mouth.jaw_drop(face(0.25)) == pytest.approx(0.25, abs=0.01)
+    places = np.stack(np.meshgrid(np.linspace(-0.05, 0.05, 9), np.linspace(-0.05, 0.4, 46)), axis=-1)
+    for drop in (0.1, 0.2):
+        seen = mouth.lower_teeth(places, drop)[..., 3].mean(axis=1) > 0.5
+        assert places[int(seen.argmax()), 0, 1] == pytest.approx(drop, abs=0.02)
 
 
 @pytest.mark.parametrize(("degrees", "scale"), [(0, 1.0), (20, 1.0), (-15, 1.3)])
 def test_teeth_go_where_the_head_goes(mouth: PhotoTeeth, degrees: float, scale: float) -> None:
     angle = np.radians(degrees)
     turn = scale * np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-    shift = np.array([12.0, -7.0])
     rest = face(0.2)
     moved = rest.copy()
-    moved[:, :2] = rest[:, :2] @ turn.T + shift
+    moved[:, :2] = rest[:, :2] @ turn.T + (12.0, -7.0)
     point = rest[13, :2] + (2.0, 8.0)
-    there = point @ turn.T + shift
-    one = mouth.origins(rest, point, (1, 1))[0, 0]
-    np.testing.assert_allclose(mouth.origins(moved, there, (1, 1))[0, 0], one, atol=0.05)
+    one, other = (mouth.places(*pair, (1, 1))[0, 0] for pair in ((rest, point), (moved, point @ turn.T + (12.0, -7.0))))
+    np.testing.assert_allclose(one, other, atol=0.002)
 
 
-def test_between_teeth_and_lower_lip_is_the_dark_of_the_mouth(mouth: PhotoTeeth) -> None:
-    rest = face(0.3)
-    height = int(rest[14, 1] - rest[13, 1])
-    inside = mouth.inside(rest, rest[13, :2] - (60, 0), (height, 120))
-    dark = inside[int(0.6 * height), 60]
+def test_between_the_teeth_is_the_dark_of_the_mouth(mouth: PhotoTeeth) -> None:
+    wide = face(0.35)
+    height = int(wide[14, 1] - wide[13, 1])
+    inside = mouth.inside(wide, wide[13, :2] - (60, 0), (height, 120))
+    rows = inside[:, 50:70].mean(axis=(1, 2))
+    darkest = int(rows.argmin())
+    dark = inside[darkest, 60]
+    assert 0.15 * height < darkest < 0.9 * height
     assert dark.max() < 90 and dark[0] >= dark[1:].max() - 1, "dark, and red rather than blue"
-    bright = inside[4, 40:80].mean()
-    assert bright > 1.6 * dark.mean()
+    assert rows[:darkest].max() > 2 * dark.mean(), "teeth above it"
 
 
 def test_it_is_drawn_between_the_lips_alone_and_only_where_they_part(mouth: PhotoTeeth) -> None:
@@ -94,4 +105,4 @@ def test_it_is_drawn_between_the_lips_alone_and_only_where_they_part(mouth: Phot
         inner = np.zeros(frame.shape[:2], np.uint8)
         cv2.fillPoly(inner, [np.rint(mesh[list(LIPS_INNER), :2]).astype(np.int32)], 1)
         assert changed.any() == drawn
-        assert not changed[cv2.dilate(inner, np.ones((5, 5), np.uint8)) == 0].any()
+        assert not changed[cv2.dilate(inner, np.ones((9, 9), np.uint8)) == 0].any()

@@ -1,0 +1,137 @@
+"""The teeth that one photograph shows, as they lie on the face seen from the front."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.mouth.hidden_regions import (
+    LOWER_INNER_LIP,
+    LUMINANCE_WEIGHTS,
+    UPPER_INNER_LIP,
+    soft_polygon,
+)
+from engine.imaging.resample import resized
+from engine.perception.expression.features import frontalise
+from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
+from engine.persona.collection.face_photo import FacePhoto
+from engine.persona.composite.skull import skull_camera
+
+CORNERS = (78, 308)
+BEHIND_LIPS = 0.03
+"""Eye distances by which teeth lie behind the inner lips."""
+ARCH = 1.2
+"""Eye distances by which teeth lie further back, for the square of one to the side."""
+LIP_SHADOW = 0.02
+"""Eye distances below the upper lip from which on teeth are taken: above are the lip and its edge."""
+MARGIN = 0.1
+"""Eye distances around the lips that are kept."""
+SOFTNESS = 0.018
+"""Eye distances over which the teeth pass into the dark."""
+MAX_SHARPENING = 0.6
+"""Of what is finer than a pixel, where the photograph is enlarged twice or more: its own pixels have blurred it."""
+TEETH_PERCENTILE = 90
+ROWS = 20
+"""From lip to lip at which it is looked for where teeth end."""
+EDGE_LIGHT = 0.6
+"""Of the lightest row's light, above which a row is of teeth."""
+EDGE_RANGE = (0.5, 1.0)
+
+
+@dataclass(frozen=True)
+class TeethStrip:
+    """Of a face seen from the front, in its eye distances; places are (..., 2), x to the right and y down.
+
+    layer : (h, w, 4) float32, the photograph's mouth, and in [0, 1] what of it is within the inner lips. upper, lower : (11, 2) the inner
+    lips from corner to corner. depth : of the teeth in the middle. edge : the share of the way from lip to lip where teeth
+    end. matrix, shift : (2, 3) and (2,), from the face into the photograph. corner : (2,), and scale : from there into the layer.
+    """
+
+    layer: NDArray[np.float32]
+    upper: NDArray[np.float64]
+    lower: NDArray[np.float64]
+    depth: float
+    edge: float
+    matrix: NDArray[np.float64]
+    shift: NDArray[np.float64]
+    corner: NDArray[np.float64]
+    scale: float
+
+    @property
+    def middle(self) -> float:
+        """Where along x the teeth's middle is."""
+        return float((self.upper[0, 0] + self.upper[-1, 0]) / 2)
+
+    @property
+    def width(self) -> float:
+        """From corner to corner of the mouth."""
+        return float(np.linalg.norm(self.upper[-1] - self.upper[0]))
+
+    def lip(self, x: NDArray[np.floating]) -> NDArray[np.float64]:
+        """(...) the height at which the upper lip ends."""
+        return np.interp(x, self.upper[:, 0], self.upper[:, 1])
+
+    def ends(self, x: NDArray[np.floating]) -> NDArray[np.float64]:
+        """(...) the height at which the upper teeth end."""
+        top = self.lip(x)
+        return np.asarray(top + self.edge * (np.interp(x, self.lower[:, 0], self.lower[:, 1]) - top))
+
+    def sampled(self, x: NDArray[np.floating], y: NDArray[np.floating]) -> NDArray[np.float32]:
+        """(..., 4) colours and shares of teeth at places (h, w), whose height is held below the upper lip."""
+        held = np.maximum(y, self.lip(x) + LIP_SHADOW)
+        depth = self.depth + ARCH * (x - self.middle) ** 2
+        photo = np.stack([x, held], axis=-1) @ self.matrix[:, :2].T + depth[..., None] * self.matrix[:, 2] + self.shift
+        at = ((photo - self.corner + 0.5) * self.scale - 0.5).astype(np.float32)
+        found = cv2.remap(self.layer, at[..., 0], at[..., 1], cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
+        layer = np.clip(np.asarray(found, np.float32), 0, (255, 255, 255, 1))
+        layer[..., 3] *= np.clip((self.ends(x) - held) / SOFTNESS + 1, 0, 1)
+        return layer
+
+    def brightest(self, gain: NDArray[np.floating]) -> float:
+        """The luminance of the lightest teeth, each channel times its `gain` (3,)."""
+        light = (self.layer[..., :3] * gain)[self.layer[..., 3] > 0.5] @ LUMINANCE_WEIGHTS
+        return max(float(np.percentile(light, TEETH_PERCENTILE)), 1.0) if len(light) else 255.0
+
+
+def teeth_strip(photo: FacePhoto, wanted: float) -> TeethStrip:
+    """That of a photograph, shrunk where its face is larger than one of an eye distance of `wanted` pixels asks for."""
+    front = frontalise(photo.mesh[None])[0]
+    unit = float(eye_distance(photo.mesh[:, :2]))
+    mouth = photo.mesh[list(LIPS_OUTER), :2]
+    low = np.floor(mouth.min(axis=0) - MARGIN * unit).astype(int).clip(0)
+    high = np.ceil(mouth.max(axis=0) + MARGIN * unit).astype(int)
+    part = photo.cut(low, np.minimum(high, photo.rgb.shape[1::-1]))
+    scale = min(wanted / unit, 1.0)
+    size = max(round(part.rgb.shape[1] * scale), 8), max(round(part.rgb.shape[0] * scale), 8)
+    scale = size[0] / part.rgb.shape[1]
+    small = resized(part.rgb, size).astype(np.float32)
+    sharpness = MAX_SHARPENING * float(np.clip(wanted / unit - 1, 0, 1))
+    sharp = np.clip(small + sharpness * (small - cv2.GaussianBlur(small, (0, 0), 1.0)), 0, 255)
+    lips = ((part.mesh[list(LIPS_INNER), :2] + 0.5) * scale - 0.5).astype(np.float32)
+    softness = max(0.5, SOFTNESS * unit * scale)
+    mask = cv2.GaussianBlur(soft_polygon(lips, size[::-1]), (0, 0), softness)
+    return TeethStrip(
+        np.dstack([sharp, np.asarray(mask)]).astype(np.float32),
+        front[list(UPPER_INNER_LIP), :2],
+        front[list(LOWER_INNER_LIP), :2],
+        float(front[list(UPPER_INNER_LIP[4:7]), 2].mean()) + BEHIND_LIPS,
+        _edge(part),
+        *skull_camera(front, photo.mesh),
+        low.astype(np.float64),
+        scale,
+    )
+
+
+def _edge(photo: FacePhoto) -> float:
+    """The share of the way from lip to lip where the upper teeth end, in the middle of the mouth."""
+    upper, lower = (photo.mesh[list(lip[3:8]), :2] for lip in (UPPER_INNER_LIP, LOWER_INNER_LIP))
+    down = (np.arange(ROWS) + 0.5)[:, None, None] / ROWS
+    at = np.asarray(upper + down * (lower - upper), np.float32)
+    light = np.asarray(cv2.remap(photo.rgb, at[..., 0], at[..., 1], cv2.INTER_LINEAR), np.float32) @ LUMINANCE_WEIGHTS
+    rows = light.mean(axis=1)
+    lightest = int(rows.argmax())
+    below = np.flatnonzero(rows[lightest:] < EDGE_LIGHT * rows[lightest])
+    return float(np.clip((lightest + below[0]) / ROWS if len(below) else 1.0, *EDGE_RANGE))
