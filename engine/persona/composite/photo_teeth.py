@@ -114,13 +114,13 @@ class PhotoTeeth:
         at `corner` (2,)."""
         place, behind = in_mouth(face, corner, shape), self.places(face, corner, shape)
         light = place.light()[..., None]
-        mixed = self._cavity + place.tongue()[..., None] * (self._tongue - self._cavity)
+        mixed: NDArray[np.float32] = self._cavity + place.tongue()[..., None] * (self._tongue - self._cavity)
         lower, upper = self.lower_teeth(behind, self.jaw_drop(face)), self.upper_teeth(behind)
         for teeth, lit in ((lower, light * LOWER_LIGHT), (upper, light)):
-            mixed = mixed + teeth[..., 3:] * (teeth[..., :3] * self._gain * lit - mixed)
+            mixed += teeth[..., 3:] * (teeth[..., :3] * self._gain * lit - mixed)
         if self._grey:
-            mixed = np.repeat((mixed @ LUMINANCE_WEIGHTS)[..., None], 3, axis=-1)
-        return np.asarray(mixed, np.float32)
+            mixed[:] = (mixed @ LUMINANCE_WEIGHTS)[..., None]
+        return mixed
 
     def places(
         self, face: NDArray[np.floating], corner: NDArray[np.floating], shape: tuple[int, int]

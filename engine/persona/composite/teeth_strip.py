@@ -45,9 +45,15 @@ EDGE_RANGE = (0.5, 1.0)
 class TeethStrip:
     """Of a face seen from the front, in its eye distances; places are (..., 2), x to the right and y down.
 
-    layer : (h, w, 4) float32, the photograph's mouth, and in [0, 1] what of it is within the inner lips. upper, lower : (11, 2) the inner
-    lips from corner to corner. depth : of the teeth in the middle. edge : the share of the way from lip to lip where teeth
-    end. matrix, shift : (2, 3) and (2,), from the face into the photograph. corner : (2,), and scale : from there into the layer.
+    layer : (h, w, 4) float32, the photograph's mouth, and in [0, 1] what of it is within the inner lips.
+    upper : (11, 2) the upper inner lip, from corner to corner.
+    lower : (11, 2) the lower one.
+    depth : of the teeth in the middle.
+    edge : the share of the way from lip to lip where teeth end.
+    matrix : (2, 3) from the face into the photograph, with `shift`.
+    shift : (2,) pixels of the photograph.
+    corner : (2,) pixels of the photograph at which the layer begins.
+    scale : of its pixels in the layer.
     """
 
     layer: NDArray[np.float32]
