@@ -24,10 +24,14 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
 
 
 def _prepare() -> None:
+    from engine.body import load_template
+    from engine.body.body_space import load_body_space
     from engine.perception.identity.dlib_descriptor import loaded_network
     from engine.persona import pipeline  # noqa: F401 - importing it is half of the preparation
 
     loaded_network()
+    load_template()  # a job may not read the user's cache, in which it lies: what is loaded here is kept
+    load_body_space()
 
 
 def _rehearse(folder: Path) -> None:

@@ -23,6 +23,7 @@ from engine.persona.composite.photo_performance import PHOTO_STAGES
 from engine.persona.early_average import EarlyAverage
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona, read_persona, write_persona
+from engine.persona.results.pictures import Studio
 from engine.persona.results.writing import write_results
 from engine.persona.stages import SortedFaces, find_faces_of_photos, learn, sort_faces, texture_width
 from engine.run import Run
@@ -55,7 +56,8 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
         average = average_texture(persona)
         write_still(out / "average.png", average, run.mark_synthetic)
         if not isinstance(driver, Path):
-            write_still(out / "poster.jpg", average, run.mark_synthetic)
+            at_rest = Studio(persona, options.size, options.background).picture(persona.neutral, average)
+            write_still(out / "poster.jpg", at_rest, run.mark_synthetic)
     if not (isinstance(kept, Path) and isinstance(driver, Path)):  # an earlier job has left them
         with run.timed("write_results"):
             told["photos_near"] = write_results(out, persona, average, options.background, run.mark_synthetic)

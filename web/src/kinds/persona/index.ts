@@ -40,7 +40,7 @@ export const persona: Kind<PersonaOrder> = {
       [/^puppet\.glb$/, words.show.glb],
     ],
     // never the photos' faces, nor what it can be driven with
-    opened: /^(animation\.mp4|still\.png|puppet\.glb|puppet_textures\.(webp|json)|poster\.jpg)$/,
+    opened: /^(animation\.mp4|still\.png|puppet\.glb|puppet_textures\.(jpg|json)|poster\.jpg)$/,
   },
   files: words.files,
   endings: { photos: 'zip', persona: 'npz', driver: 'mp4', driver_photos: 'zip' },

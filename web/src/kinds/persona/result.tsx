@@ -19,6 +19,7 @@ import { workName } from '../../works/names';
 import { usePersonaDraft } from './draft';
 import { FaceList } from './faces/face_list';
 import { useFaces } from './faces/use_faces';
+import { ExpressionGallery } from './gallery';
 import { carriedOver, personaOptions } from './types';
 import { words as personaWords } from './words';
 import './styles/result.css';
@@ -38,8 +39,8 @@ const views = {
   faces: 'faces.json',
 } as const;
 type View = keyof typeof views;
-type Still = 'still' | 'average' | 'gallery' | 'angles' | 'light';
-const stills: readonly string[] = ['still', 'average', 'gallery', 'angles', 'light'] satisfies Still[];
+type Still = 'still' | 'average' | 'angles' | 'light';
+const stills: readonly string[] = ['still', 'average', 'angles', 'light'] satisfies Still[];
 const isStill = (view: View): view is Still => stills.includes(view);
 
 /** Beside the model. */
@@ -63,6 +64,7 @@ export default function PersonaResult({ job, report }: ResultProps) {
         {view === 'animation' && <Film job={job} />}
         {view === 'model' && <Viewer job={job} renew={(signal) => getJob(job.id, signal)} first="look" beside={expressionsOf(job)} />}
         {view && isStill(view) && <Picture key={view} job={job} view={view} />}
+        {view === 'gallery' && <ExpressionGallery job={job} />}
         {view === 'faces' && <FoundFaces job={job} />}
       </div>
       <ResultActions job={job} filesOpen={shown.length === 0}>

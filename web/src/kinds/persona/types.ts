@@ -43,6 +43,18 @@ export const examplesIn = (job: Job): readonly number[] => (job.error?.found as 
 /** Files of one order: as many as the service takes of photos. */
 export const MOST_FILES = 800;
 
+/** Expressions of the collection's own (gallery.json), side by side in gallery.jpg. */
+export interface Gallery {
+  /** Width and height of each, in pixels. */
+  tile: readonly [number, number];
+  columns: number;
+  /** In their order; the face at rest has no photos of its own. */
+  shown: readonly { name: string; photos?: number }[];
+  /** What too few photos come near. */
+  left_out: readonly { name: string; photos: number }[];
+  photos_needed: number;
+}
+
 /** What is of the picture, and so goes along to another performance; the rest is of the photos, or of the performance. */
 const CARRIED = ['size', 'composite', 'background'] as const;
 

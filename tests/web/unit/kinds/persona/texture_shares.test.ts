@@ -13,9 +13,9 @@ it('shows the neutral texture at rest, and all of an expression’s where its un
   expect(sharesOf(textures, { jawOpen: 1 })).toEqual([0, 0, 1]);
 });
 
-it('shows half of it where one side smiles, and parts of two where a face does both', () => {
-  expect(sharesOf(textures, { mouthSmileLeft: 0.8 })).toEqual([0.5, 0.5, 0]);
-  expect(sharesOf(textures, { mouthSmileLeft: 0.8, jawOpen: 0.25 })).toEqual([0, 0.5, 0.5]);
+it('shows as much of it as the least moved unit has come, and parts of two where a face does both', () => {
+  expect(sharesOf(textures, { mouthSmileLeft: 0.8 })).toEqual([1, 0, 0]);
+  expect(sharesOf(textures, { mouthSmileLeft: 0.8, mouthSmileRight: 0.4, jawOpen: 0.125 })).toEqual([0.25, 0.5, 0.25]);
   const both = sharesOf(textures, { mouthSmileLeft: 1, mouthSmileRight: 1, jawOpen: 1 });
   expect(both).toEqual([0, 0.5, 0.5]);
 });

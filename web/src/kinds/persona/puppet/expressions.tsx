@@ -21,7 +21,7 @@ export default function PuppetExpressions({ job, stage, character }: Props) {
     const stop = new AbortController();
     const { signal } = stop;
     const blend = async (): Promise<void> => {
-      const url = job.artifacts['puppet_textures.webp']?.url;
+      const url = job.artifacts['puppet_textures.jpg']?.url;
       const told = await readArtifact<PuppetTextures>(job, 'puppet_textures.json', signal);
       if (!url || !told) return;
       const atlas = await loadAtlas(url);

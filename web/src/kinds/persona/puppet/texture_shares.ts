@@ -15,13 +15,13 @@ export interface PuppetTextures {
 }
 
 /**
- * A share for each texture; together they are 1. An expression has as much of its texture as its units are moved, in the mean;
+ * A share for each texture; together they are 1. An expression has as much of its texture as the least moved of its units has come;
  * of several that are more than one face together each has its part, and what is left is the neutral one's.
  */
 export function sharesOf(textures: readonly ExpressionTexture[], weights: FaceWeights): number[] {
   const shown = textures.map(({ units }) => {
     const shares = Object.entries(units).map(([unit, full]) => Math.min(1, (weights[unit] ?? 0) / full));
-    return shares.length ? shares.reduce((sum, share) => sum + share, 0) / shares.length : 0;
+    return shares.length ? Math.min(...shares) : 0;
   });
   const all = shown.reduce((sum, share) => sum + share, 0);
   const [, ...expressions] = all > 1 ? shown.map((share) => share / all) : shown;
