@@ -52,7 +52,10 @@ class Puppet:
         points = self.vertices(face) @ np.asarray(linear, np.float64).T + shift
         points[:, 2] += DISTANCE - points[:, 2].mean()
         drawn = picture.copy()
-        surface = self.surface._replace(mipmap=build_mipmap(texture))
+        enlarged = np.cbrt(abs(np.linalg.det(linear))) / self.persona.frame.scale
+        finest = min(texture.shape[:2])
+        mipmap = build_mipmap(texture, max(16, int(finest * min(enlarged, 1) / 2) + 1))  # no smaller than it is shown
+        surface = self.surface._replace(mipmap=mipmap)
         draw_surface(drawn, False, surface, points.astype(np.float32), Scratch())
         return drawn
 

@@ -40,7 +40,7 @@ def write_puppet(path: Path, persona: Persona, units: FaceUnits, texture: NDArra
         surface.triangles,
         surface.uv,
         np.zeros((len(vertices), 4), np.uint8),
-        np.tile(np.float32([1, 0, 0, 0]), (len(vertices), 1)),
+        np.tile(np.array([1, 0, 0, 0], np.float32), (len(vertices), 1)),
         texture,
     )
     morphs = [

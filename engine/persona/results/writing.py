@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.export.still import write_still
+from engine.persona.collection.coverage import MIN_PHOTOS_OF_EXPRESSION
 from engine.persona.persona import Persona
 from engine.persona.results.expression_textures import expression_textures, write_expression_textures
 from engine.persona.results.face_units import EXPRESSIONS, face_units
 from engine.persona.results.pictures import Studio, angles, average_light, gallery, sheet
 from engine.persona.results.puppet_model import write_puppet
-from engine.persona.results.shown_expressions import MIN_PHOTOS_OF_EXPRESSION, photos_near, shown_expressions
+from engine.persona.results.shown_expressions import photos_near, shown_expressions
 
 PICTURE_SIZE = (360, 440)
 SMALL_SIZE = (144, 176)
