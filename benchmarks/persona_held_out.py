@@ -115,12 +115,14 @@ def _mixed(
     persona: Persona, points: NDArray[np.float64], unaligned: NDArray[np.uint8]
 ) -> Mapping[str, NDArray[np.uint8]]:
     weights = expression_weights(points, persona.points * persona.frame.scale)
-    belief = persona.belief / np.float32(255) + np.float32(1e-3)
+    belief = np.asarray(persona.belief / np.float32(255) + np.float32(1e-3), np.float32)
     level = np.ones_like(weights)
     return {
         "average": _one_band(level, persona.colours, np.ones_like(belief)),
         "weighted, unaligned": _one_band(weights, unaligned, _detail(unaligned)),
-        "aligned, one band": _one_band(weights, persona.colours, _detail(persona.colours) * belief),
+        "aligned, one band": _one_band(
+            weights, persona.colours, np.asarray(_detail(persona.colours) * belief, np.float32)
+        ),
         "aligned, expression alone": _one_band(weights, persona.colours, belief),
         OURS: persona.synthesis(weights),
     }

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import io
+import re
+import struct
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from PIL import Image, ImageOps, UnidentifiedImageError
+from PIL import ExifTags, Image, ImageOps, UnidentifiedImageError
 
 from engine.errors import InputError
 from engine.imaging.filling.nearest import nearest_colours
@@ -18,6 +20,8 @@ from engine.media.sniff import IMAGE_TYPES, sniff
 _FORMATS = {f"image/{name.lower()}": name for name in ("JPEG", "PNG", "WEBP", "AVIF", "GIF")}
 """Pillow's name of what a file begins like: its other decoders are neither asked nor loaded."""
 
+FIRST_PHOTOGRAPH = 1826
+"""The year of Niepce's view from his window: cameras whose clock was never set say less."""
 _CUT_OUT = 0.01
 """A picture with more than this share of transparent pixels is a cut-out."""
 
@@ -25,11 +29,12 @@ _CUT_OUT = 0.01
 @dataclass(frozen=True)
 class Picture:
     """A decoded picture: `rgb` uint8 (H, W, 3) sRGB, upright; `alpha` float32 (H, W) [0, 1], None where opaque;
-    `format` the media type of the file it came from."""
+    `format` the media type of the file it came from; `year` in which it was taken, where the file says so (EXIF)."""
 
     rgb: np.ndarray
     alpha: np.ndarray | None
     format: str
+    year: int | None = None
 
 
 def read_image(path: Path, limits: Limits | None = None) -> Picture:
@@ -60,7 +65,7 @@ def read_image(path: Path, limits: Limits | None = None) -> Picture:
     rgb, alpha = _to_srgb(image)
     if alpha is not None:
         rgb = _without_hidden_colours(rgb, alpha)
-    return Picture(rgb, alpha, media_type)
+    return Picture(rgb, alpha, media_type, _year_taken(image))
 
 
 def is_cut_out(alpha: np.ndarray | None) -> bool:
@@ -139,6 +144,16 @@ def _read_heic(path: Path, limits: Limits) -> Image.Image:
     heif = pi_heif.open_heif(path, convert_hdr_to_8bit=True)
     _check_size(heif.size, limits)
     return heif.to_pillow()
+
+
+def _year_taken(image: Image.Image) -> int | None:
+    """What EXIF's DateTimeOriginal begins with; None where there is none, or nonsense."""
+    try:
+        told = str(image.getexif().get_ifd(ExifTags.IFD.Exif).get(ExifTags.Base.DateTimeOriginal, ""))
+    except (OSError, SyntaxError, ValueError, EOFError, IndexError, KeyError, TypeError, struct.error):
+        return None  # what a stranger has written there
+    found = re.match(r"(\d{4}):", told)
+    return int(found[1]) if found and int(found[1]) >= FIRST_PHOTOGRAPH else None
 
 
 def _check_size(size: tuple[int, int], limits: Limits) -> None:

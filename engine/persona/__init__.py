@@ -89,7 +89,7 @@ KIND = Kind(
     ),
     options=PersonaOptions,
     work=_work,
-    correctable=("keep", "leave_out", "example", "texture_width", "driver_face_index", "trim", "size"),
+    correctable=("keep", "leave_out", "example", "years", "look", "texture_width", "driver_face_index", "trim", "size"),
     prepare=_prepare,
     rehearse=_rehearse,
     needs=Needs(seconds=1800, memory_mb=4000, cores=2),

@@ -10,6 +10,7 @@ Side = Annotated[int, Field(ge=64, le=1920)]
 FaceNumber = Annotated[int, Field(ge=0, le=10_000)]
 FaceNumbers = Annotated[tuple[FaceNumber, ...], Field(max_length=10_000)]
 Channel = Annotated[int, Field(ge=0, le=255)]
+Year = Annotated[int, Field(ge=1826, le=2200)]
 Seconds = Annotated[float, Field(ge=0, le=86_400)]
 
 
@@ -28,6 +29,14 @@ class PersonaOptions(BaseModel):
     example: FaceNumber | None = Field(
         None,
         description="A face of the person that is meant, where photos show several, by its number in `faces.json`.",
+    )
+    years: tuple[Year, Year] | None = Field(
+        None, description="First and last year of the photos to use, of those that say when they were taken."
+    )
+    look: Annotated[int, Field(ge=0, le=3)] | None = Field(
+        None,
+        description="Which of the person's looks to use, where the photos show several, of decades say: its number in `faces.json`, 0 is"
+        " the one that most show. Default: all of them.",
     )
     size: tuple[Side, Side] = Field((600, 800), description="Width and height of the animation, in pixels.")
     fps: Annotated[float, Field(ge=1, le=60)] | None = Field(

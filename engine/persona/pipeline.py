@@ -2,30 +2,22 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.export.still import write_first_impression, write_still
+from engine.export.still import write_still
 from engine.kind import Given
-from engine.perception.identity.backend import descriptor_distances, descriptor_name
 from engine.persona.animating import animate_persona
-from engine.persona.collection.coverage import rare, shown_expressions, shown_sides
-from engine.persona.collection.face_sheet import write_faces
-from engine.persona.collection.photos import Photos, read_photos
-from engine.persona.collection.sorting import Choice
-from engine.persona.composite.acting_photos import with_acting_photos
+from engine.persona.collecting import learnt_of_photos
 from engine.persona.composite.photo_performance import PHOTO_STAGES
-from engine.persona.early_average import EarlyAverage
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona, read_persona, write_persona
 from engine.persona.results.pictures import Studio
 from engine.persona.results.writing import write_results
-from engine.persona.stages import SortedFaces, find_faces_of_photos, learn, sort_faces, texture_width
 from engine.run import Run
 from engine.run_report import write_report
 
@@ -50,7 +42,7 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
         persona = read_persona(kept)
     else:
         assert isinstance(photos, tuple)
-        persona, told = _learnt(photos, options, out, run)
+        persona, told = learnt_of_photos(photos, options, out, run)
     with run.timed("write_persona"):
         write_persona(out / "persona.npz", persona)
         average = average_texture(persona)
@@ -89,45 +81,3 @@ def _plan(inputs: Mapping[str, Given], options: PersonaOptions) -> dict[str, flo
 def average_texture(persona: Persona) -> NDArray[np.uint8]:
     """(H, W, 3) the face at rest, of all photographs."""
     return persona.synthesis(persona.weights(persona.neutral[None]))[0]
-
-
-def _learnt(paths: Sequence[Path], options: PersonaOptions, out: Path, run: Run) -> tuple[Persona, dict[str, object]]:
-    photos: Photos = run.stage("read_photos", read_photos, tuple(paths), run.limits, run.tick)
-    if not len(photos):
-        raise InputError(
-            "no_photos", "None of the files is a photo: send pictures, or an archive of pictures.", ("photos",)
-        )
-    for early in write_first_impression(out, photos.picture(0), None, run.mark_synthetic):
-        run.publish(early)
-    described_by = descriptor_name(os.environ)
-    choice = Choice(options.keep, options.leave_out)
-    early_average = EarlyAverage(out, run.publish, descriptor_distances(os.environ), choice, run.mark_synthetic)
-    found = run.stage("find_faces", find_faces_of_photos, photos, described_by, run.tick, early_average.add)
-    chosen = sort_faces(found, descriptor_distances(os.environ), choice, options.example)
-    _tell_faces(out, photos, chosen, run)  # before anything is refused: its numbers are those of what mends it
-    chosen.require_enough()
-    if options.photo is not None:
-        chosen.place(options.photo)  # refused early where it is left out
-    width = options.texture_width or texture_width(chosen.kept)
-    learnt = run.stage("learn_persona", learn, photos, chosen, options.keep, width, run.tick)
-    if not learnt.used.all():
-        chosen = chosen.without_covered(learnt.used)
-        _tell_faces(out, photos, chosen, run)
-        chosen.require_enough()
-    expressions, sides = shown_expressions(chosen.kept), shown_sides(chosen.kept)
-    if few := rare(expressions):
-        run.warn(
-            "expressions_rare",
-            f"Few photos show: {few}. Where a driver does, what is nearest stands in for it: add photos that show it.",
-        )
-    told = {"photos": len(photos), "files_skipped": len(photos.skipped), "faces": len(chosen.faces)}
-    wanted = None if options.photo is None else chosen.place(options.photo)
-    faces = chosen.kept
-    persona = with_acting_photos(learnt.persona, faces, lambda place: photos.picture(faces[place].photo), wanted)
-    return persona, {**told, "expressions": expressions, "sides": sides}
-
-
-def _tell_faces(out: Path, photos: Photos, chosen: SortedFaces, run: Run) -> None:
-    distances = chosen.whose.distance.tolist()
-    for early in write_faces(out, photos, chosen.faces, chosen.reasons, distances, run.mark_synthetic):
-        run.publish(early)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +17,7 @@ from engine.perception.expression.features import frontalise
 from engine.perception.identity.backend import descriptor_distances, descriptor_name, face_descriptor
 from engine.perception.identity.descriptor import IdentityDistances
 from engine.persona.collection.coverage import rare, shown_expressions, shown_sides
+from engine.persona.collection.looks import looks
 from engine.persona.collection.person import Belonging, belonging
 from engine.persona.collection.photo_face import PhotoFace, faces_of
 from engine.persona.collection.photos import Photos, read_photos
@@ -43,6 +44,8 @@ WORDS: dict[Reason, str] = {
     "tiny": "are too small",
     "blurred": "are blurred",
     "duplicate": "are there twice",
+    "other_years": "are of other years, or do not say of which",
+    "other_look": "show another look",
     "covered": "are covered, in a light of their own, or painted",
     "left_out": "were left out",
 }
@@ -57,11 +60,13 @@ class PhotoFaces:
 
 @dataclass(frozen=True)
 class SortedFaces:
-    """The faces of a collection, why each is of no use (`Reason`, None where it is kept), and whose they are."""
+    """The faces of a collection, why each is of no use (`Reason`, None where it is kept), whose they are, and of which of the person's looks
+    each is that is of use, or would be were it of the look that is meant."""
 
     faces: tuple[PhotoFace, ...]
     reasons: tuple[Reason | None, ...]
     whose: Belonging
+    looks: tuple[int | None, ...]
 
     @property
     def kept(self) -> list[PhotoFace]:
@@ -95,7 +100,7 @@ class SortedFaces:
         kept = [number for number, reason in enumerate(self.reasons) if reason is None]
         covered = {number for number, one in zip(kept, used, strict=True) if not one}
         reasons = ("covered" if number in covered else reason for number, reason in enumerate(self.reasons))
-        return SortedFaces(self.faces, tuple(reasons), self.whose)
+        return replace(self, reasons=tuple(reasons))
 
 
 def find_faces_of_photos(
@@ -110,7 +115,7 @@ def find_faces_of_photos(
     found: list[PhotoFace] = []
     for number in range(len(photos)):
         rgb = photos.picture(number)
-        faces = faces_of(rgb, number, describe)
+        faces = [replace(face, year=photos.years[number]) for face in faces_of(rgb, number, describe)]
         found += faces
         on_photo(rgb, faces)
         tick((number + 1) / len(photos))
@@ -118,9 +123,21 @@ def find_faces_of_photos(
 
 
 def sort_faces(found: PhotoFaces, distances: IdentityDistances, choice: Choice, example: int | None) -> SortedFaces:
-    """Whose faces they are, and which are of use. Raises `InputError` `no_common_person`."""
+    """Whose faces they are, and which are of use. Raises `InputError`: `no_common_person`, `look_unknown`."""
     whose = belonging(found.faces, distances, example)
-    return SortedFaces(found.faces, reasons_against(found.faces, whose, choice), whose)
+    reasons = list(reasons_against(found.faces, whose, choice))
+    kept = [number for number, reason in enumerate(reasons) if reason is None]
+    told = dict(zip(kept, looks([found.faces[number].descriptor for number in kept], distances.same), strict=True))
+    if choice.look is not None:
+        if choice.look not in told.values():
+            shown = len(set(told.values()))
+            raise InputError(
+                "look_unknown", f"The photos show {shown} look(s) of the person, counted from 0.", ("look",)
+            )
+        for number in kept:
+            if told[number] != choice.look and number not in choice.keep:
+                reasons[number] = "other_look"
+    return SortedFaces(found.faces, tuple(reasons), whose, tuple(told.get(k) for k in range(len(found.faces))))
 
 
 def learn(

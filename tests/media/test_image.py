@@ -418,3 +418,25 @@ def test_real_portraits(media) -> None:  # type: ignore[no-untyped-def]
     }.items():
         picture = read_image(media(f"portraits/{name}"))
         assert picture.rgb.shape == shape and picture.alpha is None
+
+
+def dated(path: Path, told: str) -> Path:
+    """A grey JPEG whose EXIF says that it was taken then."""
+    picture = Image.new("RGB", (64, 64), (90, 90, 90))
+    exif = picture.getexif()
+    exif.get_ifd(0x8769)[0x9003] = told
+    picture.save(path, exif=exif)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("told", "year"),
+    [("1984:05:01 12:00:00", 1984), ("0000:00:00 00:00:00", None), ("yesterday", None), ("\x00\x00", None)],
+)
+def test_the_year_is_what_exif_says(told: str, year: int | None, tmp_path: Path) -> None:
+    assert read_image(dated(tmp_path / "dated.jpg", told)).year == year
+
+
+def test_exif_that_is_no_exif_says_no_year(tmp_path: Path) -> None:
+    Image.new("RGB", (64, 64)).save(tmp_path / "odd.jpg", exif=b"Exif\x00\x00II*\x00\xff\xff\xff\x7f")
+    assert read_image(tmp_path / "odd.jpg").year is None

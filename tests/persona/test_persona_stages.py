@@ -12,7 +12,9 @@ import pytest
 from engine.errors import InputError
 from engine.media.image import write_image
 from engine.media.limits import Limits
+from engine.perception.identity.descriptor import IdentityDistances
 from engine.perception.identity.dlib_descriptor import DISTANCES
+from engine.persona.collection.photo_face import PhotoFace
 from engine.persona.collection.photos import Photos, read_photos
 from engine.persona.collection.sorting import Choice
 from engine.persona.stages import (
@@ -89,6 +91,28 @@ def test_what_lacks_is_told(found: PhotoFaces) -> None:
     leave_out = set(range(len(found.faces) - 9))
     with pytest.raises(InputError, match=r"show little of: .*pursed lips \(none\)"):
         sort_faces(found, DISTANCES, Choice(leave_out=leave_out), None).require_enough()
+
+
+def test_a_look_that_is_not_there_is_refused(found: PhotoFaces) -> None:
+    assert sort_faces(found, DISTANCES, Choice(look=0), None).reasons.count("other_look") == 0
+    with pytest.raises(InputError) as error:
+        sort_faces(found, DISTANCES, Choice(look=1), None)
+    assert (error.value.code, error.value.correctable) == ("look_unknown", ("look",))
+
+
+def test_of_two_looks_one_is_used(found: PhotoFaces) -> None:
+    random = np.random.default_rng(2)
+
+    def another(face: PhotoFace, copy: int) -> PhotoFace:
+        elsewhere = face.descriptor + 0.45 * (copy % 2) * np.eye(len(face.descriptor), dtype=np.float32)[0]
+        chip = random.integers(0, 255, face.chip.shape).astype(np.uint8)
+        return replace(face, photo=100 * copy + face.photo, descriptor=elsewhere, chip=chip)
+
+    both = PhotoFaces(tuple(another(face, copy) for copy in range(4) for face in found.faces))
+    chosen = sort_faces(both, IdentityDistances(0.8, 1.2), Choice(look=0), None)
+    assert {0, 1} <= set(chosen.looks) and "other_look" in chosen.reasons
+    used = {look for look, reason in zip(chosen.looks, chosen.reasons, strict=True) if reason is None}
+    assert used == {0}
 
 
 def test_faces_that_were_not_used_are_covered(found: PhotoFaces) -> None:

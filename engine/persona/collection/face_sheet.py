@@ -27,13 +27,14 @@ def write_faces(
     faces: Sequence[PhotoFace],
     reasons: Sequence[str | None],
     distances: Sequence[float],
+    looks: Sequence[int | None],
     synthetic: bool,
 ) -> list[Path]:
     """Leave `faces.json`, a list of all faces by their numbers, and `faces.jpg`, their pictures in rows of `COLUMNS`."""
     rows = max(-(-len(faces) // COLUMNS), 1)
     sheet = np.full((rows * TILE, COLUMNS * TILE, 3), 255, np.uint8)
     told = []
-    for number, (face, reason, distance) in enumerate(zip(faces, reasons, distances, strict=True)):
+    for number, (face, reason, distance, look) in enumerate(zip(faces, reasons, distances, looks, strict=True)):
         row, column = divmod(number, COLUMNS)
         sheet[row * TILE : (row + 1) * TILE, column * TILE : (column + 1) * TILE] = _picture(
             photos.picture(face.photo), face.mesh
@@ -44,6 +45,8 @@ def write_faces(
                 "kept": reason is None,
                 "reason": reason,
                 "distance": round(distance, 3),
+                "look": look,
+                "year": face.year,
                 "eye_distance": round(face.eye_distance, 1),
                 "yaw": round(face.yaw, 1),
                 "pitch": round(face.pitch, 1),

@@ -32,10 +32,12 @@ class SkippedFile:
 
 @dataclass(frozen=True)
 class Photos:
-    """strip : the N photographs, upright, as they are looked at. names : of their files. skipped : files that are none."""
+    """strip : the N photographs, upright, as they are looked at. names : of their files. years : in which they were taken, None where
+    a file does not say. skipped : files that are none."""
 
     strip: FilmStrip
     names: tuple[str, ...]
+    years: tuple[int | None, ...]
     skipped: tuple[SkippedFile, ...]
 
     def __len__(self) -> int:
@@ -54,6 +56,7 @@ def read_photos(paths: Sequence[Path], limits: Limits, tick: Callable[[float], N
     InputError : `too_many_photos`, and what `unpack_pictures` raises of an archive.
     """
     names: list[str] = []
+    years: list[int | None] = []
     skipped: list[SkippedFile] = []
     with tempfile.TemporaryDirectory(prefix="galatea-") as folder, FilmStripWriter(QUALITY) as writer:
         files = list(_files(paths, Path(folder)))
@@ -66,10 +69,11 @@ def read_photos(paths: Sequence[Path], limits: Limits, tick: Callable[[float], N
                 picture = read_image(path, limits)
                 writer.write(np.ascontiguousarray(as_looked_at(over_grey(picture.rgb, picture.alpha))))
                 names.append(name)
+                years.append(picture.year)
             except InputError as error:
                 skipped.append(SkippedFile(name, error.code))
             tick((number + 1) / len(files))
-        return Photos(writer.strip(), tuple(names), tuple(skipped))
+        return Photos(writer.strip(), tuple(names), tuple(years), tuple(skipped))
 
 
 def _files(paths: Sequence[Path], folder: Path) -> Iterator[tuple[Path, str]]:

@@ -21,16 +21,30 @@ MAX_BLUR = 0.62
 DUPLICATE_CORRELATION, DUPLICATE_DISTANCE = 0.98, 0.25
 """Of chips and of descriptors, at once: the same picture, in another size or another file."""
 
-Reason = Literal["left_out", "somebody_else", "uncertain", "turned", "tiny", "blurred", "duplicate", "covered"]
+Reason = Literal[
+    "left_out",
+    "somebody_else",
+    "uncertain",
+    "turned",
+    "tiny",
+    "blurred",
+    "duplicate",
+    "other_years",
+    "other_look",
+    "covered",
+]
 """`covered` is told of a whole collection, once its photographs lie on one another (`engine.persona.learning`)."""
 
 
 @dataclass(frozen=True)
 class Choice:
-    """What somebody has said of faces, by their numbers: to keep them whatever speaks against it, or to leave them out."""
+    """What somebody has said of faces, by their numbers: to keep them whatever speaks against it, or to leave them out; the first and
+    the last of the `years` that are meant, and which `look` is."""
 
     keep: Collection[int] = ()
     leave_out: Collection[int] = ()
+    years: tuple[int, int] | None = None
+    look: int | None = None
 
 
 def reasons_against(faces: Sequence[PhotoFace], belonging: Belonging, choice: Choice) -> tuple[Reason | None, ...]:
@@ -53,6 +67,8 @@ def _reason(face: PhotoFace, belongs: str, number: int, choice: Choice) -> Reaso
         return None
     if belongs != "person":
         return "somebody_else" if belongs == "other" else "uncertain"
+    if choice.years is not None and not (face.year and choice.years[0] <= face.year <= choice.years[1]):
+        return "other_years"
     if abs(face.yaw) > MAX_YAW or abs(face.pitch) > MAX_PITCH:
         return "turned"
     if face.eye_distance < MIN_EYE_DISTANCE:

@@ -111,3 +111,12 @@ def test_of_the_same_picture_the_largest_is_kept() -> None:
     faces.append(replace(faces[5], photo=18, descriptor=known[6]))  # the chip alone is the same
     reasons = reasons_against(faces, belonging(faces, DISTANCES), Choice())
     assert [k for k, reason in enumerate(reasons) if reason == "duplicate"] == [2, 17]
+
+
+def test_of_other_years_is_what_does_not_say_that_it_is_not() -> None:
+    taken = (1984, 1990, 1991, None)
+    faces = [replace(face(k, d), year=year) for (k, d), year in zip(enumerate(person(1, 4)), taken, strict=True)]
+    found = reasons_against(faces, belonging(faces, DISTANCES), Choice(years=(1980, 1990)))
+    assert found == (None, None, "other_years", "other_years")
+    kept = reasons_against(faces, belonging(faces, DISTANCES), Choice(years=(1980, 1990), keep={3}))
+    assert kept[3] is None

@@ -1855,6 +1855,19 @@ export interface components {
              */
             example?: number | null;
             /**
+             * @description First and last year of the photos to use, of those that say when they were taken.
+             * @default null
+             */
+            years?: [
+                number,
+                number
+            ] | null;
+            /**
+             * @description Which of the person's looks to use, where the photos show several, of decades say: its number in `faces.json`, 0 is the one that most show. Default: all of them.
+             * @default null
+             */
+            look?: number | null;
+            /**
              * @description Width and height of the animation, in pixels.
              * @default [
              *       600,

@@ -13,7 +13,7 @@ export const LEAST_PHOTOS = 15;
 export const LEAST_PERFORMER_PHOTOS = 8;
 
 /** Why a face is of no use, in the order in which they are told: first what somebody has to say of. */
-export const reasons = ['uncertain', 'left_out', 'covered', 'turned', 'blurred', 'tiny', 'duplicate', 'somebody_else'] as const;
+export const reasons = ['uncertain', 'left_out', 'covered', 'turned', 'blurred', 'tiny', 'duplicate', 'other_years', 'other_look', 'somebody_else'] as const;
 export type Reason = (typeof reasons)[number];
 
 /** A face of the collection, and what became of it. Faces are known by their places in the list. */
