@@ -80,6 +80,16 @@ describe('photos of somebody', () => {
     await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
     const made = jobOf(page);
     await readable(page);
+    await page.getByRole('button', { name: 'In 3D', exact: true }).click();
+    const stage = page.locator('.viewer-stage[aria-busy="false"]');
+    await stage.waitFor();
+    const seen = async (): Promise<string> => (await stage.screenshot()).toString('base64');
+    const calm = await seen();
+    await page.getByRole('region', { name: 'Expressions' }).getByRole('button', { name: 'Surprise' }).click();
+    await expect.poll(seen).not.toBe(calm);
+    await readable(page);
+    await page.getByRole('button', { name: 'Expressions', exact: true }).click();
+    await page.getByRole('img', { name: 'At rest' }).waitFor();
     await page.getByRole('button', { name: 'Average', exact: true }).click();
     await page.getByAltText('The average face of all photos').waitFor();
     await page.getByRole('button', { name: 'Faces', exact: true }).click();

@@ -22,7 +22,7 @@ interface Props {
 
 export default function ExpressionPanel({ stage, character }: Props) {
   const [weights, setWeights] = useState<Expression>({});
-  const near = useRef(false);
+  const near = useRef(!character.stands); // a face alone is looked at from close by from the first
   useEffect(() => () => character.face.set({}), [character]);
 
   const closeUp = (): void => {
@@ -49,9 +49,11 @@ export default function ExpressionPanel({ stage, character }: Props) {
       <header>
         <h2>{words.title}</h2>
         <div class="actions">
-          <button type="button" class="toggle" onClick={closeUp}>
-            {words.closeUp}
-          </button>
+          {character.stands && (
+            <button type="button" class="toggle" onClick={closeUp}>
+              {words.closeUp}
+            </button>
+          )}
           <button type="button" class="toggle" disabled={Object.keys(weights).length === 0} onClick={() => show({})}>
             {words.reset}
           </button>

@@ -15,7 +15,7 @@ import { Tool } from '../../picture_editor/tools';
 /** Metres from the joints to the outline of the body. */
 const FLESH = 0.16;
 /** Metres around a face alone. */
-const AROUND_FACE = 0.03;
+const AROUND_FACE = 0.012;
 /** At how many moments of a clip it is seen what room it takes: jumps go up, arms are raised. */
 const MOMENTS = 16;
 
