@@ -51,7 +51,7 @@ def test_a_blink_shuts_eyes_of_another_height(heads: tuple[MeshUnits, MeshUnits]
     for contour in (LEFT_EYE, RIGHT_EYE):
         plain, adjusted = (np.abs(gaps(puppet.rest + moved, contour)).mean() for moved in (blink, transfer(blink)))
         assert adjusted < 0.4 * plain, "eye distances that lids are apart, or over each other"
-        assert adjusted < 0.13 * gaps(puppet.rest, contour).mean()
+        assert adjusted < 0.16 * gaps(puppet.rest, contour).mean()
 
 
 def test_lips_meet_from_a_mouth_that_is_open_wider(heads: tuple[MeshUnits, MeshUnits]) -> None:
