@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -11,17 +11,18 @@ from typing import Any, TypeAlias, TypeVar, Unpack
 
 from pydantic import BaseModel, ValidationError
 
-from engine import character, portrait
+from engine import avatar, character, persona, portrait
 from engine.allocation import give_back_memory
 from engine.delivery import deliver
 from engine.errors import InputError
 from engine.kind import AUTO, Candidates, Given
+from engine.motion.library import CLIPS
 from engine.performances import names, video
 from engine.run import Progress, Run
 from engine.store import StageStore
 from engine.unknown_options import with_suggestions
-from galatea.inputs import File, Picture, file, picture_file
-from galatea.options import CharacterOptions, PortraitOptions
+from galatea.inputs import File, Photos, Picture, file, photo_files, picture_file
+from galatea.options import AvatarOptions, CharacterOptions, PersonaOptions, PortraitOptions
 from galatea.result import Result, result_of
 from galatea.silence_libraries import silence_libraries
 
@@ -112,6 +113,97 @@ def wake_up(
         with _run(progress, cache, mark_synthetic, Path(folder)) as run:
             made = deliver(character.KIND, inputs, chosen, Path(out), run)
     return result_of(made, "character.glb", run.notices)
+
+
+def make_avatar(
+    body: File,
+    out: Folder,
+    motion: File = "idle",
+    *,
+    head: File | None = None,
+    more: Sequence[File] = (),
+    driver: File | None = None,
+    progress: Follower | None = None,
+    cache: Folder | None = None,
+    mark_synthetic: bool = True,
+    **options: Unpack[AvatarOptions],
+) -> Result:
+    """Make an avatar for games of a person who was filmed from all around.
+
+    Parameters
+    ----------
+    body : a clip of the whole person, who stands still; one slow circle around the upper body, then one around the legs.
+    out : folder for the artifacts, made if it is not there. After an error it is as it was.
+    motion : the name of a built-in motion, or a BVH or GLB file.
+    head : a clip of the same person's head: a slow circle, then the crown, then under the chin.
+    more : further clips of the person.
+    driver : a video of a face, which the avatar's face follows in the film.
+    progress, cache, mark_synthetic : as of `animate`.
+    options : those of the job kind `avatar`, such as `height_m=1.8` or `vrm=True`.
+
+    Raises
+    ------
+    GalateaError : a clip, the motion or an option cannot be used; says what to do.
+    """
+    built_in = isinstance(motion, str) and motion in CLIPS and not Path(motion).is_file()
+    chosen = _checked(avatar.AvatarOptions, {**options, **({"motion": motion} if built_in else {})})
+    with TemporaryDirectory(prefix="galatea-") as folder:
+        held = Path(folder)
+        inputs: dict[str, Given] = {"body": file(body, "body", held)}
+        if not built_in:
+            inputs["motion"] = file(motion, "motion", held, tuple(CLIPS))
+        for name, clip in (("head", head), ("driver", driver)):
+            if clip is not None:
+                inputs[name] = file(clip, name, held)
+        if more:
+            inputs["more"] = tuple(file(clip, f"more-{number}", held) for number, clip in enumerate(more))
+        with _run(progress, cache, mark_synthetic, held) as run:
+            made = deliver(avatar.KIND, inputs, chosen, Path(out), run)
+    return result_of(made, "avatar.glb", run.notices)
+
+
+def make_persona(
+    photos: Photos,
+    driver: File | None,
+    out: Folder,
+    *,
+    driver_photos: Photos | None = None,
+    progress: Follower | None = None,
+    cache: Folder | None = None,
+    mark_synthetic: bool = True,
+    **options: Unpack[PersonaOptions],
+) -> Result:
+    """Make a puppet of a person out of their photographs, and let it play what somebody else does.
+
+    Parameters
+    ----------
+    photos : a folder or an archive of photographs, or a sequence of pictures and archives; fifteen have to be of use. Or the
+        `persona.npz` of an earlier call, which takes seconds.
+    driver : a video of a face, a picture of one, or the name of a built-in performance; None makes the persona alone.
+    out : folder for the artifacts, made if it is not there. After an error it is as it was.
+    driver_photos : photographs of the driver, which tell what the face is like at rest.
+    progress, cache, mark_synthetic : as of `animate`.
+    options : those of the job kind `persona`, such as `composite="photo"`.
+
+    Raises
+    ------
+    GalateaError : the photographs, the driver or an option cannot be used; says what to do.
+    """
+    chosen = _checked(persona.PersonaOptions, options)
+    with TemporaryDirectory(prefix="galatea-") as folder:
+        held = Path(folder)
+        given = photo_files(photos, "photos", held)
+        kept = len(given) == 1 and given[0].suffix == ".npz"
+        inputs: dict[str, Given] = {"persona": given[0]} if kept else {"photos": given}
+        if driver is not None:
+            named = isinstance(driver, str) and driver in names() and not Path(driver).is_file()
+            inputs["driver"] = video(str(driver)) if named else file(driver, "driver", held, names())
+        if driver_photos is not None:
+            inputs["driver_photos"] = photo_files(driver_photos, "driver_photos", held)
+        with _run(progress, cache, mark_synthetic, held) as run:
+            made = deliver(persona.KIND, inputs, chosen, Path(out), run)
+    main = next(name for name in ("animation.mp4", "still.png", "persona.npz") if name in {one.name for one in made})
+    return result_of(made, main, run.notices)
 
 
 def _driver(given: File, folder: Path) -> Given:

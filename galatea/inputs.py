@@ -18,6 +18,8 @@ File: TypeAlias = str | os.PathLike[str] | bytes | bytearray | memoryview
 Picture: TypeAlias = File | NDArray[Any] | Image.Image
 """A picture: a file, an array (H, W), (H, W, 3) or (H, W, 4) as Pillow has it, RGB; bool, uint8, or float in [0, 1]; or a
 picture of Pillow's."""
+Photos: TypeAlias = File | Sequence[Picture]
+"""Photographs: a folder, an archive, or a sequence of pictures and archives."""
 
 KEPT_MODES = ("1", "L", "LA", "P", "RGB", "RGBA", "I;16")
 """Those of Pillow's that a PNG holds as they are."""
@@ -40,6 +42,20 @@ def picture_file(given: Picture, name: str, folder: Path) -> Path:
     path = folder / f"{name}.png"
     kept.save(path, icc_profile=profile, compress_level=1)
     return path
+
+
+def photo_files(given: Photos, name: str, folder: Path) -> tuple[Path, ...]:
+    """The files of photographs; those that are in memory are written into `folder`, without loss.
+
+    Raises
+    ------
+    InputError : `file_not_found`, `not_an_image`.
+    """
+    if isinstance(given, str | os.PathLike) and Path(given).is_dir():
+        return tuple(sorted(one for one in Path(given).iterdir() if one.is_file() and not one.name.startswith(".")))
+    if isinstance(given, str | os.PathLike | bytes | bytearray | memoryview):
+        return (file(given, name, folder),)
+    return tuple(picture_file(one, f"{name}-{number}", folder) for number, one in enumerate(given))
 
 
 def file(given: File, name: str, folder: Path, offered: Sequence[str] = ()) -> Path:

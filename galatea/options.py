@@ -50,3 +50,47 @@ class CharacterOptions(TypedDict, total=False):
     mask_strokes: Sequence[Mapping[str, Any]]
     label_strokes: Sequence[Mapping[str, Any]]
     back_texture: Literal["mirror", "inpaint"]
+
+
+class AvatarOptions(TypedDict, total=False):
+    """Options of the avatar system."""
+
+    height_m: float | None
+    body_frames: int
+    head_frames: int
+    more_frames: int
+    texture_size: Literal["1024", "2048", "4096", "8192"]
+    triangles: int
+    levels: int
+    compression: Literal["none", "meshopt"]
+    vrm: bool
+    vrm_author: str
+    body_lens: Mapping[str, Any] | None
+    head_lens: Mapping[str, Any] | None
+    body_frames_left_out: Sequence[int]
+    head_frames_left_out: Sequence[int]
+    landmarks: Mapping[str, Sequence[Mapping[str, Any]]]
+    motion_joints: Mapping[str, str | None]
+    motion_clip: str | None
+    size: tuple[int, int]
+    fps: float
+    seconds: float
+
+
+class PersonaOptions(TypedDict, total=False):
+    """Options of the persona system."""
+
+    texture_width: int | None
+    keep: Sequence[int]
+    leave_out: Sequence[int]
+    example: int | None
+    years: tuple[int, int] | None
+    look: int | None
+    size: tuple[int, int]
+    fps: float | None
+    trim: tuple[float, float] | None
+    driver_face_index: int
+    composite: Literal["none", "photo", "side_by_side"]
+    photo: int | None
+    background: tuple[int, int, int]
+    sound: bool

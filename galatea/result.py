@@ -19,7 +19,7 @@ class Result:
     """
 
     path: Path
-    """The main artifact: the animation, the profile of a portrait that reacts, the character."""
+    """The main artifact: the animation, the profile of a portrait that reacts, the character, the avatar, the persona."""
     artifacts: Mapping[str, Path]
     """All of them, by name."""
     warnings: tuple[Notice, ...]

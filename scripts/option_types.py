@@ -9,7 +9,9 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
 
+from engine.avatar import AvatarOptions
 from engine.character import CharacterOptions
+from engine.persona import PersonaOptions
 from engine.portrait import PortraitOptions
 
 OUT_FILE = Path(__file__).parent.parent / "galatea" / "options.py"
@@ -23,6 +25,8 @@ from typing import Any, Literal, TypedDict
 CALL_OPTIONS: Mapping[str, tuple[type[BaseModel], tuple[str, ...]]] = {
     "PortraitOptions": (PortraitOptions, ()),
     "CharacterOptions": (CharacterOptions, ("motion",)),  # an argument of its own, which may be a file
+    "AvatarOptions": (AvatarOptions, ("motion",)),
+    "PersonaOptions": (PersonaOptions, ()),
 }
 """The models, and which of their options are no options of the call."""
 

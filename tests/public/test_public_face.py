@@ -22,6 +22,7 @@ from engine.export.synthetic import SOURCE_TYPE
 from engine.media.video import probe_video
 from engine.package_data import IncompleteInstallation
 from engine.performances import names, poster, video
+from engine.persona.sample import write_sample_photos
 from engine.run import Run
 from scripts.option_types import OUT_FILE, written
 
@@ -31,8 +32,8 @@ SHORT: dict[str, Any] = {"trim": (0, 0.2), "size": (96, 96), "head_3d": False}
 
 def test_what_is_exported() -> None:
     assert galatea.__all__ == [
-        *("CharacterOptions", "GalateaError", "Notice", "PortraitOptions", "Progress", "Result"),
-        *("animate", "wake_up"),
+        *("AvatarOptions", "CharacterOptions", "GalateaError", "Notice", "PersonaOptions", "PortraitOptions"),
+        *("Progress", "Result", "animate", "make_avatar", "make_persona", "wake_up"),
     ]
     assert all(hasattr(galatea, name) for name in galatea.__all__)
     assert {name for name in vars(galatea) if not name.startswith("_")} - {
@@ -44,13 +45,15 @@ def test_what_is_exported() -> None:
 def test_the_calls_have_one_manner() -> None:
     """What is no matter of one system alone has the same names, kinds and defaults; options are keywords."""
     shared = ("out", "progress", "cache", "mark_synthetic", "options")
-    animate, wake_up = (
+    animate, *others = (
         {name: given for name, given in inspect.signature(call).parameters.items() if name in shared}
-        for call in (galatea.animate, galatea.wake_up)
+        for call in (galatea.animate, galatea.wake_up, galatea.make_avatar, galatea.make_persona)
     )
-    assert tuple(animate) == tuple(wake_up) == shared
-    for name in shared:
-        assert (animate[name].kind, animate[name].default) == (wake_up[name].kind, wake_up[name].default)
+    assert tuple(animate) == shared
+    for other in others:
+        assert tuple(other) == shared
+        for name in shared:
+            assert (animate[name].kind, animate[name].default) == (other[name].kind, other[name].default)
     assert all(animate[name].kind is inspect.Parameter.KEYWORD_ONLY for name in shared[1:4])
 
 
@@ -325,3 +328,20 @@ def test_a_users_script_is_checked(tmp_path: Path) -> None:
     found = [line for line in done.stdout.splitlines() if ": error:" in line]
     assert [line.partition(":")[0] for line in found] == ["wrong.py"] * 3, done.stdout + done.stderr
     assert any("strenght" in line for line in found), found
+
+
+def test_a_persona_of_pictures_in_memory_plays_again_from_its_file(tmp_path: Path) -> None:
+    photos = [Image.open(path).convert("RGB") for path in write_sample_photos(tmp_path)]
+    options: dict[str, Any] = {"size": (96, 120), "trim": (0.5, 0.7), "fps": 10}
+    first = galatea.make_persona(photos, "happy", tmp_path / "first", **options)
+    assert first.path.name == "animation.mp4" and probe_video(first.path).frames == 2
+    again = galatea.make_persona(first.artifacts["persona.npz"], poster("happy-strong"), tmp_path / "again", **options)
+    assert again.path.name == "still.png" and [one.code for one in again.warnings] == ["driver_rest_estimated"]
+    kept = galatea.make_persona(str(first.artifacts["persona.npz"]), None, tmp_path / "kept")
+    assert kept.path.name == "persona.npz"
+
+
+def test_an_avatar_of_a_clip_that_is_none_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(galatea.GalateaError) as caught:
+        galatea.make_avatar(poster("happy"), tmp_path / "out", "walk", texture_size=1024)
+    assert caught.value.code == "not_a_video"
