@@ -14,7 +14,7 @@ import '../styles/share.css';
 const words = strings.shared;
 
 /** What the page itself needs, for whom all files are not meant. */
-const PAGE_ONLY_FILES = /^(poster\.jpg|skeleton\.json|background\.png)$/;
+const PAGE_ONLY_FILES = /^(poster\.jpg|skeleton\.json|background\.png|puppet_textures\.(jpg|json))$/;
 
 export default function SharedPage({ token }: { token: string }) {
   const kinds = useKinds();

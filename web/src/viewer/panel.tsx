@@ -30,7 +30,7 @@ export interface ViewerProps {
   /** The same with links that have only now been signed. */
   renew: (signal: AbortSignal) => Promise<HasArtifacts>;
   /** What is seen first, where the job has what it takes and the browser shows 3D. */
-  first: 'wall' | 'look';
+  first: 'wall' | 'look' | 'film';
   /** The pose that they were made with. */
   pose?: Pose | undefined;
   /** Is told a pose that is to be made; without it, poses cannot be edited. */
