@@ -22,6 +22,12 @@ LEAST_LIKENESS = 0.4
 """Cosine between what its points do and what the expression does, of a photograph near it."""
 LEAST_OF_MOST = 0.6
 """Of its likeness to what it is most like: who smiles with narrow eyes is not angry."""
+ALIKE = 0.8
+"""Cosine from which on two expressions are of a kind, as surprise and an open mouth are."""
+REGIONS = (slice(0, 10), slice(31, 51))
+"""Brows and lips, of the points: an expression that moves both is done by both."""
+LEAST_MOVED = 0.02
+"""Eye distances by which an expression moves the points of a region, in the mean square's root, if it moves it."""
 RIDGE = 0.02
 """Eye distances of all points together, that a unit at its full costs: what one unit tells is not told by many."""
 BENDING = 1e-3
@@ -43,13 +49,7 @@ class ShownExpression:
 
 def photos_near(persona: Persona, units: FaceUnits) -> Mapping[str, tuple[int, ...]]:
     """The photographs near each of `EXPRESSIONS`, the strongest first."""
-    rest = expression_points(persona.neutral[None])[0]
-    faces = np.array([persona.neutral + units.doing(mixture) for mixture in EXPRESSIONS.values()])
-    wanted = (expression_points(faces) - rest).reshape(len(faces), -1)
-    done = (persona.points.astype(np.float64) - rest).reshape(len(persona), -1)
-    along = wanted @ done.T
-    share = along / (wanted**2).sum(axis=1)[:, None]
-    likeness = along / (np.linalg.norm(wanted, axis=1)[:, None] * np.maximum(np.linalg.norm(done, axis=1), 1e-9))
+    share, likeness, _ = _done(persona, units, persona.points)
     most = likeness.max(axis=0)
     near = (share > LEAST_DONE) & (likeness > np.maximum(LEAST_LIKENESS, LEAST_OF_MOST * most))
     return {
@@ -59,15 +59,43 @@ def photos_near(persona: Persona, units: FaceUnits) -> Mapping[str, tuple[int, .
 
 
 def shown_expressions(persona: Persona, units: FaceUnits) -> list[ShownExpression]:
-    """Those that enough photographs come near: each as the strongest of these have it in the mean."""
+    """Those that enough photographs come near: each as the strongest of these have it in the mean, if that is then more like it than
+    like any other: who frowns in smiling photographs alone is not shown angry."""
     out = []
     for name, photos in photos_near(persona, units).items():
         if len(photos) < MIN_PHOTOS_OF_EXPRESSION:
             continue
         points = persona.points[list(photos[:MOST_PHOTOS])].astype(np.float64).mean(axis=0)
+        _, likeness, alike = _done(persona, units, points[None])
+        own = list(EXPRESSIONS).index(name)
+        if likeness[alike[own] < ALIKE, 0].max() > likeness[own, 0]:
+            continue
         face = fitted_face(persona, units, points)
         out.append(ShownExpression(name, photos, face, persona.weights_of_points(points[None])[0]))
     return out
+
+
+def _done(
+    persona: Persona, units: FaceUnits, points: NDArray[np.floating]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """How much of each of `EXPRESSIONS` faces with `points` (N, 51, 2) do, (E, N), in that of its regions in which they do least of it; the
+    cosine between what their points do and what it does, (E, N); and that between expressions, (E, E)."""
+    rest = expression_points(persona.neutral[None])[0]
+    faces = np.array([persona.neutral + units.doing(mixture) for mixture in EXPRESSIONS.values()])
+    wanted = expression_points(faces) - rest
+    done = points.astype(np.float64) - rest
+    share = np.full((len(wanted), len(done)), np.inf)
+    for region in REGIONS:
+        own = np.einsum("epk,npk->en", wanted[:, region], done[:, region])
+        size = (wanted[:, region] ** 2).sum(axis=(1, 2))
+        moved = np.sqrt(size / wanted[:, region].shape[1]) > LEAST_MOVED
+        share[moved] = np.minimum(share[moved], own[moved] / size[moved, None])
+    across = [_directions(one.reshape(len(one), -1)) for one in (wanted, done)]
+    return share, across[0] @ across[1].T, across[0] @ across[0].T
+
+
+def _directions(moved: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(moved / np.maximum(np.linalg.norm(moved, axis=1, keepdims=True), 1e-9))
 
 
 def fitted_face(persona: Persona, units: FaceUnits, points: NDArray[np.floating]) -> NDArray[np.float64]:

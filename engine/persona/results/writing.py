@@ -61,7 +61,15 @@ def _tell_gallery(path: Path, names: Sequence[str], near: dict[str, int]) -> Non
             {"name": "neutral"},
             *({"name": name, "photos": near[name], "units": dict(EXPRESSIONS[name])} for name in names),
         ],
-        "left_out": [{"name": name, "photos": near[name]} for name in EXPRESSIONS if name not in names],
+        "left_out": [
+            {
+                "name": name,
+                "photos": near[name],
+                "why": "few" if near[name] < MIN_PHOTOS_OF_EXPRESSION else "like_another",
+            }
+            for name in EXPRESSIONS
+            if name not in names
+        ],
         "photos_needed": MIN_PHOTOS_OF_EXPRESSION,
     }
     path.write_text(json.dumps(told, indent=1) + "\n")

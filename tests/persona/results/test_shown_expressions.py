@@ -41,3 +41,10 @@ def test_enough_photographs_of_an_expression_show_it_and_fewer_do_not(persona: P
     brow = 105
     assert (shown[0].face - known.neutral)[brow, 1] < -0.03, "its brows are raised"
     assert shown[0].weights[:enough].min() > shown[0].weights[enough:].max()
+
+
+def test_frowns_in_smiling_photographs_are_no_anger(persona: Persona, units: FaceUnits) -> None:
+    squinting = {**EXPRESSIONS["smile"], "browDownLeft": 0.6, "browDownRight": 0.6}
+    faces = np.repeat((persona.neutral + units.doing(squinting))[None], len(persona), axis=0)
+    known = replace(persona, points=expression_points(faces).astype(np.float32))
+    assert "anger" not in {one.name for one in shown_expressions(known, units)}
