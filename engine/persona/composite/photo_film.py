@@ -19,7 +19,8 @@ from engine.persona.persona import Persona
 from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
 from engine.persona.texture.expression_weights import SMOOTHING_FRAMES, expression_points, expression_weights
 
-TEXTURES_AT_ONCE = 32
+TEXTURES_AT_ONCE = 8
+"""So few that frames are drawn meanwhile."""
 
 
 @dataclass(frozen=True)

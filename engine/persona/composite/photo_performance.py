@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.face_animation.acting_options import ActingOptions
-from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget
+from engine.face_animation.animation import FaceAnimation, Parts, RegisteredDriver, RiggedTarget
 from engine.face_animation.driver_tracking.neutral import choose_neutral_frame, warn_if_never_at_rest
 from engine.face_animation.stages import analyse_driver, follow_driver, prepare_target
 from engine.face_animation.target_face import TargetFace
@@ -36,6 +36,9 @@ PHOTO_STAGES = {
     "look_again": 1.0,
 }
 """The stages beside those of every persona, and their usual share of the time."""
+
+OWN_CREASES = Parts(details=False)
+"""The driver's are not carried over: a strand of its hair on the forehead, or its brows' ridge, would be drawn on the person's."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +70,7 @@ def perform_photo(persona: Persona, driver: Path, options: PersonaOptions, run: 
     with run.timed("perform"):
         acting = act(rigged, registered, follows, persona)
         mouth = _mouth(persona, target, acting, run)
-        animation = FaceAnimation(rigged, registered, follows, mouth=mouth)
+        animation = FaceAnimation(rigged, registered, follows, OWN_CREASES, mouth=mouth)
         assert persona.portrait is not None
         base = persona.synthesis(acting.rest[None])[0]
         retouching = retouching_of(persona, persona.portrait, base, is_grey(target.rgb, target.mesh))

@@ -39,6 +39,8 @@ MAX_WIDER, MAX_LONGER = 1.25, 1.35
 """Than in the photograph: so that teeth fill mouths that are wider, and reach up to lips that are higher."""
 WIDE_PERCENTILE = 80
 """Of the open mouths' widths and lips' heights, that teeth fill."""
+ROUND = 0.85
+"""Of the width of a shut mouth, that a round one has."""
 LOWER_SIZE = 0.8
 """Of the lower teeth, in that of the upper ones."""
 LOWER_LIGHT = np.array([0.76, 0.67, 0.63], np.float32)
@@ -116,6 +118,7 @@ class PhotoTeeth:
         light = place.light()[..., None]
         mixed: NDArray[np.float32] = self._cavity + place.tongue()[..., None] * (self._tongue - self._cavity)
         lower, upper = self.lower_teeth(behind, self.jaw_drop(face)), self.upper_teeth(behind)
+        lower[..., 3] *= self._spread(face)
         for teeth, lit in ((lower, light * LOWER_LIGHT), (upper, light)):
             mixed += teeth[..., 3:] * (teeth[..., :3] * self._gain * lit - mixed)
         if self._grey:
@@ -158,6 +161,14 @@ class PhotoTeeth:
         chin = self._shut[list(CHIN)].mean(axis=0)
         seen = face[list(CHIN), :2].mean(axis=0) - shift - chin[2] * matrix[:, 2]
         return max(float(np.linalg.solve(matrix[:, :2], seen)[1] - chin[1]), 0.0)
+
+    def _spread(self, face: NDArray[np.floating]) -> np.float32:
+        """In [0, 1], how far a mouth is from a round one, whose lips cover the lower teeth."""
+        now = np.linalg.norm(face[CORNERS[0], :2] - face[CORNERS[1], :2]) / np.linalg.norm(
+            skull_camera(self._front, face)[0][0]
+        )
+        usual = np.linalg.norm(self._shut[CORNERS[0], :2] - self._shut[CORNERS[1], :2])
+        return np.float32(np.clip((now / usual - ROUND) / (1 - ROUND), 0, 1))
 
     def _size(self, faces: NDArray[np.floating]) -> tuple[float, float]:
         """How much wider and longer than in the photograph teeth are, for open mouths (F, 478, 2)."""

@@ -33,6 +33,8 @@ CONTRAST_RANGE = (0.8, 1.5)
 """Of the photograph over the persona, whose means have less of it."""
 PIXEL_SIGMA = 0.6
 """Of a photograph's pixel, by which what is between pixels is smooth."""
+LEAST_SIGMA = 0.5
+"""Pixels of the frame: detail that is finer is none."""
 BELIEF_RANGE = (0.3, 0.8)
 """Of a photograph's pixels, between which they begin to be skin, and are."""
 BELIEF_SIGMA = 2.0
@@ -99,7 +101,8 @@ def retouching_of(persona: Persona, photo: FacePhoto, base: NDArray[np.uint8], g
     contrasts = [_contrast(one @ LUMINANCE_WEIGHTS, skin > 0.9, unit) for one in (own, base.astype(np.float32))]
     contrast = float(np.clip(contrasts[0] / max(contrasts[1], 1e-3), *CONTRAST_RANGE))
     pixel = frame.scale / float(eye_distance(photo.mesh[:, :2]))
-    return Retouching(frame, base, skin, contrast, PIXEL_SIGMA * float(np.sqrt(max(pixel**2 - 1, 0))), grey)
+    sigma = PIXEL_SIGMA * float(np.sqrt(max(pixel**2 - 1, 0)))
+    return Retouching(frame, base, skin, contrast, sigma if sigma > LEAST_SIGMA else 0.0, grey)
 
 
 def _contrast(grey: NDArray[np.float32], where: NDArray[np.bool_], unit: float) -> float:
