@@ -89,6 +89,24 @@ def test_a_persona_of_something_else_is_refused(service: Running, archive: Path)
     assert ended(service, job)["error"]["code"] == "persona_unreadable"
 
 
+def test_a_killed_job_goes_on_from_the_stage_that_is_stored(service: Running, archive: Path) -> None:
+    upload = {"file": ("album.zip", archive.read_bytes(), "application/zip")}
+    file = service.client.post("/v1/files", files=upload).raise_for_status().json()
+    job = ordered(service, {**OPTIONS, "texture_width": 240}, photos=[file["id"]], driver="happy")
+    eventually(lambda: service.job(job)["progress"]["stage"] == "learn_persona", "its faces are found", seconds=300)
+    processes = service.processes("worker.job_process.child")
+    ready = {process.pid for process in processes}
+    for process in processes:
+        if process.ppid() in ready:
+            process.kill()
+    done = ended(service, job)
+    assert done["status"] == "succeeded", done["error"]
+    with service.client.stream("GET", f"/v1/jobs/{job}/events") as events:
+        assert events.read().decode().count('{"status": "running"}') == 2
+    stages = service.client.get(done["artifacts"]["report.json"]["url"]).raise_for_status().json()["stages"]
+    assert stages["find_faces"] < 0.5 < stages["learn_persona"], "seconds: taken from what was stored"
+
+
 def test_erasing_a_persona_erases_all_that_was_made_of_the_photos(service: Running, made: dict[str, Any]) -> None:
     film = ended(service, ordered(service, OPTIONS, persona=made["id"], driver="happy"))
     photos = made["inputs"]["photos"]
