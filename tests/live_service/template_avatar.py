@@ -51,8 +51,9 @@ def template_avatar(texture_size: int = 256) -> Avatar:
     template, rig = load_template(), load_rig(HUMAN_RIG)
     surface = template_surface(template, rig)
     texture = np.full((texture_size, texture_size, 3), SKIN, np.uint8)
-    place_mouth(texture, surface, texel_raster(surface.atlas, texture_size))
-    place_eyes(texture, surface, template.vertices, [], np.ones((0, 3)), IRIS_RADIUS)
+    raster = texel_raster(surface.atlas, texture_size)
+    place_mouth(texture, surface, raster)
+    place_eyes(texture, surface, template.vertices, [], np.ones((0, 3)), IRIS_RADIUS, raster)
     return assemble(template, rig, fitted_template(), no_attachments(), texture, TEMPLATE_TRIANGLES)
 
 

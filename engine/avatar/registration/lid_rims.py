@@ -1,13 +1,17 @@
-"""The rim of the lids about an eye: the loop of the template's edges at which its skin turns to the eyeball."""
+"""The rim of the lids about an eye, the loop of the template's edges at which its skin turns to the eyeball, and what is behind it."""
 
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Collection
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
 
 from engine.body.template import Template
+from engine.geometry.adjacency import edge_table
 
 UPPER_LID = 0.25
 """Radii of the eyeball above its middle beyond which what is near to it is of the upper lid."""
@@ -37,6 +41,18 @@ def lid_rim(template: Template, part: str) -> NDArray[np.intp]:
     if not loops:
         raise ValueError(f"no loop of edges lies about {part}")
     return np.array(min(loops, key=lambda loop: float(np.ptp(template.vertices[loop], axis=0)[2])), np.intp)
+
+
+def behind_rims(triangles: NDArray[np.integer], rims: Collection[NDArray[np.integer]]) -> NDArray[np.bool_]:
+    """(T,) which of the triangles (T, 3) of a skin are sockets: what `rims`, closed loops of its edges, cut off all else."""
+    loops = [np.stack([rim, np.roll(rim, -1)], 1) for rim in rims]
+    cut = {frozenset(edge) for edge in np.concatenate(loops).tolist()}
+    table = edge_table(np.ascontiguousarray(triangles, np.int32), np.arange(int(triangles.max()) + 1, dtype=np.int32))
+    whole = np.array([frozenset(edge) not in cut for edge in table[:, :2].tolist()])
+    pairs = table[whole & (table[:, 3] >= 0), 2:]
+    links = csr_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), (len(triangles), len(triangles)))
+    piece = connected_components(links, directed=False)[1]
+    return np.asarray(piece != np.bincount(piece).argmax())
 
 
 class _Edges:

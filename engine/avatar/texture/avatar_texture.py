@@ -50,7 +50,7 @@ def avatar_texture(
     found = stitch_texture(fitted, views, size)
     place_hands(found.texture, found.resolution, surface, found.raster, rig)
     place_mouth(found.texture, surface, found.raster)
-    eyes_seen = place_eyes(found.texture, surface, vertices, views, found.gains, iris)
+    eyes_seen = place_eyes(found.texture, surface, vertices, views, found.gains, iris, found.raster)
     areas = triangle_areas(fitted.vertices, fitted.triangles) * fitted.stitched
     share = float(areas[found.labels.labels != UNSEEN].sum() / areas.sum())
     charts = charts_of(surface.atlas, found.raster)

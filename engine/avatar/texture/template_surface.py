@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.mouth_chart import mouth_faces
-from engine.avatar.registration.lid_rims import lid_rim
+from engine.avatar.registration.lid_rims import behind_rims, lid_rim
 from engine.avatar.registration.skin import EYE_PARTS
 from engine.avatar.texture.views import ChartedSurface
 from engine.avatar.worn import Attachments
@@ -40,6 +40,7 @@ class TemplateSurface:
     mouth : (T,) bool: the bag behind the lips.
     hands : of each side in `SIDES`, (T,) bool.
     rest : (V, 3) the template's vertices, in whose shape it is known where everything is.
+    sockets : (T,) bool: the skin behind the lids.
     lid_rims : of each eyeball, the loop of vertices in which its lids end.
     """
 
@@ -49,6 +50,7 @@ class TemplateSurface:
     mouth: NDArray[np.bool_]
     hands: Mapping[Side, NDArray[np.bool_]]
     rest: NDArray[np.float64]
+    sockets: NDArray[np.bool_]
     lid_rims: Mapping[str, NDArray[np.intp]]
 
     def fitted(self, vertices: NDArray[np.floating]) -> ChartedSurface:
@@ -85,6 +87,7 @@ class TemplateSurface:
             mouth=np.concatenate([self.mouth, none]),
             hands={side: np.concatenate([hand, none]) for side, hand in self.hands.items()},
             rest=np.concatenate([self.rest, worn.vertices]),
+            sockets=np.concatenate([self.sockets, none]),
             lid_rims=self.lid_rims,
         )
 
@@ -108,7 +111,9 @@ def template_surface(template: Template, rig: Rig) -> TemplateSurface:
     mouth = np.zeros(len(faces), np.bool_)
     mouth[: sizes[AVATAR_PARTS.index("body")]] = mouth_faces(template)
     rims = {name: lid_rim(template, name) for name in EYE_PARTS}
-    return TemplateSurface(triangles, atlas, part, np.tile(mouth, 2), hands, rest, rims)
+    sockets = np.zeros(len(triangles), np.bool_)
+    sockets[body] = behind_rims(triangles[body], rims.values())
+    return TemplateSurface(triangles, atlas, part, np.tile(mouth, 2), hands, rest, sockets, rims)
 
 
 def _charts(atlas: TextureAtlas, inside: NDArray[np.bool_], among: NDArray[np.bool_]) -> NDArray[np.bool_]:

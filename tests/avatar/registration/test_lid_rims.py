@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from engine.avatar.registration.eyeballs import sphere
-from engine.avatar.registration.lid_rims import lid_rim
+from engine.avatar.registration.lid_rims import behind_rims, lid_rim
 from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.skin import EYE_PARTS
 
@@ -29,3 +29,16 @@ def test_both_rims_are_alike(models: HumanModels) -> None:
     assert len(left) == len(right)
     apart = np.linalg.norm(left[:, None] - right * [-1, 1, 1], axis=2)
     assert apart.min(1).max() < 1e-4
+
+
+def test_sockets_are_what_rims_cut_off(models: HumanModels) -> None:
+    skin = models.skin
+    rims = [skin.index_of(lid_rim(models.template, part)) for part in EYE_PARTS]
+    cut_off = behind_rims(skin.triangles, rims)
+    behind = np.unique(skin.triangles[cut_off])
+    own = np.setdiff1d(behind, np.concatenate(rims))
+    balls = [sphere(models.template.vertices[models.template.vertices_of(part)]) for part in EYE_PARTS]
+    places = models.template.vertices[skin.vertices[own]]
+    away = np.min([np.linalg.norm(places - middle, axis=1) / radius for middle, radius in balls], axis=0)
+    assert away.min() > 0.8 and away.max() < 1.2
+    assert cut_off.sum() > 400

@@ -34,7 +34,7 @@ def sphere(radius: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     return np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.int32)
 
 
-def test_an_eye_is_darker_beneath_its_upper_lid_and_as_it_was_where_the_lid_hides_it() -> None:
+def test_an_eye_is_darker_beneath_its_upper_lid_and_hardly_where_the_lid_hides_it() -> None:
     ball, faces = sphere(0.012)
     shell, _ = sphere(0.0130)
     middles = shell[faces].mean(1)
@@ -49,7 +49,7 @@ def test_an_eye_is_darker_beneath_its_upper_lid_and_as_it_was_where_the_lid_hide
     middle = front & (np.abs(ball[:, 1]) < 0.0015)
     hidden = front & (ball[:, 1] > 0.009)
     assert shade[beneath].mean() < 0.92 < 0.99 < shade[middle].mean()
-    assert (shade[hidden] == 1).all()
+    assert shade[hidden].min() > 0.95
     assert shade.max() <= 1
 
 
@@ -64,5 +64,5 @@ def test_lashes_darken_what_is_right_beneath_the_upper_lid_alone() -> None:
     assert 0.5 < shade[beneath].mean() < 0.75
     assert shade[middle & (np.abs(ball[:, 1]) < 0.001)].min() > 0.9
     assert shade[middle & (ball[:, 1] < -0.003)].min() > 0.98
-    assert (shade[middle & (ball[:, 1] > 0.0045)] == 1).all()
+    assert shade[middle & (ball[:, 1] > 0.0105)].min() > 0.98
     assert (shade[ball[:, 2] < -1e-4] == 1).all()

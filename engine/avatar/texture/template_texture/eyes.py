@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.texture.template_texture.iris_in_frame import iris_centre
 from engine.avatar.texture.views import ChartedSurface, FrameView
-from engine.imaging.histogram_matching import from_lab, matched_in_lab, to_lab
+from engine.imaging.histogram_matching import from_lab, to_lab
 from engine.media.tone_mapping import srgb_code
 from engine.performances.modelling.eyes import EYEBALL_RADIUS, IRIS_RADIUS, PUPIL_RADIUS, colour_of_eye
 from engine.render.sampling import bilinear
@@ -33,8 +33,8 @@ WHITE_TAILS, WHITE_CHROMA = (0.5, 0.92), 22.0
 the most chroma."""
 IRIS_TAILS = (0.2, 0.7)
 """The same of the iris: lashes and the pupil are darker, highlights and what they mirror lighter."""
-MAX_IRIS_CONTRAST = 0.75
-"""Of the painted iris' spread of lightness, what a person's has at most: what is painted is for an eye that fills a picture."""
+MAX_CONTRAST = 0.75
+"""Of the painted spread of lightness, what a person's has at most: what is painted is for an eye that fills a picture."""
 
 
 @dataclass(frozen=True)
@@ -99,20 +99,20 @@ def persons_eyes(
     if len(iris) >= MIN_SAMPLES:
         out[on_iris] = _toned(colours[on_iris], iris)
     if len(white) >= MIN_SAMPLES:
-        out[on_white] = matched_in_lab(colours[on_white], white)
+        out[on_white] = _toned(colours[on_white], white)
     # the rims of iris and pupil are soft: there the new colours come in by and by
     soft = np.clip((off - PUPIL_RADIUS) / (0.15 * PUPIL_RADIUS), 0, 1)[:, None].astype(np.float32)
     return np.where(on_iris[:, None], colours + soft * (out - colours), out).astype(np.float32)
 
 
 def _toned(colours: NDArray[np.floating], reference: NDArray[np.floating]) -> NDArray[np.float32]:
-    """An iris' colours (N, 3) about the median of the reference (M, 3), fibres and rim as much lighter and darker than it as what frames
-    show is at most, and as its lightness leaves room for: dark eyes are plain."""
+    """Painted colours (N, 3) about the median of the reference (M, 3), lighter and darker than that as much as what frames show is at
+    most, and as its lightness leaves room for: dark eyes are plain."""
     own, goal = to_lab(colours), to_lab(reference)
     middle, own_middle = np.median(goal, 0), np.median(own, 0)
     spread = np.subtract(*np.quantile(goal, (0.75, 0.25), axis=0))
     own_spread = np.subtract(*np.quantile(own, (0.75, 0.25), axis=0))
-    room = min(float(middle[0] / own_middle[0]), MAX_IRIS_CONTRAST)
+    room = min(float(middle[0] / own_middle[0]), MAX_CONTRAST)
     return from_lab(middle + np.minimum(spread / np.maximum(own_spread, 1e-6), room) * (own - own_middle))
 
 
@@ -125,8 +125,8 @@ def eye_samples(
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Colours (M, 3) of the iris and (K, 3) of the white, sRGB, that the frames show best; none where none shows any.
 
-    `surface`: the fitted person. `gains` (N, 3) of the views. `shadow` (N,): what lids leave of the light at each place, which is
-    taken off the colours.
+    `surface`: the fitted person. `gains` (N, 3) of the views. `shadow` (N,): what lids leave of the light at each place: the
+    white is told by the lighter half of what a frame shows.
     """
     off = eyes.off_axis
     corners = surface.vertices[surface.triangles[eyes.triangles]]
@@ -143,10 +143,13 @@ def eye_samples(
         colours = np.clip(bilinear(views[n].picture(), views[n].places(points)) * gains[n], 0, 255).astype(np.float32)
         margin = min(1 / fineness, MAX_MARGIN)
         seen &= eyes.places[:, 2] > 0
-        across, shown = eyes.places[seen, :2], np.minimum(colours[seen] / shadow[seen, None], 255)
+        if not seen.any():
+            continue
+        across, shown = eyes.places[seen, :2], colours[seen]
         away = np.hypot(*(across - iris_centre(across, shown.mean(1))).T)
         iris.append(shown[(away > IRIS_BAND[0]) & (away < IRIS_BAND[1] - margin)])
-        white.append(shown[(away > WHITE_BAND[0] + margin) & (away < WHITE_BAND[1])])
+        lit = shadow[seen] >= np.median(shadow[seen])
+        white.append(shown[lit & (away > WHITE_BAND[0] + margin) & (away < WHITE_BAND[1])])
     return _middle(np.concatenate(iris)), _white(np.concatenate(white))
 
 

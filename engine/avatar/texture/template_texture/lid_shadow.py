@@ -23,6 +23,10 @@ DARKEST = 0.5
 """What is left of the light where none of the sky is seen: skin lets some through, and the ball shines back."""
 LASHES, LASH_REACH = 0.45, 0.0016
 """Of the light, what lashes take right beneath the upper lid, and metres below it at which they take a third of that."""
+FADING, SEEN_STEP = 0.0015, 16
+"""Metres over which a shadow ends where lids hide an eyeball, and each how many of the seen points are asked for the nearest."""
+END = 4.0
+"""Such lengths away nothing is left of a shadow."""
 RIM_STEPS = 12
 """Places between two vertices of a rim from which it is measured."""
 HIDDEN_SHARE = 0.05
@@ -31,7 +35,7 @@ HIDDEN_SHARE = 0.05
 
 def lid_shadow(surface: ChartedSurface, points: NDArray[np.float64], gaze: NDArray[np.float64]) -> NDArray[np.float32]:
     """(N,) what an eyeball's colours at `points` (N, 3) are multiplied by: 1 where as much light comes as on average over what lids
-    leave to be seen, from which the colours are, or more, and where lids hide it, since that shows when the eye turns. `gaze` (3,): where it looks, a unit vector; y is up."""
+    leave to be seen, from which the colours are, or more; it goes over to 1 where lids hide it, since that shows when the eye turns. `gaze` (3,): where it looks, a unit vector; y is up."""
     middle = points.mean(0)
     half = (LIGHT_PICTURE - 1) / 2
     lens = Camera(
@@ -54,14 +58,20 @@ def lid_shadow(surface: ChartedSurface, points: NDArray[np.float64], gaze: NDArr
     if not seen.any():
         return np.ones(len(points), np.float32)
     shade = DARKEST + (1 - DARKEST) * total / total.max()
-    return np.asarray(np.where(seen, np.minimum(shade / shade[seen].mean(), 1), 1), np.float32)
+    out = np.minimum(shade / shade[seen].mean(), 1)
+    known = np.flatnonzero(seen)[::SEEN_STEP]
+    away, nearest = cKDTree(points[known]).query(points[~seen], distance_upper_bound=END * FADING)
+    taken = np.append(1 - out[known], 0)[nearest]
+    out[~seen] = 1 - taken * np.exp(-away / FADING)
+    return np.asarray(out, np.float32)
 
 
 def lash_shadow(
     points: NDArray[np.float64], rim: NDArray[np.float64], gaze: NDArray[np.float64]
 ) -> NDArray[np.float32]:
     """(N,) what an eyeball's colours at `points` (N, 3) are multiplied by for the lashes of the upper lid, which an avatar does not
-    have: least right beneath that lid, 1 where it hides them. `rim` (R, 3): the loop in which the lids end; `gaze` (3,): where the
+    have: least right beneath that lid; it ends softly where the lid hides it, since that shows when the eye
+    turns. `rim` (R, 3): the loop in which the lids end; `gaze` (3,): where the
     eye looks; y is up."""
     aside = np.cross([0.0, 1.0, 0.0], gaze)
     aside /= np.linalg.norm(aside)
@@ -72,9 +82,9 @@ def lash_shadow(
     share = np.arange(RIM_STEPS) / RIM_STEPS
     line = (loop[:, None] + share[:, None] * (np.roll(loop, -1, 0) - loop)[:, None]).reshape(-1, 2)
     upper = line[line[:, 1] >= np.interp(line[:, 0], ends[:, 0], ends[:, 1])]
-    away, nearest = cKDTree(upper).query(seen)
-    beneath = (seen[:, 1] <= upper[nearest, 1]) & ((points - middle) @ gaze > 0)
-    return np.asarray(np.where(beneath, 1 - LASHES * np.exp(-away / LASH_REACH), 1), np.float32)
+    away = cKDTree(upper).query(seen, distance_upper_bound=END * LASH_REACH)[0]
+    ahead = (points - middle) @ gaze > 0
+    return np.asarray(np.where(ahead, 1 - LASHES * np.exp(-away / LASH_REACH), 1), np.float32)
 
 
 def _sky(gaze: NDArray[np.float64]) -> NDArray[np.float64]:

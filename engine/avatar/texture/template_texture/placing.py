@@ -22,8 +22,11 @@ from engine.body.rig import Rig
 from engine.geometry.joint_names import SIDES
 from engine.geometry.surface import vertex_normals
 from engine.imaging.histogram_matching import to_lab
+from engine.performances.modelling.eyes import IRIS_RADIUS
 from engine.render.rasteriser import Raster
 
+SOCKET_LIGHT = 0.35
+"""Of the light on an eyeball, what its socket has where it shows between this and the lids."""
 WRIST_LENGTH, CUFF_LENGTH = 0.03, 0.004
 """Metres past the wrist over which what the arm's colours are filled with becomes the hand's: along bare skin, and where a sleeve ends."""
 SLEEVE = (-0.025, 0.0)
@@ -50,9 +53,10 @@ def place_eyes(
     views: Sequence[FrameView],
     gains: NDArray[np.floating],
     iris_radius: float,
+    raster: Raster,
 ) -> bool:
     """Paint the eyeballs, in the colours that `views` show of the person whose template vertices are (V, 3), with irises of a
-    radius, metres. Both eyes have the same colours. Whether frames showed enough of them: if not they are the template's."""
+    radius, metres, and the sockets as their white in the dark. Both eyes have the same colours. Whether frames showed enough of them: if not they are the template's."""
     fitted = surface.fitted(vertices)
     balls, irises, whites = [], [], []
     for part in EYE_PARTS:
@@ -71,7 +75,11 @@ def place_eyes(
         whites.append(white)
     iris, white = np.concatenate(irises), np.concatenate(whites)
     for texels, eyes, shadow in balls:
-        texels.put(texture, persons_eyes(painted_eyes(eyes), eyes, iris, white) * shadow[:, None])
+        colours = persons_eyes(painted_eyes(eyes), eyes, iris, white)
+        texels.put(texture, colours * shadow[:, None])
+    socket = PartTexels.of(raster, surface.sockets)
+    dark = SOCKET_LIGHT * np.median(colours[eyes.off_axis > IRIS_RADIUS], axis=0)
+    socket.put(texture, np.broadcast_to(dark, (len(socket.texels), 3)))
     return bool(len(iris) and len(white))
 
 
