@@ -1,6 +1,6 @@
 """The figures of personas, printed as the tables of `docs/figures.md`.
 
-python benchmarks/persona.py speed|all [--collections NAME ...]
+python benchmarks/persona.py speed|held_out|flicker|all [--collections NAME ...]
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from benchmarks.persona_figures import speed
+from benchmarks.persona_figures import flicker, held_out, speed
 from benchmarks.tables import machine
 
-TABLES = ("speed",)
+TABLES = ("speed", "held_out", "flicker")
 
 
 def main() -> None:
@@ -24,9 +24,17 @@ def main() -> None:
     parser.add_argument("--collections", nargs="+", default=[], metavar="NAME", help="by part of their name")
     parser.add_argument("--repeats", type=int, default=3, help="speed: how often each case is timed (default 3)")
     parser.add_argument("--photos", type=int, metavar="N", help="speed: only the first N photos")
+    parser.add_argument(
+        "--folds", type=int, default=10, help="held_out: into how many parts a collection is cut (default 10)"
+    )
     given = parser.parse_args()
     print(f"Taken on {machine()}")
-    speed.speed(given.collections, given.photos, given.repeats)
+    if given.what in ("speed", "all"):
+        speed.speed(given.collections, given.photos, given.repeats)
+    if given.what in ("held_out", "all"):
+        held_out.held_out(given.collections, given.folds)
+    if given.what in ("flicker", "all"):
+        flicker.flicker(given.collections)
 
 
 if __name__ == "__main__":

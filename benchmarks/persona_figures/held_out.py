@@ -1,8 +1,6 @@
-"""Personas: how like a photograph that was held out the texture for its expression is, against simpler ways of mixing photographs.
+"""How like a photograph that was held out the texture for its expression is, against simpler ways of mixing photographs.
 
-    python -m benchmarks.persona_held_out [COLLECTION...] [--folds 10]
-
-Without names: all collections of the test media. Of each collection, duplicates left out, a tenth at a time is held out and the
+Of each collection, duplicates left out, a tenth at a time is held out and the
 persona learnt of the rest; each photograph held out is laid on the frame by its own mesh, and asks for its own expression. What is
 compared is the band finer than four pixels of a frame 194 wide, of greys whose tone was fitted, after a smooth flow to the photograph
 (the paper's warp to the reference), over what the photograph shows of the skin and beside the lips' inside: SSIM of that band.
@@ -14,7 +12,6 @@ photograph, and its standard error; "energy" that of the band over the photograp
 
 from __future__ import annotations
 
-import argparse
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -25,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.shared_media import media
-from benchmarks.tables import machine, table
+from benchmarks.tables import table
 from engine.geometry.registration.rigid import fit_similarity
 from engine.media.limits import Limits
 from engine.perception.expression.features import frontalise
@@ -60,16 +57,12 @@ class Score:
     energy: float
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("collections", nargs="*")
-    parser.add_argument("--folds", type=int, default=10)
-    given = parser.parse_args()
-    names = given.collections or sorted(path.name for path in media("collections").iterdir() if path.is_dir())
-    print(machine())
-    for name in names:
-        scores = held_out_scores(media(f"collections/{name}"), given.folds)
-        print(_table(name, scores), flush=True)
+def held_out(names: Sequence[str], folds: int) -> None:
+    """Print a table for each collection of the test media whose name has one of `names` in it."""
+    folders = sorted(path for path in media("collections").iterdir() if path.is_dir())
+    for folder in folders:
+        if not names or any(name in folder.name for name in names):
+            print(_table(folder.name, held_out_scores(folder, folds)), flush=True)
 
 
 def held_out_scores(folder: Path, folds: int) -> dict[str, list[Score]]:
@@ -213,7 +206,3 @@ def _table(name: str, scores: Mapping[str, Sequence[Score]]) -> str:
         against = "" if way == OURS else f"{ahead.mean():+.4f} ± {error:.4f}"
         rows.append([way, f"{likeness.mean():.4f}", against, f"{np.mean([score.energy for score in some]):.2f}"])
     return table(f"{name}, {len(ours)} photographs", ["way", "detail SSIM", "ours ahead by", "energy"], rows)
-
-
-if __name__ == "__main__":
-    main()

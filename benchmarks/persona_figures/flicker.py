@@ -1,0 +1,83 @@
+"""How still a persona's film is while its driver rests: what changes between frames once motion is taken out, in the film as it is encoded.
+
+The driver waits (the built-in performance `idle`). Of each frame and the next the flow is taken out, and the mean absolute change of
+grey over the face's pixels told. The same of the driver itself, which was rendered and encoded, is beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.shared_media import media
+from benchmarks.tables import table
+from engine.errors import InputError
+from engine.media.video import read_video
+from engine.perception.faces import FaceTracker
+from engine.perception.landmarks import FACE_OVAL
+from engine.performances import video
+from engine.persona.options import PersonaOptions
+from engine.persona.pipeline import make_persona
+from engine.run import Run
+from engine.store import StageStore
+
+DRIVER = "idle"
+GOAL, GOAL_SHARE = 0.3, 0.95
+"""Grey levels, in this share of the frames."""
+RIM = 15
+"""Pixels of the face's rim that do not count: behind it something else may move."""
+FLOW_SIGMA = 6.0
+
+
+def flicker(names: Sequence[str]) -> None:
+    """Print the table."""
+    rows = [["the driver itself", *_told(_changes(video(DRIVER)))]]
+    for folder in sorted(path for path in media("collections").iterdir() if path.is_dir()):
+        if names and not any(name in folder.name for name in names):
+            continue
+        photos = tuple(sorted(path for path in folder.rglob("*") if path.is_file()))
+        with TemporaryDirectory() as scratch:
+            for composite in ("none", "photo"):
+                out = Path(scratch) / composite
+                out.mkdir()
+                try:
+                    with Run(StageStore(Path(scratch) / "stages")) as run:
+                        options = PersonaOptions.model_validate({"composite": composite})
+                        make_persona({"photos": photos, "driver": video(DRIVER)}, options, out, run)
+                except InputError as error:
+                    rows.append([f"{folder.name}, {composite}", error.code, "", ""])
+                    continue
+                rows.append([f"{folder.name}, {composite}", *_told(_changes(out / "animation.mp4"))])
+    head = ["film", "median", "95%", f"frames under {GOAL}"]
+    print(
+        table(f"Change between frames while the driver waits, grey levels; goal {GOAL} in {GOAL_SHARE:.0%}", head, rows)
+    )
+
+
+def _changes(film: Path) -> NDArray[np.float64]:
+    """(F - 1,) mean absolute change of grey over the face, frame by frame."""
+    frames = [cv2.cvtColor(frame.rgb, cv2.COLOR_RGB2GRAY) for frame in read_video(film)]
+    with FaceTracker(alone=True) as tracker:
+        meshes = tracker(next(iter(read_video(film))).rgb)
+    face = np.zeros(frames[0].shape, np.uint8)
+    cv2.fillPoly(face, [np.rint(meshes[0][list(FACE_OVAL), :2]).astype(np.int32)], 1)
+    inner = cv2.erode(face, np.ones((RIM, RIM))) > 0
+    flow = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM)
+    rows, columns = np.indices(face.shape, np.float32)
+    changes = []
+    for before, after in pairwise(frames):
+        raw = np.asarray(flow.calc(before, after, np.zeros((*before.shape, 2), np.float32)))
+        smooth = np.asarray(cv2.GaussianBlur(raw, (0, 0), FLOW_SIGMA))
+        laid = cv2.remap(after.astype(np.float32), columns + smooth[..., 0], rows + smooth[..., 1], cv2.INTER_CUBIC)
+        changes.append(float(np.abs(np.asarray(laid) - before)[inner].mean()))
+    return np.array(changes)
+
+
+def _told(changes: NDArray[np.float64]) -> list[str]:
+    return [f"{np.median(changes):.2f}", f"{np.quantile(changes, GOAL_SHARE):.2f}", f"{(changes < GOAL).mean():.0%}"]
