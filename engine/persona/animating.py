@@ -31,6 +31,21 @@ from engine.persona.still import play_picture
 from engine.run import Run
 
 
+def require_playable(driver: Path, options: PersonaOptions) -> None:
+    """Raises `InputError` `composite_needs_video` where a photograph would have to follow a picture: before anything is worked out."""
+    if options.composite == "photo" and is_picture(driver):
+        raise InputError(
+            "composite_needs_video",
+            "A photo that acts follows a video: give one as driver, or have the puppet alone play the picture.",
+            ("driver", "composite"),
+        )
+
+
+def is_picture(driver: Path) -> bool:
+    """Whether a driver is one picture, and no video."""
+    return sniff(driver) in IMAGE_TYPES - VIDEO_TYPES or is_still_webp(driver)
+
+
 def animate_persona(
     persona: Persona, inputs: Mapping[str, Given], options: PersonaOptions, out: Path, run: Run
 ) -> dict[str, object]:
@@ -38,14 +53,7 @@ def animate_persona(
     what the report says of it."""
     driver, photos = inputs["driver"], inputs.get("driver_photos", ())
     assert isinstance(driver, Path) and isinstance(photos, tuple)
-    still = sniff(driver) in IMAGE_TYPES - VIDEO_TYPES or is_still_webp(driver)
     if options.composite == "photo":
-        if still:
-            raise InputError(
-                "composite_needs_video",
-                "A photo that acts follows a video: give one as driver, or have the puppet alone play the picture.",
-                ("driver", "composite"),
-            )
         if photos:
             run.warn(
                 "driver_photos_unused",
@@ -53,7 +61,7 @@ def animate_persona(
             )
         return _film_photo(persona, driver, options, out, run)
     rest = run.stage("find_driver_at_rest", rest_of_photos, photos, run.limits, run.tick).face if photos else None
-    if still:
+    if is_picture(driver):
         return play_picture(persona, driver, rest, options, out, run)
     return _play_video(persona, driver, rest, options, out, run)
 

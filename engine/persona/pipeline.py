@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.export.still import write_still
 from engine.kind import Given
-from engine.persona.animating import animate_persona
+from engine.persona.animating import animate_persona, require_playable
 from engine.persona.collecting import learnt_of_photos
 from engine.persona.composite.photo_performance import PHOTO_STAGES
 from engine.persona.options import PersonaOptions
@@ -30,6 +30,8 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
     """Make a persona of `inputs["photos"]`, or take that of `inputs["persona"]`, and let it play `inputs["driver"]` where there is
     one; leaves the artifacts of the contract in `out`."""
     photos, kept, driver = inputs.get("photos", ()), inputs.get("persona"), inputs.get("driver")
+    if isinstance(driver, Path):
+        require_playable(driver, options)
     run.plan(_plan(inputs, options))
     told: dict[str, object] = {}
     if isinstance(kept, Path):

@@ -100,6 +100,13 @@ def test_a_driver_that_cuts_to_somebody_else_is_played_to_its_end(
     assert sum(1 for _ in read_video(tmp_path / "animation.mp4")) == 12
 
 
+def test_a_photo_that_should_follow_a_picture_is_refused_before_anything_is_looked_at(tmp_path: Path) -> None:
+    inputs: dict[str, Path | tuple[Path, ...]] = {"photos": (tmp_path / "not there.jpg",), "driver": STRANGER}
+    with Run() as run, pytest.raises(InputError) as error:
+        make_persona(inputs, PersonaOptions(composite="photo"), tmp_path, run)
+    assert error.value.code == "composite_needs_video" and not run.seconds
+
+
 def filmed(path: Path, frames: list[np.ndarray]) -> None:
     height, width = frames[0].shape[:2]
     with VideoWriter(VideoTarget(path, (width, height), 12, frames=len(frames)), lambda code, message: None) as writer:
