@@ -5,8 +5,9 @@ persona learnt of the rest; each photograph held out is laid on the frame by its
 compared is the band finer than four pixels of a frame 194 wide, of greys whose tone was fitted, after a smooth flow to the photograph
 (the paper's warp to the reference), over what the photograph shows of the skin and beside the lips' inside: SSIM of that band.
 
-The ways: the average of all; the weighted average of photographs laid on one another by a similarity alone; laid on one another pixel by
-pixel, but mixed in one band (the paper's three); and so mixed by expression alone. "Ahead" is the mean of the differences, photograph by
+The ways: the average of all, laid on one another pixel by pixel, or by the paper's thin-plate spline of 51 points alone (lambda 10); the
+weighted average of photographs laid on one another by a similarity alone; laid on one another pixel by pixel, but mixed in one band; and
+so mixed by expression alone. "Ahead" is the mean of the differences, photograph by
 photograph, and its standard error; "energy" that of the band over the photograph's own, which hairs and spectacles raise, too.
 """
 
@@ -20,6 +21,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import RBFInterpolator
 
 from benchmarks.shared_media import media
 from benchmarks.tables import table
@@ -27,14 +29,18 @@ from engine.geometry.registration.rigid import fit_similarity
 from engine.media.limits import Limits
 from engine.perception.expression.features import frontalise
 from engine.perception.identity.backend import descriptor_distances, descriptor_name
-from engine.perception.landmarks import LIPS_INNER, RIGID_VERTICES
+from engine.perception.landmarks import LIPS_INNER, RIGID_VERTICES, fiducials
 from engine.persona.collection.photos import Photos, read_photos
 from engine.persona.collection.sorting import Choice
 from engine.persona.learning import learn_persona
 from engine.persona.persona import Persona
 from engine.persona.stages import SortedFaces, find_faces_of_photos, sort_faces
 from engine.persona.texture.aligned_photos import align_photos
-from engine.persona.texture.expression_weights import expression_points, expression_weights
+from engine.persona.texture.expression_weights import (
+    FIRST_INNER_FIDUCIAL,
+    expression_points,
+    expression_weights,
+)
 from engine.persona.texture.white_balance import balanced
 
 SIZE = (244, 194)
@@ -43,6 +49,8 @@ BAND_SIGMA = 4.0
 FLOW_SIGMA = 4.0
 SSIM_SIGMA, SSIM_C1, SSIM_C2 = 1.5, (0.01 * 255) ** 2, (0.03 * 255) ** 2
 """Z. Wang et al., Image quality assessment, 2004."""
+SPLINE_LAMBDA = 10.0
+"""Section 6."""
 RIM = 9
 """Pixels of the face's rim that are not compared."""
 OURS = "ours"
@@ -93,7 +101,11 @@ def _fold(photos: Photos, chosen: SortedFaces, held: NDArray[np.intp]) -> dict[s
     shown = align_photos(persona.frame, list(meshes[held]), lambda place: picture(held[place]))
     scale = persona.frame.scale
     points = expression_points(frontalise(meshes[held])) * scale
-    mixed = _mixed(persona, points, _unaligned(persona, [picture(k) for k in used], meshes[used]))
+    pictures = [picture(k) for k in used]
+    mixed = _mixed(persona, points, _unaligned(persona, pictures, meshes[used]))
+    mixed["average, by the spline"] = np.repeat(
+        _splined(persona, pictures, meshes[used]).mean(axis=0)[None], len(held), 0
+    )
     area = _compared(persona)
     return {
         way: [
@@ -104,9 +116,7 @@ def _fold(photos: Photos, chosen: SortedFaces, held: NDArray[np.intp]) -> dict[s
     }
 
 
-def _mixed(
-    persona: Persona, points: NDArray[np.float64], unaligned: NDArray[np.uint8]
-) -> Mapping[str, NDArray[np.uint8]]:
+def _mixed(persona: Persona, points: NDArray[np.float64], unaligned: NDArray[np.uint8]) -> dict[str, NDArray[np.uint8]]:
     weights = expression_weights(points, persona.points * persona.frame.scale)
     belief = np.asarray(persona.belief / np.float32(255) + np.float32(1e-3), np.float32)
     level = np.ones_like(weights)
@@ -152,6 +162,24 @@ def _unaligned(
         )
     colours = np.array(laid, np.uint8)
     return balanced(colours, np.ones(colours.shape[:3], np.float32), persona.frame.face)
+
+
+def _splined(
+    persona: Persona, pictures: Sequence[NDArray[np.uint8]], meshes: NDArray[np.floating]
+) -> NDArray[np.uint8]:
+    """(N, H, W, 3) each photograph laid on the frame by a thin-plate spline of the 51 inner fiducials (section 4), balanced."""
+    frame, (height, width) = persona.frame, persona.frame.size
+    goal = fiducials(frame.places[:478])[FIRST_INNER_FIDUCIAL:, :2]
+    rows, columns = np.indices((height, width), np.float64)
+    pixels = np.column_stack([columns.ravel(), rows.ravel()])
+    laid = []
+    for rgb, mesh in zip(pictures, meshes, strict=True):
+        own = fiducials(mesh)[FIRST_INNER_FIDUCIAL:, :2]
+        spline = RBFInterpolator(goal, own, kernel="thin_plate_spline", smoothing=SPLINE_LAMBDA)
+        at = spline(pixels).reshape(height, width, 2).astype(np.float32)
+        laid.append(cv2.remap(rgb, at[..., 0], at[..., 1], cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE))
+    colours = np.array(laid, np.uint8)
+    return balanced(colours, np.ones(colours.shape[:3], np.float32), frame.face)
 
 
 def _compared(persona: Persona) -> NDArray[np.bool_]:
