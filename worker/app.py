@@ -46,6 +46,10 @@ REDIS_SECONDS = 0.2
 MAX_FAREWELL_SECONDS = 5.0
 """Seconds in which running jobs are given back; then the worker ends, come what may."""
 
+signals.worker_shutting_down.lock = threading.RLock()
+# Celery tells of its end from a signal handler, under this lock. Signals may come one upon another, as when the service is killed: the
+# second interrupts the first where it holds the lock, and would wait for it for good.
+
 
 class Worker:
     """Runs jobs until it is told to stop. The threads of Celery's pool watch over the processes that work."""
@@ -54,6 +58,7 @@ class Worker:
         self.context = context
         self.stopping = threading.Event()
         self.interrupted = False
+        self._told = False
         self.user = user_id(context.settings.job_user)
         self.children: WarmChildren
         self.readiness: Readiness
@@ -162,7 +167,10 @@ class Worker:
 
     def _stop(self, sig: str = "", **_: Any) -> None:
         """`sig` is the name of the signal that it was told by, as Celery says it."""
-        if not self.stopping.is_set():
+        if not self._told:
+            self._told = (
+                True  # first of all: another signal may interrupt what follows, whose locks are not to be taken twice
+            )
             self.interrupted = sig == signal.SIGINT.name
             self.stopping.set()
             # Celery waits for a Redis that may be gone already. Nothing is lost by not waiting with it.
