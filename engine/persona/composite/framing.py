@@ -10,6 +10,7 @@ from engine.face_animation.eyes.lower_lids import fit_lower_lids
 from engine.face_animation.target_face import TargetFace
 from engine.imaging.resample import even_size
 from engine.perception.landmarks import FACE_OVAL
+from engine.perception.segmentation import people_confidence
 from engine.persona.collection.face_photo import FacePhoto
 
 BUST_FACE_HEIGHTS = 2.9
@@ -49,7 +50,8 @@ def framed(photo: FacePhoto, size: tuple[int, int]) -> TargetFace:
     corner, end = _face_box(photo.mesh)
     box = np.array([[*corner, *(end - corner)]], np.float32)
     fitted = fit_lower_lids(rgb.astype(np.uint8), mesh.astype(np.float32))
-    return TargetFace(rgb.astype(np.uint8), None, fitted, box, (photo.rgb.shape[1], photo.rgb.shape[0]), place)
+    original = (photo.rgb.shape[1], photo.rgb.shape[0])
+    return TargetFace(rgb.astype(np.uint8), None, fitted, box, original, place, people_confidence(photo.rgb))
 
 
 def _part(photo: FacePhoto, size: tuple[int, int]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -13,6 +13,7 @@ from engine.errors import InputError
 from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.animation import FaceAnimation, Parts, RegisteredDriver, RiggedTarget
 from engine.face_animation.driver_tracking.neutral import choose_neutral_frame, warn_if_never_at_rest
+from engine.face_animation.mouth.mouth_interior import DriverMouth, MouthInterior
 from engine.face_animation.stages import analyse_driver, follow_driver, prepare_target
 from engine.face_animation.target_face import TargetFace
 from engine.perception.face_track.track import FaceTrack
@@ -22,7 +23,6 @@ from engine.persona.composite.photo_teeth import PhotoTeeth
 from engine.persona.composite.portrait_choice import WHOLE_HEAD_SHARE, head_share
 from engine.persona.composite.retouching import retouching_of
 from engine.persona.composite.skin_colour import is_grey
-from engine.persona.composite.teeth_choice import mouth_dark
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona
 from engine.run import Run
@@ -69,7 +69,7 @@ def perform_photo(persona: Persona, driver: Path, options: PersonaOptions, run: 
     registered = RegisteredDriver(played.track, played.neutral, residuals)
     with run.timed("perform"):
         acting = act(rigged, registered, follows, persona)
-        mouth = _mouth(persona, target, acting, run)
+        mouth = _mouth(persona, target, DriverMouth(target, played.track, played.neutral), acting, run)
         animation = FaceAnimation(rigged, registered, follows, OWN_CREASES, mouth=mouth)
         assert persona.portrait is not None
         base = persona.synthesis(acting.rest[None])[0]
@@ -95,11 +95,12 @@ def _target(persona: Persona, size: tuple[int, int], run: Run) -> TargetFace:
     return framed(persona.portrait, size)
 
 
-def _mouth(persona: Persona, target: TargetFace, acting: PhotoActing, run: Run) -> PhotoTeeth | None:
+def _mouth(persona: Persona, target: TargetFace, behind: MouthInterior, acting: PhotoActing, run: Run) -> MouthInterior:
     if persona.teeth is None:
         run.warn(
             "no_teeth_shown",
-            "None of the photos shows the person's upper teeth from before: what is between the lips is the driver's. Add a photo with a smile.",
+            "None of the photos shows the person's upper teeth from before and large enough: what is between the lips is the driver's. Add a"
+            " larger photo with a smile.",
         )
-        return None
-    return PhotoTeeth(target, persona.teeth, mouth_dark(persona), persona.neutral, acting.faces)
+        return behind
+    return PhotoTeeth(target, persona.teeth, behind, persona.neutral, acting.faces)

@@ -1,8 +1,8 @@
-"""The teeth of one photograph of the person, in a mouth of theirs that moves.
+"""The upper teeth of one photograph of the person, in a mouth of theirs that moves.
 
 Teeth that are averaged over photographs are ghosts, and a driver's are somebody else's. One photograph's are sharp; they sit in the
-skull, and lips uncover them: they are neither drawn wide nor long with the mouth. The lower ones are the upper ones turned over, and go
-with the jaw. Behind both are the dark of the mouth, and the tongue.
+skull, and lips uncover them: they are neither drawn wide nor long with the mouth. What is below them, lower teeth, tongue and the dark, no
+photograph shows as a mouth that moves has them: these are the driver's, by which nobody is known.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.mouth.hidden_regions import LUMINANCE_WEIGHTS, box_around, soft_polygon
-from engine.face_animation.mouth.teeth import draw_teeth, find_teeth
+from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.target_face import TargetFace
 from engine.perception.expression.features import frontalise
-from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER, eye_distance, mouth_opening
+from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, eye_distance, mouth_opening
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.composite.mouth_light import in_mouth
 from engine.persona.composite.skin_colour import is_grey, skin_colour
@@ -27,56 +27,43 @@ APPEARING_OPENING, FULL_OPENING = 0.03, 0.09
 REST_FACTOR = 1.15
 """Of a picture's own opening, up to which its own inside is shown."""
 NOSE_BASE = (2, 94, 98, 327)
-CHIN = (148, 152, 377)
 UPPER_MIDDLE = (82, 13, 312)
 SHUT_OPENING = 0.05
 """Of a mouth that tells where its lips meet."""
 BELOW_LIPS = 0.06
 """Eye distances below where the lips meet, at which upper teeth end."""
-EDGE_SOFTNESS = 0.02
-"""Eye distances over which lower teeth begin."""
 MAX_WIDER, MAX_LONGER = 1.25, 1.35
 """Than in the photograph: so that teeth fill mouths that are wider, and reach up to lips that are higher."""
 WIDE_PERCENTILE = 80
 """Of the open mouths' widths and lips' heights, that teeth fill."""
-ROUND = 0.85
-"""Of the width of a shut mouth, that a round one has."""
-LOWER_SIZE = 0.8
-"""Of the lower teeth, in that of the upper ones."""
-LOWER_LIGHT = np.array([0.76, 0.67, 0.63], np.float32)
-"""Of red, green and blue that reaches them: between gums, tongue and lips it is dim and red."""
-GUM_SOFTNESS = 0.04
-"""Eye distances above their roots over which they pass into what is behind."""
 ARCH_ROUNDS = 3
 """How often it is asked how far back the teeth are that a pixel shows."""
 BRIGHT_PERCENTILE = 97
 """Of the face's light: teeth are no brighter."""
 LIGHTER_THAN_SKIN = 1.1
 """Teeth are than the skin beside them, at least."""
-TONGUE_SHARE = 0.5
-"""Of the lips' light, that is the tongue's."""
 GAIN_RANGE = (0.5, 1.7)
 LIP_SOFTNESS, LEAST_SOFT_PIXELS = 0.012, 0.8
 """Eye distances, and pixels, over which the inside passes into the lips: their edges are round, and the mesh's have corners."""
 
 
 class PhotoTeeth:
-    """`MouthInterior` of a person: the teeth of one photograph over the dark of the mouth, in the light of the `target`.
+    """`MouthInterior` of a person: the upper teeth of one photograph, in the light of the `target`, before what is `behind` them.
 
-    `cavity` (3,) sRGB, the dark of their mouth. `neutral` (478, 3) their face at rest from the front, in eye distances. `faces`
-    (F, 478, 2) what the target's face does: what of its teeth that uncovers is as wide and long as the teeth are made, once.
+    `neutral` (478, 3) their face at rest from the front, in eye distances. `faces` (F, 478, 2) what the target's face does: what of its
+    teeth that uncovers is as wide and long as the teeth are made, once.
     """
 
     def __init__(
         self,
         target: TargetFace,
         photo: FacePhoto,
-        cavity: NDArray[np.floating],
+        behind: MouthInterior,
         neutral: NDArray[np.floating],
         faces: NDArray[np.floating],
     ):
         rest = float(mouth_opening(target.mesh))
-        self._own = find_teeth(target.rgb, target.mesh)
+        self._behind = behind
         self._appearing = max(APPEARING_OPENING, REST_FACTOR * rest)
         self._front = frontalise(target.mesh[None])[0]
         self._shut = self._front if rest < SHUT_OPENING else _laid_on(neutral, self._front)
@@ -88,42 +75,35 @@ class PhotoTeeth:
         self._gain = _gain(target, photo)
         self._gain *= _held(self._strip.brightest(self._gain), target)
         self._grey = is_grey(target.rgb, target.mesh)
-        self._tongue = (TONGUE_SHARE * _lips(target)).astype(np.float32)
-        self._cavity = np.asarray(cavity, np.float32) * np.clip(self._gain, GAIN_RANGE[0], 1.2)
 
     def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], driver_frame: int) -> None:
         """As `MouthInterior.draw`."""
+        self._behind.draw(frame, face, driver_frame)
         opening = float(mouth_opening(face))
         share = float(np.clip((opening - self._appearing) / (FULL_OPENING - APPEARING_OPENING), 0, 1))
-        if self._own is not None:
-            draw_teeth(frame, self._own, face, 1 - share)
         inner = face[list(LIPS_INNER), :2].astype(np.float32)
         box = box_around(inner, frame.shape[:2])
         if share == 0 or box is None:
             return
         x0, y0, x1, y1 = box
         corner = np.array([x0, y0], np.float32)
-        colours = self.inside(face, corner, (y1 - y0, x1 - x0))
+        teeth = self.teeth(face, corner, (y1 - y0, x1 - x0))
         sigma = max(LEAST_SOFT_PIXELS, LIP_SOFTNESS * float(eye_distance(face)))
-        mask = share * cv2.GaussianBlur(soft_polygon(inner - corner, (y1 - y0, x1 - x0)), (0, 0), sigma)[..., None]
+        mask = cv2.GaussianBlur(soft_polygon(inner - corner, (y1 - y0, x1 - x0)), (0, 0), sigma)[..., None]
         part = frame[y0:y1, x0:x1]
-        part[:] = np.clip(part + mask * (colours - part) + 0.5, 0, 255).astype(np.uint8)
+        covered = share * np.asarray(mask) * teeth[..., 3:]
+        part[:] = np.clip(part + covered * (teeth[..., :3] - part) + 0.5, 0, 255).astype(np.uint8)
 
-    def inside(
+    def teeth(
         self, face: NDArray[np.floating], corner: NDArray[np.floating], shape: tuple[int, int]
     ) -> NDArray[np.float32]:
-        """(h, w, 3) what is behind the lips of a `face` (478, 2), in a part of `shape` (h, w) of its picture whose first pixel is
-        at `corner` (2,)."""
-        place, behind = in_mouth(face, corner, shape), self.places(face, corner, shape)
-        light = place.light()[..., None]
-        mixed: NDArray[np.float32] = self._cavity + place.tongue()[..., None] * (self._tongue - self._cavity)
-        lower, upper = self.lower_teeth(behind, self.jaw_drop(face)), self.upper_teeth(behind)
-        lower[..., 3] *= self._spread(face)
-        for teeth, lit in ((lower, light * LOWER_LIGHT), (upper, light)):
-            mixed += teeth[..., 3:] * (teeth[..., :3] * self._gain * lit - mixed)
+        """(h, w, 4) the teeth's colours in the target's light, and their shares, in a part of `shape` (h, w) of the picture of a `face`
+        (478, 2) whose first pixel is at `corner` (2,)."""
+        layer = self.upper_teeth(self.places(face, corner, shape))
+        layer[..., :3] *= self._gain * in_mouth(face, corner, shape).light()[..., None]
         if self._grey:
-            mixed[:] = (mixed @ LUMINANCE_WEIGHTS)[..., None]
-        return mixed
+            layer[..., :3] = (layer[..., :3] @ LUMINANCE_WEIGHTS)[..., None]
+        return layer
 
     def places(
         self, face: NDArray[np.floating], corner: NDArray[np.floating], shape: tuple[int, int]
@@ -145,30 +125,6 @@ class PhotoTeeth:
         x = self._strip.middle + places[..., 0] / self._wider
         middle = np.full((), self._strip.middle)
         return self._strip.sampled(x, self._strip.ends(middle) + places[..., 1] / self._longer)
-
-    def lower_teeth(self, places: NDArray[np.floating], drop: float) -> NDArray[np.float32]:
-        """As `upper_teeth`, where the jaw is `drop` eye distances lower than in a shut mouth."""
-        x = self._strip.middle + places[..., 0] / (LOWER_SIZE * self._wider)
-        down = (places[..., 1] - drop) / LOWER_SIZE
-        left = self._strip.ends(x) - self._strip.lip(x) - down
-        layer = self._strip.sampled(x, self._strip.lip(x) + left)
-        layer[..., 3] *= np.clip(down / EDGE_SOFTNESS + 0.5, 0, 1) * np.clip(left / GUM_SOFTNESS, 0, 1)
-        return layer
-
-    def jaw_drop(self, face: NDArray[np.floating]) -> float:
-        """Eye distances by which the chin of a `face` (478, 2) is lower than in a shut mouth."""
-        matrix, shift = skull_camera(self._front, face)
-        chin = self._shut[list(CHIN)].mean(axis=0)
-        seen = face[list(CHIN), :2].mean(axis=0) - shift - chin[2] * matrix[:, 2]
-        return max(float(np.linalg.solve(matrix[:, :2], seen)[1] - chin[1]), 0.0)
-
-    def _spread(self, face: NDArray[np.floating]) -> np.float32:
-        """In [0, 1], how far a mouth is from a round one, whose lips cover the lower teeth."""
-        now = np.linalg.norm(face[CORNERS[0], :2] - face[CORNERS[1], :2]) / np.linalg.norm(
-            skull_camera(self._front, face)[0][0]
-        )
-        usual = np.linalg.norm(self._shut[CORNERS[0], :2] - self._shut[CORNERS[1], :2])
-        return np.float32(np.clip((now / usual - ROUND) / (1 - ROUND), 0, 1))
 
     def _size(self, faces: NDArray[np.floating]) -> tuple[float, float]:
         """How much wider and longer than in the photograph teeth are, for open mouths (F, 478, 2)."""
@@ -201,14 +157,6 @@ def _gain(target: TargetFace, photo: FacePhoto) -> NDArray[np.float32]:
     colour = np.sqrt(ratio / brightness)
     colour[1] = min(colour[1], max(colour[0], colour[2]))
     return np.asarray(np.clip(brightness, *GAIN_RANGE) * colour / float(colour @ LUMINANCE_WEIGHTS), np.float32)
-
-
-def _lips(target: TargetFace) -> NDArray[np.float64]:
-    """(3,) the mean colour of the target's lips."""
-    mask = np.zeros(target.rgb.shape[:2], np.uint8)
-    cv2.fillPoly(mask, [target.mesh[list(LIPS_OUTER), :2].round().astype(np.int32)], 1)
-    cv2.fillPoly(mask, [target.mesh[list(LIPS_INNER), :2].round().astype(np.int32)], 0)
-    return np.asarray(target.rgb[mask > 0].mean(axis=0) if mask.any() else (120.0, 70.0, 70.0))
 
 
 def _held(brightest: float, target: TargetFace) -> float:

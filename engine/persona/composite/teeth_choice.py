@@ -1,4 +1,4 @@
-"""Which photograph lends its teeth, and how dark the mouth behind them is."""
+"""Which photograph lends its teeth."""
 
 from __future__ import annotations
 
@@ -9,16 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.mouth.hidden_regions import LOWER_INNER_LIP, UPPER_INNER_LIP
-from engine.perception.landmarks import LIPS_INNER, eye_distance, mouth_opening
+from engine.perception.landmarks import eye_distance, mouth_opening
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.collection.photo_face import PhotoFace
 from engine.persona.composite.skin_colour import is_grey
-from engine.persona.persona import Persona
 
 MAX_YAW = 15.0
 """Degrees up to which a face shows both halves of its teeth."""
 OPENINGS = (0.10, 0.40)
 """Of the mouth: of less nothing is seen of teeth, and of more too much beside them."""
+MIN_EYE_DISTANCE = 48.0
+"""Pixels: a tooth is an eighth as wide, and of fewer than six pixels enlarged becomes part of a white band."""
 LOOKED_AT = 24
 """Photographs that are looked at, the largest of those that can be meant."""
 BRIGHT_SHARES = (0.5, 1.0)
@@ -38,12 +39,6 @@ WELL_LIT = 160.0
 """Of skin."""
 EDGE_SHARE = 0.5
 """Of teeth seen, that the dark below them counts: without it where they end is the lower lip's line, which is no tooth's."""
-DARK_PERCENTILE = 12
-MIN_OPENING = 0.2
-"""Of mouths in which the dark is looked for."""
-INNER_TOP, INNER_BOTTOM, RIGHT_CORNER, LEFT_CORNER = 45, 49, 31, 37
-"""Of the 51 points of an expression: the inner lips' middles, and the corners."""
-LEAST_DARK = (30.0, 12.0, 12.0)
 
 
 def teeth_photo(
@@ -54,7 +49,9 @@ def teeth_photo(
     able = [
         number
         for number, face in enumerate(faces)
-        if abs(face.yaw) < MAX_YAW and OPENINGS[0] <= float(mouth_opening(face.mesh)) <= OPENINGS[1]
+        if abs(face.yaw) < MAX_YAW
+        and face.eye_distance >= MIN_EYE_DISTANCE
+        and OPENINGS[0] <= float(mouth_opening(face.mesh)) <= OPENINGS[1]
     ]
     able.sort(key=lambda number: -faces[number].eye_distance)
     best: tuple[float, FacePhoto] | None = None
@@ -67,21 +64,6 @@ def teeth_photo(
         if best is None or score > best[0]:
             best = float(score), one
     return best[1] if best else None
-
-
-def mouth_dark(persona: Persona) -> NDArray[np.float32]:
-    """(3,) sRGB of the dark in a person's mouth; a usual one where no mouth is open."""
-    lips = persona.points[:, [INNER_TOP, INNER_BOTTOM]], persona.points[:, [RIGHT_CORNER, LEFT_CORNER]]
-    gap, width = (np.linalg.norm(pair[:, 0] - pair[:, 1], axis=-1) for pair in lips)
-    inside = np.zeros(persona.frame.size, np.uint8)
-    cv2.fillPoly(inside, [np.rint(persona.frame.places[list(LIPS_INNER), :2]).astype(np.int32)], 1)
-    inner = cv2.erode(inside, np.ones((3, 3), np.uint8)) > 0
-    pixels = persona.colours[gap > MIN_OPENING * width][:, inner].reshape(-1, 3).astype(np.float32)
-    if not len(pixels):
-        return np.array(LEAST_DARK, np.float32)
-    grey = pixels.mean(axis=1)
-    dark = np.median(pixels[grey <= np.percentile(grey, DARK_PERCENTILE)], axis=0)
-    return np.maximum(dark, LEAST_DARK).astype(np.float32)
 
 
 def _seen(photo: FacePhoto) -> float:

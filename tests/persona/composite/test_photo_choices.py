@@ -74,3 +74,10 @@ def test_where_no_mouth_is_open_nobody_lends_teeth(collection: Collection) -> No
     shut = [k for k, mesh in enumerate(collection[0]) if float(mouth_opening(mesh)) < 0.05]
     faces = as_faces(collection[0][shut])
     assert teeth_photo(faces, lambda number: collection[1][shut[number]]) is None
+
+
+def test_teeth_of_faces_that_are_small_are_left_to_the_driver(collection: Collection) -> None:
+    meshes, photos = collection
+    small = [photo[::4, ::4] for photo in photos]
+    assert float(np.median([eye_distance(mesh[:, :2]) for mesh in meshes])) / 4 < 40, "pixels"
+    assert teeth_photo(as_faces([mesh / 4 for mesh in meshes]), lambda number: small[number]) is None
