@@ -48,15 +48,21 @@ def test_a_worker_ends_as_it_is_told_to(
 
 def test_a_signal_may_interrupt_another_that_is_being_told_of() -> None:
     """Celery tells of its end under a lock, in a handler that a second signal interrupts."""
+    told: list[str] = []
+
+    def hear(sig: str = "", **_: object) -> None:
+        told.append(sig)
 
     def interrupted() -> None:
         with signals.worker_shutting_down.lock:
             signals.worker_shutting_down.send(sender=None, sig="SIGTERM", how="Warm", exitcode=0)
 
+    signals.worker_shutting_down.connect(hear, weak=False)
     handler = threading.Thread(target=interrupted, daemon=True)
     handler.start()
     handler.join(30)
-    assert not handler.is_alive()
+    assert told == ["SIGTERM"]
+    signals.worker_shutting_down.disconnect(hear)
 
 
 def test_a_worker_that_is_told_many_times_ends(alone: Running, picture: bytes, tmp_path: Path) -> None:
