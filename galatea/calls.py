@@ -178,7 +178,7 @@ def make_persona(
     Parameters
     ----------
     photos : a folder or an archive of photographs, or a sequence of pictures and archives; fifteen have to be of use. Or the
-        `persona.npz` of an earlier call, which takes seconds.
+        path of an earlier call's `persona.npz`, which takes seconds.
     driver : a video of a face, a picture of one, or the name of a built-in performance; None makes the persona alone.
     out : folder for the artifacts, made if it is not there. After an error it is as it was.
     driver_photos : photographs of the driver, which tell what the face is like at rest.

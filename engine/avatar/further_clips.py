@@ -15,7 +15,7 @@ SPACING = 0.004
 """Metres between the points by which clouds are laid onto one another."""
 GATES = (0.03, 0.015)
 """Metres within which points are taken to be of one surface: first, and once they are near."""
-ROUNDS = 8
+ICP_ITERATIONS = 8
 """Of closest points, with each of these."""
 
 
@@ -24,7 +24,7 @@ def onto_body(further: ClipScan, body: ClipScan) -> ClipScan:
     target = thinned(body.dense.cloud, SPACING)
     for gate in GATES:
         points = thinned(further.dense.cloud, SPACING).points
-        further = further.moved(rigid_onto_cloud(points, target.points, target.normals, gate, ROUNDS))
+        further = further.moved(rigid_onto_cloud(points, target.points, target.normals, gate, ICP_ITERATIONS))
     return further
 
 

@@ -22,7 +22,7 @@ from engine.render.mipmap import build_mipmap
 from engine.render.scratch import Scratch
 from engine.render.surface import Surface, draw_surface, triangle_spread
 
-ROUNDS = 2
+SUBDIVISIONS = 2
 """Of the subdivision: triangles of a frame 194 wide are three pixels wide then."""
 DISTANCE = 4096.0
 """Pixels from the eye to the face: so far off that nearer parts are no larger."""
@@ -82,7 +82,7 @@ class Puppet:
     @cached_property
     def _subdivision(self) -> tuple[sp.csr_array, NDArray[np.int32]]:
         coarse = np.concatenate([face_triangles(), opening_triangles()])
-        matrix, triangles = midpoint_subdivision(coarse, FACE_VERTICES, ROUNDS)
+        matrix, triangles = midpoint_subdivision(coarse, FACE_VERTICES, SUBDIVISIONS)
         return matrix, np.ascontiguousarray(triangles[:, ::-1])  # counter-clockwise, which is what is not culled
 
     @cached_property

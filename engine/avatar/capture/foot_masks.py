@@ -31,7 +31,7 @@ SHIN = 0.5
 """Of the way to the knee, how much is surely a leg."""
 SURE_SHARE = 0.04
 """Half the width of what surely is, in lengths of the foot."""
-ROUNDS = 2
+CUT_ROUNDS = 2
 """How often masks and floor are found from each other."""
 COVER_PIXELS = 2
 """Around a mask, that are not taken for the floor's."""
@@ -103,7 +103,7 @@ def told_from_floor(frames: Sequence[FootFrame], feet: Sequence[Foot]) -> list[N
     covered = [_covered(mask, part) for mask, part in zip(masks, parts, strict=True)]
     ours = [None if part is None else part.sure for part in parts]
     around, height = np.concatenate([foot.corners for foot in feet]), None
-    for _ in range(ROUNDS):
+    for _ in range(CUT_ROUNDS):
         views = [FloorView(f.image, c, f.room) for f, c in zip(frames, covered, strict=True)]
         floor = floor_mosaic(views, around, height)
         if floor is None:

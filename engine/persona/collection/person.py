@@ -15,7 +15,7 @@ from engine.persona.collection.photo_face import PhotoFace
 
 CORE_SHARE = 5 / 6
 """Of the distance below which two faces are one person's: those that are nearer to a face are its neighbours."""
-ROUNDS = 3
+GROWING_ROUNDS = 3
 """In which faces join the person's, and leave them."""
 SECOND_PERSON_SHARE = 0.6
 """Of as many faces as the person has, from which on another may be meant just as well."""
@@ -90,7 +90,7 @@ def _cluster(apart: NDArray[np.float32], distances: IdentityDistances, among: ND
         return np.zeros(0, np.intp)
     near = apart < CORE_SHARE * distances.same
     core = np.flatnonzero(near[among[near[among].sum(1).argmax()]])
-    for _ in range(ROUNDS):
+    for _ in range(GROWING_ROUNDS):
         grown = np.flatnonzero(np.median(apart[:, core], axis=1) < distances.same)
         core = grown if len(grown) else core
     return core

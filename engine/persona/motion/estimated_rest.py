@@ -6,17 +6,13 @@ and units are as a rule at little. The paper has many pictures of everybody and 
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
-from engine.body import load_template
-from engine.body.body_space import load_body_space
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
-from engine.persona.motion.mesh_units import MeshUnits, mesh_units
+from engine.persona.motion.mesh_units import load_mesh_units
 
 SPREAD_BETWEEN_PEOPLE = 0.06
 """Eye distances by which vertices at rest differ from the general face's: of the rest frames of seventeen drivers, 0.04 to 0.06."""
@@ -36,9 +32,3 @@ def estimated_rest(front: NDArray[np.floating]) -> NDArray[np.float64]:
     shown = np.concatenate([weight * (front - general).ravel(), np.zeros(len(units.moved))])
     activations = lsq_linear(system, shown, (0, 1)).x
     return np.asarray(front - np.einsum("u,uvc->vc", activations, units.moved), np.float64)
-
-
-@cache
-def load_mesh_units() -> MeshUnits:
-    """The units of the template that comes with the program, made once."""
-    return mesh_units(load_template(), load_body_space())

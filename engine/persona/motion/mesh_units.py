@@ -8,16 +8,17 @@ it. `engine.body.face.face_mesh_points` has fewer vertices, those that tell most
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import RBFInterpolator
 from scipy.ndimage import distance_transform_edt, minimum_filter
 
-from engine.body.body_space import BodySpace
+from engine.body.body_space import BodySpace, load_body_space
 from engine.body.face.face_capture import CAPTURED_UNITS
 from engine.body.face.face_points import PICTURE_TO_TEMPLATE, lay_canonical_face
-from engine.body.template import Template
+from engine.body.template import Template, load_template
 from engine.geometry.registration.rigid import fit_similarity
 from engine.geometry.surface import triangulate
 from engine.perception.head_pose import canonical_face, mirror_vertices
@@ -72,6 +73,12 @@ class MeshUnits:
     rest: NDArray[np.float64]
     names: tuple[str, ...]
     moved: NDArray[np.float64]
+
+
+@cache
+def load_mesh_units() -> MeshUnits:
+    """Those of the template that comes with the program, made once."""
+    return mesh_units(load_template(), load_body_space())
 
 
 def mesh_units(template: Template, space: BodySpace) -> MeshUnits:

@@ -8,11 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body import load_template
-from engine.body.body_space import load_body_space
 from engine.geometry.joint_names import SIDES
 from engine.persona.motion.deformation_transfer import DeformationTransfer
-from engine.persona.motion.mesh_units import EYES, lids_met, mesh_units
+from engine.persona.motion.mesh_units import EYES, lids_met, load_mesh_units
 from engine.persona.motion.performance import FRAME_SIZE
 from engine.persona.persona import Persona
 from engine.persona.puppet import FACE_VERTICES
@@ -54,7 +52,7 @@ class FaceUnits:
 def face_units(persona: Persona) -> FaceUnits:
     """The template's units carried to the persona as a driver's movements are: lids meet, lips close. Those that a face mesh does not
     show are left out: the tongue's, and where eyes look to."""
-    known = mesh_units(load_template(), load_body_space())
+    known = load_mesh_units()
     transfer = DeformationTransfer(texture_frame(known.rest, FRAME_SIZE), texture_frame(persona.neutral, FRAME_SIZE))
     jaw, closed = known.names.index(OPEN_JAW), known.names.index(LIPS_CLOSED)
     movements = known.moved.copy()

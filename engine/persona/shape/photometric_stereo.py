@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.persona.texture.appearance_subspace import RANK, Appearance
 
-ROUNDS = 3
+ALTERNATIONS = 3
 """In which the albedo that the template is multiplied with comes from the estimate before."""
 
 
@@ -43,7 +43,7 @@ def photometric_stereo(
     known = np.concatenate([np.ones((1, int(area.sum()))), np.asarray(template, np.float64)[area].T])
     albedo = rows.mean(axis=0).astype(np.float64)
     mixed = known
-    for _ in range(ROUNDS):
+    for _ in range(ALTERNATIONS):
         wanted = (albedo * known)[:, inside]
         mixed = wanted @ np.linalg.pinv(basis[:, inside]) @ basis
         albedo = np.linalg.norm(mixed[1:], axis=0)

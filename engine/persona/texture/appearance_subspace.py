@@ -20,7 +20,7 @@ MIN_BELIEF = 0.01
 """Weight of all pixels as they are, so that a photograph of which next to nothing is believed has a light, too."""
 RESIDUAL_SIGMA = 14.0
 """Grey levels off the subspace, of a face of mean grey, at which a pixel counts half."""
-ROUNDS = (
+FITTING_ROUNDS = (
     (1, 4 * RESIDUAL_SIGMA),
     (2, 3 * RESIDUAL_SIGMA),
     (3, 2 * RESIDUAL_SIGMA),
@@ -72,7 +72,7 @@ def appearance(
     filled = seen.copy()
     projected = grey.copy()
     whole = weights
-    for rank, sigma in ROUNDS:
+    for rank, sigma in FITTING_ROUNDS:
         low = _low_rank(filled, seen, weights, rank)
         projected[:, area] = low
         whole = _believed(grey - projected, sigma) * shown

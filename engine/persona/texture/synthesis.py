@@ -24,7 +24,7 @@ CAP_PERCENTILE = 80
 """Of a pixel's responses in all photographs: a stronger one is a hair or an edge of light, not a finer crease."""
 MIN_CONFIDENCE = 0.05
 """Grey levels: where no photograph has any detail, all count alike."""
-MIN_BELIEF = 1e-3
+MIN_PIXEL_BELIEF = 1e-3
 MAX_BATCH = 32
 """Expressions that are mixed at once."""
 
@@ -68,7 +68,7 @@ def texture_synthesis(colours: NDArray[np.uint8], belief: NDArray[np.floating]) 
     for level in range(count):
         bands = np.array([pyramid[level] for pyramid in pyramids])
         shape = (bands.shape[1], bands.shape[2])
-        believed = np.array([_shrunk(one, shape) for one in belief]) + np.float32(MIN_BELIEF)
+        believed = np.array([_shrunk(one, shape) for one in belief]) + np.float32(MIN_PIXEL_BELIEF)
         if level < count - 1:
             believed *= _confidence(bands, colours.shape[2] / REFERENCE_WIDTH)
         levels.append(_level(bands, believed, GAMMA * BETA ** -(count - 1 - level)))

@@ -9,7 +9,8 @@ from engine.perception.expression.features import frontalise
 from engine.perception.faces import FaceTracker
 from engine.perception.head_pose import canonical_face
 from engine.performances import video
-from engine.persona.motion.estimated_rest import estimated_rest, load_mesh_units
+from engine.persona.motion.estimated_rest import estimated_rest
+from engine.persona.motion.mesh_units import load_mesh_units
 
 
 def root_mean_square(apart: np.ndarray) -> float:
