@@ -73,6 +73,7 @@ def examine() -> int:
         _encoders,
         _kinds,
         _files,
+        _face_descriptor,
         _performances,
         _folder,
         _database,
@@ -160,6 +161,24 @@ def _files(settings: Settings) -> Iterator[Finding]:
         yield Finding("missing", f"{path} is missing, or not whole", install_anew())
     if not missing:
         yield Finding("ok", f"the program's own files: {sum(map(len, data_files().values()))} beside its modules")
+
+
+def _face_descriptor(settings: Settings) -> Iterator[Finding]:
+    """What tells people apart in collections of photos, loaded as a job does: the file's hash is checked."""
+    from engine.package_data import IncompleteInstallation
+    from engine.perception.identity.backend import face_descriptor
+    from engine.perception.identity.dlib_descriptor import MODEL_FILE
+    from engine.perception.models import DESCRIPTOR_SETTING, ModelError
+
+    own = os.environ.get(DESCRIPTOR_SETTING)
+    try:
+        face_descriptor(os.environ)
+    except ModelError as error:
+        yield Finding("missing", f"faces of personas: {error}", f"see docs/personas.md, or unset {DESCRIPTOR_SETTING}")
+    except IncompleteInstallation as error:
+        yield Finding("missing", f"faces of personas: {error.detail}", install_anew())
+    else:
+        yield Finding("ok", f"faces of personas are told apart by {own or MODEL_FILE}")
 
 
 def _performances(settings: Settings) -> Iterator[Finding]:

@@ -31,6 +31,17 @@ def test_a_whole_installation_is_whole(tmp_path: Path) -> None:
         assert wall in found.stdout
 
 
+def test_the_model_that_tells_people_apart_is_named(tmp_path: Path) -> None:
+    found = doctor(GALATEA_DATA_DIR=str(tmp_path))
+    assert "ok       faces of personas are told apart by dlib_face_recognition_resnet_model_v1.dat" in found.stdout
+    model = tmp_path / "own.onnx"
+    model.write_bytes(b"no model")
+    own = {"GALATEA_FACE_DESCRIPTOR_MODEL": str(model), "GALATEA_FACE_DESCRIPTOR_MODEL_LICENCE": "MIT"}
+    found = doctor(GALATEA_DATA_DIR=str(tmp_path), GALATEA_FACE_DESCRIPTOR_MODEL_SHA256="0" * 64, **own)
+    assert found.returncode == 1
+    assert "missing  faces of personas: own.onnx has SHA-256" in found.stdout
+
+
 def test_what_is_missing_is_named_with_a_remedy(tmp_path: Path) -> None:
     found = doctor(GALATEA_DATA_DIR="/proc/nothing/here", GALATEA_KINDS="no_such_module:KIND", GALATEA_WEB_DIR="/none")
     assert found.returncode == 1
