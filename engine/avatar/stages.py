@@ -23,8 +23,8 @@ from engine.avatar.landmarks.given import GivenLandmark, placed_by_hand
 from engine.avatar.landmarks.in_frames import FrameLandmarks, frame_landmarks
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.options import KnownLens
+from engine.avatar.registration.feet.foot_outlines import Silhouette
 from engine.avatar.registration.fitted_template import FittedTemplate
-from engine.avatar.registration.foot_outlines import Silhouette
 from engine.avatar.registration.models import load_models
 from engine.avatar.registration.register import Scan, register
 from engine.avatar.texture.avatar_texture import AvatarTexture, avatar_texture

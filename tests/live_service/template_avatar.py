@@ -9,7 +9,7 @@ import numpy as np
 from engine.avatar.acting import Scene
 from engine.avatar.avatar import Avatar, assemble
 from engine.avatar.options import TEMPLATE_TRIANGLES, AvatarOptions
-from engine.avatar.registration.eyes import IRIS_RADIUS
+from engine.avatar.registration.eyes.fitted_eyes import IRIS_RADIUS
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.texture.template_surface import template_surface
 from engine.avatar.texture.template_texture.placing import place_eyes, place_mouth

@@ -18,7 +18,7 @@ from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.options import ATTACHED_TRIANGLES
 from engine.avatar.registration.models import HumanModels
-from engine.avatar.registration.skin import grown
+from engine.avatar.registration.template_skin.skin import grown
 from engine.avatar.worn import Attachments, no_attachments
 from engine.geometry.atlas_room import cells_of, placed_between
 from engine.geometry.camera import Camera

@@ -6,7 +6,7 @@ import numpy as np
 from numba import prange
 from numpy.typing import NDArray
 
-from engine.avatar.registration.skin import Skin
+from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.body_space import BodySpace
 from engine.body.fitting.posing import BodyPoser
 from engine.body.landmarks import LandmarkModel

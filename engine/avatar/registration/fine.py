@@ -7,8 +7,8 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
-from engine.avatar.registration.lip_contact import closed_mouth
-from engine.avatar.registration.skin import Skin
+from engine.avatar.registration.template_skin.lip_contact import closed_mouth
+from engine.avatar.registration.template_skin.skin import Skin
 from engine.geometry.adjacency import neighbours
 from engine.geometry.point_cloud import PointCloud
 from engine.geometry.registration.nonrigid_registration import (

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.avatar.registration.skin import Skin
+from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.cache import cached_arrays
 from engine.body.garments.shoes import shod
 from engine.body.garments.toe_cap import ToeCap, toe_cap

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from engine.avatar.registration.fine import FIRST_INNER_FACE_POINT
-from engine.avatar.registration.skin import Skin, grown
+from engine.avatar.registration.template_skin.skin import Skin, grown
 from engine.body.face.head_space import HeadSpace
 from engine.geometry.closest_points import closest_points
 from engine.geometry.deformation.handles import handles

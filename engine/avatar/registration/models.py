@@ -9,7 +9,7 @@ from functools import cache
 from engine.avatar.registration.body_model import BodyModel
 from engine.avatar.registration.coarse import SHAPE_COEFFICIENTS
 from engine.avatar.registration.footwear import Feet, load_feet
-from engine.avatar.registration.skin import Skin, load_skin
+from engine.avatar.registration.template_skin.skin import Skin, load_skin
 from engine.body.body_space import BodySpace, load_body_space
 from engine.body.face.head_space import HeadSpace, load_head_space
 from engine.body.hands import HandModel, hand_model

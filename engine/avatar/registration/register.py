@@ -10,20 +10,20 @@ from numpy.typing import NDArray
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.coarse import CoarseFit, fit_to_landmarks, fit_to_points
-from engine.avatar.registration.expressions import transferred_units
-from engine.avatar.registration.eyes import with_eyes, with_sockets
-from engine.avatar.registration.face_parts import head_change, place_parts
+from engine.avatar.registration.eyes.fitted_eyes import with_eyes, with_sockets
+from engine.avatar.registration.face.expressions import transferred_units
+from engine.avatar.registration.face.face_parts import head_change, place_parts
+from engine.avatar.registration.face.inner_mouth import inner_skin
+from engine.avatar.registration.feet.foot_outlines import Silhouette
+from engine.avatar.registration.feet.standing_feet import with_feet
 from engine.avatar.registration.fine import fit_body, fit_head
 from engine.avatar.registration.fitted_template import FittedTemplate
-from engine.avatar.registration.foot_outlines import Silhouette
 from engine.avatar.registration.footwear import seen_barefoot
 from engine.avatar.registration.hand_pose import CoarseBody, with_hands
 from engine.avatar.registration.head_cloud import head_to_body, one_cloud
 from engine.avatar.registration.head_shape import head_shape
-from engine.avatar.registration.inner_mouth import inner_skin
 from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.rigging import Pose, on_the_ground, rest_joints, unposed
-from engine.avatar.registration.standing_feet import with_feet
 from engine.body.face.visemes import viseme_displacements
 from engine.errors import InputError, Notice
 from engine.geometry.deformation.cage_coordinates import cage_coordinates

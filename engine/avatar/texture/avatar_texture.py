@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.registration.eyes import IRIS_RADIUS
+from engine.avatar.registration.eyes.fitted_eyes import IRIS_RADIUS
 from engine.avatar.texture.labels import UNSEEN, FaceLabels
 from engine.avatar.texture.stitching import TEXTURE_SIZE, stitch_texture
 from engine.avatar.texture.template_surface import TemplateSurface

@@ -12,8 +12,8 @@ from scipy.spatial import cKDTree
 from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.mouth_chart import mouth_faces
-from engine.avatar.registration.lid_rims import behind_rims, lid_rim
-from engine.avatar.registration.skin import EYE_PARTS
+from engine.avatar.registration.template_skin.lid_rims import behind_rims, lid_rim
+from engine.avatar.registration.template_skin.skin import EYE_PARTS
 from engine.avatar.texture.views import ChartedSurface
 from engine.avatar.worn import Attachments
 from engine.body.rig import Rig

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.registration.eyeballs import sphere
-from engine.avatar.registration.skin import EYE_PARTS
+from engine.avatar.registration.eyes.eyeballs import sphere
+from engine.avatar.registration.template_skin.skin import EYE_PARTS
 from engine.avatar.texture.template_surface import TemplateSurface
 from engine.avatar.texture.template_texture.eyes import Eyeballs, eye_samples, painted_eyes, persons_eyes
 from engine.avatar.texture.template_texture.hand_colours import face_skin, hand_tone, like_skin, toned

@@ -7,7 +7,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
-from engine.avatar.registration.smooth_field import bending_of
+from engine.avatar.registration.template_skin.smooth_field import bending_of
 from engine.geometry.closest_points import closest_points
 from engine.geometry.deformation.handles import surface_points
 from engine.geometry.surface import face_normals, vertex_normals

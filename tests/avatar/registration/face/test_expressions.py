@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.avatar.registration.expressions import transferred_units
+from engine.avatar.registration.face.expressions import transferred_units
 from engine.avatar.registration.models import HumanModels
 from engine.body.face.visemes import VISEMES, viseme_displacements
 from engine.body.template import FACE_UNITS

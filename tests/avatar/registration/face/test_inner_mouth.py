@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from known_person import KnownPerson
 
-from engine.avatar.registration.inner_mouth import inner_skin
+from engine.avatar.registration.face.inner_mouth import inner_skin
 from engine.avatar.registration.models import HumanModels
 from engine.geometry.winding_number import winding_numbers
 

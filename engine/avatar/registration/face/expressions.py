@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.registration.blinking import BLINKS, before_the_eye, meeting_rims
-from engine.avatar.registration.skin import Skin
+from engine.avatar.registration.eyes.blinking import BLINKS, before_the_eye, meeting_rims
+from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import FACE_UNITS, Template
 from engine.geometry.deformation.deformation_transfer import DeformationTransfer
 from engine.geometry.registration.rigid import fit_similarity

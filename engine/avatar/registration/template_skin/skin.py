@@ -12,9 +12,9 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from engine.avatar.mouth_chart import mouth_faces
-from engine.avatar.registration.face_landmarks import landmark_vertices
-from engine.avatar.registration.lid_rims import lid_rim
-from engine.avatar.registration.lip_contact import lip_contact
+from engine.avatar.registration.template_skin.face_landmarks import landmark_vertices
+from engine.avatar.registration.template_skin.lid_rims import lid_rim
+from engine.avatar.registration.template_skin.lip_contact import lip_contact
 from engine.body.body_space import BodySpace
 from engine.body.cache import cached_arrays
 from engine.body.rig import Rig
@@ -60,9 +60,9 @@ class Skin:
     regions : masks (S,) by name: `head`, `face`, `lips` (with the skin around), `lids`, `hands`, `whole_hands` (those that no forearm moves),
         `feet`, `lower_feet` (what
         a shoe covers at least), `inner` (part of no visible triangle), `hidden_by_cloth` (nipples, navel), `left_eye_rim` and
-        `right_eye_rim` (where lids end before the eyeball: `engine.avatar.registration.lid_rims`), `left_eye_lids` and `right_eye_lids` (close to there).
+        `right_eye_rim` (where lids end before the eyeball: `engine.avatar.registration.template_skin.lid_rims`), `left_eye_lids` and `right_eye_lids` (close to there).
     face_points : (68,) the face landmarks, all of them vertices that are seen from the front.
-    lip_contact : (C, S) the lips' contact (`engine.avatar.registration.lip_contact`).
+    lip_contact : (C, S) the lips' contact (`engine.avatar.registration.template_skin.lip_contact`).
     """
 
     vertices: NDArray[np.intp]

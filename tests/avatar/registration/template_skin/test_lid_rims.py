@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from engine.avatar.registration.eyeballs import sphere
-from engine.avatar.registration.lid_rims import behind_rims, lid_rim
+from engine.avatar.registration.eyes.eyeballs import sphere
 from engine.avatar.registration.models import HumanModels
-from engine.avatar.registration.skin import EYE_PARTS
+from engine.avatar.registration.template_skin.lid_rims import behind_rims, lid_rim
+from engine.avatar.registration.template_skin.skin import EYE_PARTS
 
 
 @pytest.mark.parametrize("part", EYE_PARTS)

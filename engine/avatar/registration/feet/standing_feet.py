@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
-from engine.avatar.registration.foot_outlines import FootSight, Silhouette, foot_sights, outline_points
+from engine.avatar.registration.feet.foot_outlines import FootSight, Silhouette, foot_sights, outline_points
 from engine.avatar.registration.footwear import in_shoes
 from engine.avatar.registration.hand_pose import CoarseBody
 from engine.avatar.registration.models import HumanModels

@@ -7,7 +7,7 @@ import pytest
 from known_person import KnownPerson
 from scipy.spatial.transform import Rotation
 
-from engine.avatar.registration.face_parts import MOUTH_PARTS, TEETH_DEPTH, place_parts
+from engine.avatar.registration.face.face_parts import MOUTH_PARTS, TEETH_DEPTH, place_parts
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.models import HumanModels
 from engine.geometry.closest_points import closest_points

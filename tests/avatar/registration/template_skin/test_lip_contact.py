@@ -6,8 +6,8 @@ import numpy as np
 from known_person import KnownPerson, sampled
 
 from engine.avatar.registration.fine import fit_head
-from engine.avatar.registration.lip_contact import closed_mouth
 from engine.avatar.registration.models import HumanModels
+from engine.avatar.registration.template_skin.lip_contact import closed_mouth
 
 MOUTH = slice(48, 68)
 """Face landmarks of the mouth."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from engine.avatar.registration.blinking import BLINKS, before_the_eye, meeting_rims
-from engine.avatar.registration.eyeballs import sphere
+from engine.avatar.registration.eyes.blinking import BLINKS, before_the_eye, meeting_rims
+from engine.avatar.registration.eyes.eyeballs import sphere
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.models import HumanModels
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.avatar.registration.eye_outline import outline_of_landmarks, outline_of_rim, within
+from engine.avatar.registration.eyes.eye_outline import outline_of_landmarks, outline_of_rim, within
 
 TURN = np.linspace(0, 2 * np.pi, 24, endpoint=False)
 ALMOND = np.stack([10 * np.cos(TURN), 4 * np.sin(TURN)], 1)

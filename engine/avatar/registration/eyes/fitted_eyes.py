@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.landmarks.spatial import LID_LANDMARKS
-from engine.avatar.registration.eye_outline import EyeOutline, outline_of_landmarks, outline_of_rim, within
-from engine.avatar.registration.eyeballs import LID_GAP, before_eyeball, sphere
-from engine.avatar.registration.lid_rims import lid_rim
-from engine.avatar.registration.skin import EYE_PARTS, Skin, grown
-from engine.avatar.registration.smooth_field import smooth_field
+from engine.avatar.registration.eyes.eye_outline import EyeOutline, outline_of_landmarks, outline_of_rim, within
+from engine.avatar.registration.eyes.eyeballs import LID_GAP, before_eyeball, sphere
+from engine.avatar.registration.template_skin.lid_rims import lid_rim
+from engine.avatar.registration.template_skin.skin import EYE_PARTS, Skin, grown
+from engine.avatar.registration.template_skin.smooth_field import smooth_field
 from engine.body.template import Template
 from engine.geometry.registration.rigid import Similarity, fit_similarity
 

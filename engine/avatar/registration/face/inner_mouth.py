@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.registration.skin import Skin
-from engine.avatar.registration.smooth_field import smooth_field
+from engine.avatar.registration.template_skin.skin import Skin
+from engine.avatar.registration.template_skin.smooth_field import smooth_field
 from engine.geometry.closest_points import closest_points
 from engine.geometry.winding_number import winding_numbers
 

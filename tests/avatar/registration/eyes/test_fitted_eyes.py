@@ -8,9 +8,9 @@ from known_person import KnownPerson
 from numpy.typing import NDArray
 
 from engine.avatar.landmarks.spatial import LID_LANDMARKS
-from engine.avatar.registration.eye_outline import outline_of_rim
-from engine.avatar.registration.eyeballs import LID_GAP, sphere
-from engine.avatar.registration.eyes import (
+from engine.avatar.registration.eyes.eye_outline import outline_of_rim
+from engine.avatar.registration.eyes.eyeballs import LID_GAP, sphere
+from engine.avatar.registration.eyes.fitted_eyes import (
     INNER_CORNERS,
     IRIS_RADIUS,
     OUTWARDS,
@@ -18,10 +18,10 @@ from engine.avatar.registration.eyes import (
     with_eyes,
     with_sockets,
 )
-from engine.avatar.registration.face_parts import head_change
-from engine.avatar.registration.lid_rims import lid_rim
+from engine.avatar.registration.face.face_parts import head_change
 from engine.avatar.registration.models import HumanModels
-from engine.avatar.registration.skin import EYE_PARTS
+from engine.avatar.registration.template_skin.lid_rims import lid_rim
+from engine.avatar.registration.template_skin.skin import EYE_PARTS
 from engine.geometry.registration.rigid import Similarity
 
 STILL = Similarity(np.eye(3), np.zeros(3))

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.registration.eyeballs import before_eyeball
-from engine.avatar.registration.skin import Skin
+from engine.avatar.registration.eyes.eyeballs import before_eyeball
+from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import Template
 
 BLINKS: Mapping[str, str] = {"eyeBlinkLeft": "left_eye", "eyeBlinkRight": "right_eye"}

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.avatar.registration.skin import Skin
+from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import Template
 from engine.geometry.closest_points import closest_points
 from engine.geometry.registration.rigid import Similarity, fit_similarity

@@ -1,0 +1,1 @@
+"""Eyeballs behind the irises and lids on them, as frames show them, and lids that close."""

@@ -1,0 +1,1 @@
+"""Feet that stand on the ground, as outlines show them."""
