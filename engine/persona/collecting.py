@@ -59,7 +59,12 @@ def learnt_of_photos(
             "expressions_rare",
             f"Few photos show: {few}. Where a driver does, what is nearest stands in for it: add photos that show it.",
         )
-    told = {"photos": len(photos), "files_skipped": len(photos.skipped), "faces": len(chosen.faces)}
+    told = {
+        "photos": len(photos),
+        "files_skipped": len(photos.skipped),
+        "faces": len(chosen.faces),
+        "left_out": chosen.left_out,
+    }
     wanted = None if options.photo is None else chosen.place(options.photo)
     faces = chosen.kept
     persona = with_acting_photos(learnt.persona, faces, lambda place: photos.picture(faces[place].photo), wanted)

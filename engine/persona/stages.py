@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -73,6 +73,11 @@ class SortedFaces:
         """Those that are of use."""
         return [face for face, reason in zip(self.faces, self.reasons, strict=True) if reason is None]
 
+    @property
+    def left_out(self) -> dict[Reason, int]:
+        """How many faces are of no use for each reason, the most frequent first."""
+        return dict(Counter(reason for reason in self.reasons if reason is not None).most_common())
+
     def require_enough(self) -> None:
         """Raises `InputError`: `several_people`, `too_few_photos`."""
         self.whose.require_one()
@@ -81,7 +86,7 @@ class SortedFaces:
             raise InputError(
                 "too_few_photos",
                 f"{MIN_PHOTOS} photos of the person are needed, and {kept} can be used: {MIN_PHOTOS - kept} more, from before."
-                f"{_lacking(self.kept)}{_spoken(self.reasons)}",
+                f"{_lacking(self.kept)}{_spoken(self.left_out)}",
                 ("photos",),
             )
 
@@ -173,7 +178,7 @@ def rest_of_photos(paths: Sequence[Path], limits: Limits, tick: Callable[[float]
         raise InputError(
             "too_few_driver_photos",
             f"{MIN_DRIVER_PHOTOS} photos of the driver are needed, and {len(chosen.kept)} can be used: send more, or none; then the"
-            f" video alone tells what the face is like at rest.{_spoken(chosen.reasons)}",
+            f" video alone tells what the face is like at rest.{_spoken(chosen.left_out)}",
             ("driver_photos",),
         )
     return DriverAtRest(at_rest(frontalise(np.array([face.mesh for face in chosen.kept]))))
@@ -185,9 +190,9 @@ def texture_width(kept: Sequence[PhotoFace]) -> int:
     return int(np.clip(round(usual * ENLARGEMENT), MIN_WIDTH, MAX_WIDTH))
 
 
-def _spoken(reasons: Sequence[Reason | None]) -> str:
-    told = Counter(reason for reason in reasons if reason is not None).most_common()
-    return f" Of the others {', '.join(f'{count} {WORDS[reason]}' for reason, count in told)}." if told else ""
+def _spoken(left_out: Mapping[Reason, int]) -> str:
+    told = ", ".join(f"{count} {WORDS[reason]}" for reason, count in left_out.items())
+    return f" Of the others {told}." if told else ""
 
 
 def _lacking(kept: Sequence[PhotoFace]) -> str:

@@ -51,6 +51,7 @@ def test_it_leaves_what_the_contract_names(whole: Path) -> None:
     assert report["inputs"]["photos_used"] >= 15 and report["inputs"]["frames"] == 9
     faces = json.loads((whole / "out/faces.json").read_text())
     assert sum(face["kept"] for face in faces["faces"]) == report["inputs"]["photos_used"]
+    assert sum(report["inputs"]["left_out"].values()) == sum(not face["kept"] for face in faces["faces"])
     assert faces["skipped"] == [{"file": "notes.jpg", "code": "not_an_image"}]
     sheet = read_image(whole / "out/faces.jpg").rgb
     assert sheet.shape[1] == faces["tile"] * faces["columns"]

@@ -87,6 +87,24 @@ def test_too_few_say_how_many_more_and_why(found: PhotoFaces) -> None:
     assert "were left out" in error.value.detail and "more" in error.value.detail
 
 
+def test_a_collection_in_profile_is_told_so(found: PhotoFaces) -> None:
+    sides = [65.0 if number % 2 else -50.0 for number in range(len(found.faces))]
+    turned = [replace(face, yaw=yaw) for face, yaw in zip(found.faces, sides, strict=True)]
+    chosen = sort_faces(PhotoFaces(tuple(turned)), DISTANCES, Choice(), None)
+    assert not chosen.kept and chosen.left_out["turned"] >= MIN_PHOTOS
+    with pytest.raises(InputError) as error:
+        chosen.require_enough()
+    assert error.value.code == "too_few_photos"
+    assert "15 more, from before" in error.value.detail
+    assert f"{chosen.left_out['turned']} are turned too far aside, up or down" in error.value.detail
+
+
+def test_what_is_left_out_is_counted_by_its_reason(found: PhotoFaces) -> None:
+    chosen = sort_faces(found, DISTANCES, Choice(leave_out={0, 1}), None)
+    assert chosen.left_out["left_out"] == 2 and chosen.left_out["somebody_else"] == 1
+    assert sum(chosen.left_out.values()) + len(chosen.kept) == len(chosen.faces)
+
+
 def test_what_lacks_is_told(found: PhotoFaces) -> None:
     leave_out = set(range(len(found.faces) - 9))
     with pytest.raises(InputError, match=r"show little of: .*pursed lips \(none\)"):
