@@ -21,6 +21,7 @@ from scipy.ndimage import distance_transform_edt
 
 from engine.compiled import njit
 from engine.imaging.total_variation import denoised
+from engine.persona.motion.contact import corrected
 from engine.persona.texture.texture_frame import TextureFrame, with_rim
 
 TV_WEIGHT, HUBER = 0.5, 0.1
@@ -57,7 +58,8 @@ class DeformationTransfer:
         factors = self.factors((self._interpolation @ moved).reshape(*self._covered.shape, 3))
         at = (self.driver.places[:478, :2] / COARSENESS).astype(np.float32)
         own = cv2.remap(factors, at[:, :1], at[:, 1:], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-        return np.asarray(deformation * np.asarray(own), np.float64)
+        longer = deformation * np.asarray(own)
+        return corrected(longer, np.asarray(own), deformation, self._driver_mesh, self._puppet_mesh)
 
     def of_frames(
         self, deformations: NDArray[np.floating], tick: Callable[[float], None] = lambda fraction: None
@@ -88,6 +90,10 @@ class DeformationTransfer:
     @cached_property
     def _driver_mesh(self) -> NDArray[np.float64]:
         return self.driver.places[:478] / self.driver.scale
+
+    @cached_property
+    def _puppet_mesh(self) -> NDArray[np.float64]:
+        return self.puppet.places[:478] / self.puppet.scale
 
     @cached_property
     def _covered(self) -> NDArray[np.bool_]:
