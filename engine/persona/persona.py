@@ -64,6 +64,11 @@ class Persona:
         """What mixes them: half a second for a hundred photographs."""
         return texture_synthesis(self.colours, self.belief / np.float32(255))
 
+    @cached_property
+    def average(self) -> NDArray[np.uint8]:
+        """(H, W, 3) the texture of the face at rest, of all photographs."""
+        return self.synthesis(self.weights(self.neutral[None]))[0]
+
     def weights(self, faces: NDArray[np.floating], smoothing: float = 0.0) -> NDArray[np.float32]:
         """(F, N) how much each photograph counts for `faces` (F, 478, 3) from the front, in eye distances; `smoothing` as
         `expression_weights` has it."""

@@ -5,9 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from engine.errors import InputError
 from engine.export.still import write_still
 from engine.kind import Given
@@ -15,7 +12,7 @@ from engine.persona.animating import animate_persona, require_playable
 from engine.persona.collecting import learnt_of_photos
 from engine.persona.composite.photo_performance import PHOTO_STAGES
 from engine.persona.options import PersonaOptions
-from engine.persona.persona import Persona, read_persona, write_persona
+from engine.persona.persona import read_persona, write_persona
 from engine.persona.results.pictures import Studio
 from engine.persona.results.writing import write_results
 from engine.run import Run
@@ -47,7 +44,7 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
         persona, told = learnt_of_photos(photos, options, out, run)
     with run.timed("write_persona"):
         write_persona(out / "persona.npz", persona)
-        average = average_texture(persona)
+        average = persona.average
         write_still(out / "average.png", average, run.mark_synthetic)
         if not isinstance(driver, Path):
             at_rest = Studio(persona, options.size, options.background).picture(persona.neutral, average)
@@ -78,8 +75,3 @@ def _plan(inputs: Mapping[str, Given], options: PersonaOptions) -> dict[str, flo
             if name != "find_driver_at_rest" or ("driver_photos" in inputs and not acts)
         }
     return stages
-
-
-def average_texture(persona: Persona) -> NDArray[np.uint8]:
-    """(H, W, 3) the face at rest, of all photographs."""
-    return persona.synthesis(persona.weights(persona.neutral[None]))[0]

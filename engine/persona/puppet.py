@@ -14,9 +14,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.geometry.adjacency import edge_table
 from engine.geometry.subdivision import midpoint_subdivision
 from engine.perception.face_tessellation import face_triangles, opening_triangles
+from engine.persona.mouth.persona_mouth import puppet_mouth
 from engine.persona.persona import Persona
 from engine.render.mipmap import build_mipmap
 from engine.render.scratch import Scratch
@@ -57,7 +59,14 @@ class Puppet:
         mipmap = build_mipmap(texture, max(16, int(finest * min(enlarged, 1) / 2) + 1))  # no smaller than it is shown
         surface = self.surface._replace(mipmap=mipmap)
         draw_surface(drawn, False, surface, points.astype(np.float32), Scratch())
+        places = np.asarray(face, np.float64) @ np.asarray(linear, np.float64).T + shift
+        self.mouth.draw(drawn, places[:, :2].astype(np.float32), 0)
         return drawn
+
+    @cached_property
+    def mouth(self) -> MouthInterior:
+        """What is between its lips."""
+        return puppet_mouth(self.persona)
 
     def vertices(self, face: NDArray[np.floating]) -> NDArray[np.float64]:
         """(M, 3) the vertices that are drawn of a `face` (478, 3), with the average shape's relief; in eye distances."""

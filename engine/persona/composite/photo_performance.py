@@ -16,13 +16,15 @@ from engine.face_animation.driver_tracking.neutral import choose_neutral_frame, 
 from engine.face_animation.mouth.mouth_interior import DriverMouth, MouthInterior
 from engine.face_animation.stages import analyse_driver, follow_driver, prepare_target
 from engine.face_animation.target_face import TargetFace
+from engine.perception.expression.features import frontalise
 from engine.perception.face_track.track import FaceTrack
 from engine.persona.composite.framing import framed
 from engine.persona.composite.photo_film import PhotoActing, act, photo_frames
-from engine.persona.composite.photo_teeth import PhotoTeeth
 from engine.persona.composite.portrait_choice import WHOLE_HEAD_SHARE, head_share
 from engine.persona.composite.retouching import retouching_of
-from engine.persona.composite.skin_colour import is_grey
+from engine.persona.mouth.photo_teeth import PhotoTeeth
+from engine.persona.mouth.resting_mouth import resting_mouth
+from engine.persona.mouth.skin_colour import is_grey
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona
 from engine.run import Run
@@ -103,4 +105,5 @@ def _mouth(persona: Persona, target: TargetFace, behind: MouthInterior, acting: 
             " larger photo with a smile.",
         )
         return behind
-    return PhotoTeeth(target, persona.teeth, behind, persona.neutral, acting.faces)
+    at = resting_mouth(frontalise(target.mesh[None])[0], persona.neutral)
+    return PhotoTeeth(at, target.rgb, target.mesh, persona.teeth, behind, acting.faces)

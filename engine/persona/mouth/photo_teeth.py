@@ -13,25 +13,19 @@ from numpy.typing import NDArray
 
 from engine.face_animation.mouth.hidden_regions import LUMINANCE_WEIGHTS, box_around, soft_polygon
 from engine.face_animation.mouth.mouth_interior import MouthInterior
-from engine.face_animation.target_face import TargetFace
-from engine.perception.expression.features import frontalise
 from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, eye_distance, mouth_opening
 from engine.persona.collection.face_photo import FacePhoto
-from engine.persona.composite.mouth_light import in_mouth
-from engine.persona.composite.skin_colour import is_grey, skin_colour
-from engine.persona.composite.skull import skull_camera
-from engine.persona.composite.teeth_strip import ARCH, BEHIND_LIPS, CORNERS, teeth_strip
+from engine.persona.mouth.modelled_mouth import LEAST_SOFT_PIXELS, LIP_SOFTNESS
+from engine.persona.mouth.mouth_light import in_mouth
+from engine.persona.mouth.resting_mouth import CORNERS, UPPER_MIDDLE, RestingMouth
+from engine.persona.mouth.skin_colour import is_grey, skin_colour
+from engine.persona.mouth.skull import skull_camera
+from engine.persona.mouth.teeth_strip import ARCH, TeethStrip, teeth_strip
 
 APPEARING_OPENING, FULL_OPENING = 0.03, 0.09
 """Of the mouth, beyond that of the picture's, between which the inside appears."""
 REST_FACTOR = 1.15
 """Of a picture's own opening, up to which its own inside is shown."""
-NOSE_BASE = (2, 94, 98, 327)
-UPPER_MIDDLE = (82, 13, 312)
-SHUT_OPENING = 0.05
-"""Of a mouth that tells where its lips meet."""
-BELOW_LIPS = 0.06
-"""Eye distances below where the lips meet, at which upper teeth end."""
 MAX_WIDER, MAX_LONGER = 1.25, 1.35
 """Than in the photograph: so that teeth fill mouths that are wider, and reach up to lips that are higher."""
 WIDE_PERCENTILE = 80
@@ -43,38 +37,32 @@ BRIGHT_PERCENTILE = 97
 LIGHTER_THAN_SKIN = 1.1
 """Teeth are than the skin beside them, at least."""
 GAIN_RANGE = (0.5, 1.7)
-LIP_SOFTNESS, LEAST_SOFT_PIXELS = 0.012, 0.8
-"""Eye distances, and pixels, over which the inside passes into the lips: their edges are round, and the mesh's have corners."""
 
 
 class PhotoTeeth:
-    """`MouthInterior` of a person: the upper teeth of one photograph, in the light of the `target`, before what is `behind` them.
+    """`MouthInterior` of a person: the upper teeth of one `photo`, in the light of a picture `rgb` (H, W, 3) of their face at `mesh` (478, 3),
+    before what is `behind` them. `at` : how the face rests.
 
-    `neutral` (478, 3) their face at rest from the front, in eye distances. `faces` (F, 478, 2) what the target's face does: what of its
-    teeth that uncovers is as wide and long as the teeth are made, once.
+    `faces` (F, 478, 2) what the face does: what of its teeth that uncovers is as wide and long as the teeth are made, once. `always` : they
+    are drawn wherever lips part; otherwise the picture's own inside is seen up to its own opening.
     """
 
     def __init__(
         self,
-        target: TargetFace,
+        at: RestingMouth,
+        rgb: NDArray[np.uint8],
+        mesh: NDArray[np.floating],
         photo: FacePhoto,
         behind: MouthInterior,
-        neutral: NDArray[np.floating],
         faces: NDArray[np.floating],
+        always: bool = False,
     ):
-        rest = float(mouth_opening(target.mesh))
-        self._behind = behind
-        self._appearing = max(APPEARING_OPENING, REST_FACTOR * rest)
-        self._front = frontalise(target.mesh[None])[0]
-        self._shut = self._front if rest < SHUT_OPENING else _laid_on(neutral, self._front)
-        self._depth = float(self._front[list(UPPER_MIDDLE), 2].mean()) + BEHIND_LIPS
-        self._middle = float(self._front[list(CORNERS), 0].mean())
-        self._edge = float(self._shut[[13, 14], 1].mean()) + BELOW_LIPS
-        self._strip = teeth_strip(photo, float(eye_distance(target.mesh[:, :2])))
+        self._at, self._behind = at, behind
+        self._appearing = 0.0 if always else max(APPEARING_OPENING, REST_FACTOR * float(mouth_opening(mesh)))
+        self._strip = teeth_strip(photo, float(eye_distance(mesh[:, :2])))
         self._wider, self._longer = self._size(faces[np.asarray(mouth_opening(faces)) > FULL_OPENING])
-        self._gain = _gain(target, photo)
-        self._gain *= _held(self._strip.brightest(self._gain), target)
-        self._grey = is_grey(target.rgb, target.mesh)
+        self._gain = teeth_gain(rgb, mesh, photo, self._strip)
+        self._grey = is_grey(rgb, mesh)
 
     def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], driver_frame: int) -> None:
         """As `MouthInterior.draw`."""
@@ -110,14 +98,14 @@ class PhotoTeeth:
     ) -> NDArray[np.float64]:
         """(h, w, 2) where on the arch of the teeth each pixel is, as the target's skull has it from the front, in eye distances from
         the middle of where the upper teeth end."""
-        matrix, shift = skull_camera(self._front, face)
+        matrix, shift = skull_camera(self._at.front, face)
         rows, columns = np.mgrid[: shape[0], : shape[1]].astype(np.float64)
         seen = np.stack([columns, rows], axis=-1) + corner - shift
         back = np.linalg.inv(matrix[:, :2]).T
-        depth = np.full(shape, self._depth)
+        depth = np.full(shape, self._at.depth)
         for _ in range(ARCH_ROUNDS):  # the arch goes back to both sides
-            front = (seen - depth[..., None] * matrix[:, 2]) @ back - (self._middle, self._edge)
-            depth = self._depth + ARCH * front[..., 0] ** 2
+            front = (seen - depth[..., None] * matrix[:, 2]) @ back - (self._at.middle, self._at.edge)
+            depth = self._at.depth + ARCH * front[..., 0] ** 2
         return np.asarray(front, np.float64)
 
     def upper_teeth(self, places: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -132,10 +120,10 @@ class PhotoTeeth:
             return 1.0, 1.0
         widths, heights = [], []
         for face in faces:
-            matrix, shift = skull_camera(self._front, face)
+            matrix, shift = skull_camera(self._at.front, face)
             widths.append(np.linalg.norm(face[CORNERS[0]] - face[CORNERS[1]]) / np.linalg.norm(matrix[0]))
-            lip = face[list(UPPER_MIDDLE)].mean(axis=0) - shift - self._depth * matrix[:, 2]
-            heights.append(self._edge - np.linalg.solve(matrix[:, :2], lip)[1])
+            lip = face[list(UPPER_MIDDLE)].mean(axis=0) - shift - self._at.depth * matrix[:, 2]
+            heights.append(self._at.edge - np.linalg.solve(matrix[:, :2], lip)[1])
         middle = np.full((), self._strip.middle)
         own = float(self._strip.ends(middle) - self._strip.lip(middle))
         wide, high = (float(np.percentile(one, WIDE_PERCENTILE)) for one in (widths, heights))
@@ -143,28 +131,31 @@ class PhotoTeeth:
         return wider, float(np.clip(high / own, 1, MAX_LONGER))
 
 
-def _laid_on(neutral: NDArray[np.floating], front: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(478, 3) a face at rest, its nose's base where the one that `front` (478, 3) has is."""
-    base = list(NOSE_BASE)
-    return np.asarray(neutral + (front[base] - neutral[base]).mean(axis=0), np.float64)
+def teeth_gain(
+    rgb: NDArray[np.uint8], mesh: NDArray[np.floating], photo: FacePhoto, strip: TeethStrip
+) -> NDArray[np.float32]:
+    """(3,) by which the colours of the `strip` of a photograph's teeth are brought into the light of a picture `rgb` (H, W, 3) of the same
+    face at `mesh` (478, 3)."""
+    gain = _gain(rgb, mesh, photo)
+    return np.asarray(gain * _held(strip.brightest(gain), rgb, mesh), np.float32)
 
 
-def _gain(target: TargetFace, photo: FacePhoto) -> NDArray[np.float32]:
-    """(3,) by which the photograph's colours are brought into the target's light: all of the difference in brightness between
-    the two skins, and half of that in colour, which is complexion and paint, too; none of it green."""
-    ratio = skin_colour(target.rgb, target.mesh) / np.maximum(skin_colour(photo.rgb, photo.mesh), 1)
+def _gain(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], photo: FacePhoto) -> NDArray[np.float32]:
+    """(3,) all of the difference in brightness between the two skins, and half of that in colour, which is complexion and paint, too; none
+    of it green."""
+    ratio = skin_colour(rgb, mesh) / np.maximum(skin_colour(photo.rgb, photo.mesh), 1)
     brightness = float(ratio @ LUMINANCE_WEIGHTS)
     colour = np.sqrt(ratio / brightness)
     colour[1] = min(colour[1], max(colour[0], colour[2]))
     return np.asarray(np.clip(brightness, *GAIN_RANGE) * colour / float(colour @ LUMINANCE_WEIGHTS), np.float32)
 
 
-def _held(brightest: float, target: TargetFace) -> float:
+def _held(brightest: float, rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:
     """The factor that keeps teeth whose lightest have the luminance `brightest` between what the skin beside them has, and somewhat more, and
     what a light place of the face has."""
-    mask = np.zeros(target.rgb.shape[:2], np.uint8)
-    cv2.fillPoly(mask, [target.mesh[list(FACE_OVAL), :2].round().astype(np.int32)], 1)
-    light = target.rgb[mask > 0].astype(np.float32) @ LUMINANCE_WEIGHTS
+    mask = np.zeros(rgb.shape[:2], np.uint8)
+    cv2.fillPoly(mask, [mesh[list(FACE_OVAL), :2].round().astype(np.int32)], 1)
+    light = rgb[mask > 0].astype(np.float32) @ LUMINANCE_WEIGHTS
     most = float(np.percentile(light, BRIGHT_PERCENTILE)) if len(light) else 255.0
-    least = LIGHTER_THAN_SKIN * float(skin_colour(target.rgb, target.mesh) @ LUMINANCE_WEIGHTS)
+    least = LIGHTER_THAN_SKIN * float(skin_colour(rgb, mesh) @ LUMINANCE_WEIGHTS)
     return float(np.clip(brightest, min(least, most), most)) / brightest

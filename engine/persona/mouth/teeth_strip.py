@@ -18,11 +18,9 @@ from engine.imaging.resample import resized
 from engine.perception.expression.features import frontalise
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
 from engine.persona.collection.face_photo import FacePhoto
-from engine.persona.composite.skull import skull_camera
+from engine.persona.mouth.resting_mouth import BEHIND_LIPS
+from engine.persona.mouth.skull import skull_camera
 
-CORNERS = (78, 308)
-BEHIND_LIPS = 0.03
-"""Eye distances by which teeth lie behind the inner lips."""
 ARCH = 1.2
 """Eye distances by which teeth lie further back, for the square of one to the side."""
 LIP_SHADOW = 0.02
@@ -33,7 +31,7 @@ SOFTNESS = 0.018
 """Eye distances over which the teeth pass into the dark."""
 MAX_SHARPENING = 0.6
 """Of what is finer than a pixel, where the photograph is enlarged twice or more: its own pixels have blurred it."""
-TEETH_PERCENTILE = 90
+TEETH_PERCENTILE, USUAL_PERCENTILE = 90, 60
 ROWS = 20
 """From lip to lip at which it is looked for where teeth end."""
 EDGE_LIGHT = 0.6
@@ -100,6 +98,13 @@ class TeethStrip:
         """The luminance of the lightest teeth, each channel times its `gain` (3,)."""
         light = (self.layer[..., :3] * gain)[self.layer[..., 3] > 0.5] @ LUMINANCE_WEIGHTS
         return max(float(np.percentile(light, TEETH_PERCENTILE)), 1.0) if len(light) else 255.0
+
+    def usual(self) -> NDArray[np.float64]:
+        """(3,) the colour of teeth that are well lit, as the photograph has them."""
+        colours = self.layer[self.layer[..., 3] > 0.5][:, :3]
+        light = colours @ LUMINANCE_WEIGHTS
+        lit = colours[light >= np.percentile(light, USUAL_PERCENTILE)] if len(light) else np.full((1, 3), 200.0)
+        return np.asarray(lit.mean(axis=0), np.float64)
 
 
 def teeth_strip(photo: FacePhoto, wanted: float) -> TeethStrip:

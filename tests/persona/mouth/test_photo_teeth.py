@@ -6,13 +6,13 @@ import cv2
 import numpy as np
 import pytest
 
-from engine.face_animation.target_face import TargetFace
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES
 from engine.persona.collection.face_photo import FacePhoto
-from engine.persona.composite.photo_teeth import PhotoTeeth
-from engine.persona.composite.skull import skull_camera
+from engine.persona.mouth.photo_teeth import PhotoTeeth
+from engine.persona.mouth.resting_mouth import resting_mouth
+from engine.persona.mouth.skull import skull_camera
 
 SKIN = (190, 150, 130)
 CAVITY = np.array([50.0, 20.0, 20.0])
@@ -54,9 +54,9 @@ class Dark:
 @pytest.fixture(scope="module")
 def mouth() -> PhotoTeeth:
     smile, rest = face(0.14), face(0.0)
-    target = TargetFace(picture(rest), None, rest, np.zeros((1, 4), np.float32), (320, 320), np.eye(2, 3))
+    at = resting_mouth(frontalise(rest[None])[0], frontalise(rest[None])[0])
     faces = np.array([face(0.2)[:, :2], rest[:, :2]])
-    return PhotoTeeth(target, FacePhoto(picture(smile), smile, 0), Dark(), frontalise(rest[None])[0], faces)
+    return PhotoTeeth(at, picture(rest), rest, FacePhoto(picture(smile), smile, 0), Dark(), faces)
 
 
 def test_the_skull_is_found_whatever_the_mouth_does() -> None:

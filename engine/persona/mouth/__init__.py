@@ -1,0 +1,1 @@
+"""What is seen between the lips of a person: upper teeth of one photograph, lower ones, tongue and the dark modelled."""

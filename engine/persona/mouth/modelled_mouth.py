@@ -1,0 +1,115 @@
+"""The inside of a mouth that no photograph shows as it moves: lower teeth, tongue and the dark, modelled."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.mouth.hidden_regions import box_around, soft_polygon
+from engine.geometry.adjacency import edge_table
+from engine.geometry.surface import vertex_normals
+from engine.perception.landmarks import LIPS_INNER, eye_distance
+from engine.persona.mouth.jaw import jaw_of
+from engine.persona.mouth.mouth_colours import RAMP, MouthColours
+from engine.persona.mouth.mouth_light import in_mouth
+from engine.persona.mouth.mouth_parts import bag_surface, modelled_teeth, mouth_bag, tongue
+from engine.persona.mouth.resting_mouth import RestingMouth
+from engine.persona.mouth.skull import skull_camera
+from engine.render.mipmap import build_mipmap
+from engine.render.scratch import Scratch
+from engine.render.surface import Surface, draw_surface, triangle_spread
+
+LIP_SOFTNESS, LEAST_SOFT_PIXELS = 0.012, 0.8
+"""Eye distances, and pixels, over which the inside passes into the lips: their edges are round, and the mesh's have corners."""
+AMBIENT = 0.5
+"""Of the light on a surface, that it has wherever it faces."""
+DARKENING = 0.9
+"""Eye distances behind the upper teeth at which a third of the light is left."""
+DISTANCE = 4096.0
+"""Pixels from the eye: so far off that nearer parts are no larger."""
+
+
+class ModelledMouth:
+    """`MouthInterior` of a person: what is modelled, in their `colours`, behind the lips of a face that rests as `at` says. `upper` :
+    whether upper teeth are modelled, too."""
+
+    def __init__(self, at: RestingMouth, colours: MouthColours, upper: bool):
+        self._at = at
+        rows = [(modelled_teeth(at, True), colours.upper)] if upper else []
+        jaw = [(modelled_teeth(at, False), colours.lower), (tongue(at), colours.tongue)]
+        self._of_skull = sum(len(part.vertices) for part, _ in rows)
+        parts = [*rows, *jaw]
+        self._vertices = np.concatenate([part.vertices for part, _ in parts])
+        self._textures = [*(ramp for _, ramp in parts), colours.bag]
+        bag, bag_uv = bag_surface()
+        uvs = [*(part.uv for part, _ in parts), bag_uv]
+        starts = np.cumsum([0, *(len(uv) for uv in uvs)])
+        triangles = [
+            one + start for one, start in zip((*(part.triangles for part, _ in parts), bag), starts, strict=False)
+        ]
+        self._triangles = np.concatenate(triangles).astype(np.int32)
+        self._uv = np.concatenate([_on_atlas(uv, number, len(uvs)) for number, uv in enumerate(uvs)])
+        self._bag_vertices = len(bag_uv)
+
+    def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], driver_frame: int) -> None:
+        """As `MouthInterior.draw`."""
+        inner = face[list(LIPS_INNER), :2].astype(np.float32)
+        box = box_around(inner, frame.shape[:2])
+        if box is None or cv2.contourArea(inner) < 1:
+            return
+        x0, y0, x1, y1 = box
+        shape, corner = (y1 - y0, x1 - x0), np.array([x0, y0], np.float32)
+        points = self.places(face) - (x0, y0, 0)
+        inside = np.zeros((*shape, 3), np.uint8)
+        inside[:] = self._textures[-1][0, -1]
+        draw_surface(inside, False, self._surface, points.astype(np.float32), Scratch(), shade=self._shade)
+        lit = inside * in_mouth(face, corner, shape).light()[..., None]
+        sigma = max(LEAST_SOFT_PIXELS, LIP_SOFTNESS * float(eye_distance(face)))
+        mask = cv2.GaussianBlur(soft_polygon(inner - corner, shape), (0, 0), sigma)[..., None]
+        part = frame[y0:y1, x0:x1]
+        part[:] = np.clip(part + np.asarray(mask) * (lit - part) + 0.5, 0, 255).astype(np.uint8)
+
+    def places(self, face: NDArray[np.floating]) -> NDArray[np.float64]:
+        """(V, 3) where all vertices are, pixels of the picture of a `face` (478, 2), and how far away."""
+        matrix, shift = skull_camera(self._at.front, face)
+        scale = float(np.linalg.norm(matrix[0]))
+        camera = np.vstack([matrix, np.cross(matrix[0], matrix[1]) / scale])
+        depths = self._at.front[:, 2]
+        front = (np.asarray(face, np.float64) - shift - depths[:, None] * matrix[:, 2]) @ np.linalg.inv(matrix[:, :2]).T
+        jaw = jaw_of(front, self._at.shut)
+        lips = np.column_stack([front, depths])[list(LIPS_INNER)]
+        rows = self._vertices
+        places = np.concatenate([rows[: self._of_skull], jaw.moved(rows[self._of_skull :]), mouth_bag(lips)])
+        points = places @ camera.T
+        points[:, :2] += shift
+        points[:, 2] += DISTANCE
+        return np.asarray(points, np.float64)
+
+    @cached_property
+    def _surface(self) -> Surface:
+        atlas = np.concatenate(self._textures)
+        edges = edge_table(self._triangles, np.arange(len(self._uv), dtype=np.int32))
+        spread = triangle_spread(self._triangles, self._uv, atlas.shape)
+        return Surface(self._triangles, self._uv, spread, edges, False, build_mipmap(atlas, min(atlas.shape[:2])))
+
+    @cached_property
+    def _shade(self) -> NDArray[np.float32]:
+        """(V,) the light that is left: less on what faces aside, and in the depth."""
+        vertices = np.concatenate([self._vertices, np.zeros((self._bag_vertices, 3))])
+        normals = vertex_normals(vertices, self._triangles)
+        facing = AMBIENT + (1 - AMBIENT) * np.clip(-normals[:, 2], 0, 1)
+        deep = np.exp(-np.maximum(vertices[:, 2] - self._at.depth, 0) / DARKENING)
+        shade = facing * deep
+        shade[len(self._vertices) :] = 1  # its ramp has its light
+        return np.asarray(shade, np.float32)
+
+
+def _on_atlas(uv: NDArray[np.float32], number: int, count: int) -> NDArray[np.float32]:
+    """Places on the `number`-th of `count` ramps that lie below one another, half a pixel off their edges."""
+    inset = np.array([0.5 / RAMP[0], 0.5 / RAMP[1]])
+    held = inset + uv * (1 - 2 * inset)
+    held[:, 1] = (held[:, 1] + number) / count
+    return held.astype(np.float32)

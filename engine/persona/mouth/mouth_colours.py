@@ -1,0 +1,87 @@
+"""The colours of a mouth's inside, within a person's own: their lips', their teeth's, and the light on their skin."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.mouth.hidden_regions import LUMINANCE_WEIGHTS
+from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
+from engine.persona.mouth.skin_colour import is_grey, skin_colour
+
+ENAMEL, DENTINE = np.array([204, 195, 178.0]), np.array([182, 165, 134.0])
+GUM, TONGUE = np.array([176, 96, 95.0]), np.array([196, 110, 108.0])
+LINING, THROAT = np.array([112, 48, 48.0]), np.array([34, 12, 13.0])
+"""sRGB, of mouths whose skin has the luminance `USUAL_SKIN`."""
+USUAL_SKIN = 165.0
+LIGHT_RANGE = (0.35, 1.25)
+LIPS_SHARE = 0.5
+"""Of the person's lips in what is flesh."""
+SKIN_SHARE = 0.3
+"""Of the skin's hue in modelled teeth: half the light that falls on them comes from it."""
+LOWER_TEETH = 0.8
+"""Of the upper teeth's light, that lower ones have."""
+DARK_FROM = 0.5
+"""Of the bag's depth, from which on it is as dark as the throat."""
+RAMP = (64, 16)
+"""Width and height of a ramp of colours, pixels."""
+
+
+class MouthColours(NamedTuple):
+    """(16, 64, 3) uint8 each, a ramp of colours: `lower` and `upper` teeth from the gum to their edges, the tongue from its tip to its root, the bag
+    from the lips to the throat."""
+
+    upper: NDArray[np.uint8]
+    lower: NDArray[np.uint8]
+    tongue: NDArray[np.uint8]
+    bag: NDArray[np.uint8]
+
+
+def mouth_colours(
+    rgb: NDArray[np.uint8], mesh: NDArray[np.floating], teeth: NDArray[np.floating] | None = None
+) -> MouthColours:
+    """Those of a face at `mesh` (478, 2 or 3) of a picture (H, W, 3); `teeth` (3,) is what its upper teeth look like there, where that is
+    known."""
+    skin = skin_colour(rgb, mesh)
+    luminance = max(float(skin @ LUMINANCE_WEIGHTS), 1.0)
+    light = float(np.clip(luminance / USUAL_SKIN, *LIGHT_RANGE))
+    lips = _lips(rgb, mesh)
+    flesh = {name: _blended(light * colour, lips) for name, colour in (("gum", GUM), ("tongue", TONGUE))}
+    edge = light * ENAMEL * (skin / luminance) ** SKIN_SHARE if teeth is None else np.asarray(teeth, np.float64)
+    root = edge * (DENTINE / ENAMEL)
+    along, aside = np.linspace(0, 1, RAMP[0]), np.linspace(0, 1, RAMP[1])
+    crowns = np.where(
+        along[:, None] < 0.5, flesh["gum"], root + (np.clip(2 * along - 1, 0, 1) ** 0.6)[:, None] * (edge - root)
+    )
+    shades = 0.9 + 0.2 * aside
+    upper = shades[:, None, None] * crowns
+    back = _ramp(along)[:, None]
+    flat = flesh["tongue"] + back * (light * THROAT - flesh["tongue"])
+    furrow = 1 - 0.18 * np.exp(-0.5 * (aside / 0.1) ** 2)
+    bag = light * (LINING + np.clip(along / DARK_FROM, 0, 1)[:, None] ** 0.7 * (THROAT - LINING))
+    ramps = [upper, LOWER_TEETH * upper, furrow[:, None, None] * flat, np.broadcast_to(bag, (RAMP[1], RAMP[0], 3))]
+    if is_grey(rgb, mesh):
+        ramps = [np.repeat((ramp @ LUMINANCE_WEIGHTS)[..., None], 3, axis=-1) for ramp in ramps]
+    return MouthColours(*(np.clip(np.rint(ramp), 0, 255).astype(np.uint8) for ramp in ramps))
+
+
+def _blended(colour: NDArray[np.float64], lips: NDArray[np.float64]) -> NDArray[np.float64]:
+    """As light as `colour` (3,), its hue half-way to that of the lips (3,)."""
+    other = lips * float(colour @ LUMINANCE_WEIGHTS) / max(float(lips @ LUMINANCE_WEIGHTS), 1.0)
+    return np.asarray((1 - LIPS_SHARE) * colour + LIPS_SHARE * other, np.float64)
+
+
+def _lips(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:
+    mask = np.zeros(rgb.shape[:2], np.uint8)
+    cv2.fillPoly(mask, [mesh[list(LIPS_OUTER), :2].round().astype(np.int32)], 1)
+    cv2.fillPoly(mask, [mesh[list(LIPS_INNER), :2].round().astype(np.int32)], 0)
+    found = rgb[mask > 0]
+    return np.asarray(found.mean(axis=0) if len(found) else GUM, np.float64)
+
+
+def _ramp(value: NDArray[np.floating]) -> NDArray[np.float64]:
+    t = np.clip(value, 0, 1)
+    return np.asarray(t * t * (3 - 2 * t), np.float64)

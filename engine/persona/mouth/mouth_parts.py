@@ -1,0 +1,109 @@
+"""The modelled parts of a mouth: rows of teeth, a tongue, and the bag behind the lips, which is tied to them.
+
+Teeth are the actor's crowns (`engine.performances.modelling.teeth`), the tongue is the template's; the bag is made of rings that begin at the inner lips,
+so that whatever these do nothing shows through.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.face.face_points import PICTURE_TO_TEMPLATE
+from engine.body.subdivision import catmull_clark
+from engine.body.template import load_template
+from engine.geometry.surface import triangulate
+from engine.perception.landmarks import LIPS_INNER
+from engine.performances.modelling.teeth import Arch, build_dentition
+from engine.persona.mouth.resting_mouth import RestingMouth
+
+EYE_DISTANCE = 0.063
+"""Metres between the middles of the eyes: people's mean."""
+DETAIL = 0.4
+"""Of the crowns' meshes."""
+OVERBITE, OVERJET = 0.03, 0.05
+"""Eye distances by which lower teeth end above the upper ones' edges, and lie behind them, where the jaw is closed."""
+TONGUE_WIDTH = 0.85
+"""Of the template's tongue, so that it lies within the row of teeth."""
+RINGS = ((0.0, 0.0, 1.0), (0.04, 0.1, 1.03), (0.15, 0.25, 1.15), (0.5, 0.3, 1.2), (0.8, 0.2, 0.9))
+"""Of the bag: eye distances behind the lips, by which it is higher and deeper than their opening, and its share of their width."""
+BOTTOM = 0.05
+"""Eye distances behind the last ring at which the bag ends."""
+SHADES = (0.9, 1.1)
+"""Of single crowns, the darkest and the lightest."""
+
+
+@dataclass(frozen=True)
+class MouthPart:
+    """A surface in the mouth, the jaw closed: of a head from the front, in eye distances, y down and z away.
+
+    vertices : (V, 3) float64. triangles : (T, 3) int32, counter-clockwise from outside. uv : (V, 2) float32 on the part's ramp of colours
+    (`engine.persona.mouth.mouth_colours`).
+    """
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    uv: NDArray[np.float32]
+
+
+def modelled_teeth(at: RestingMouth, upper: bool) -> MouthPart:
+    """A row of teeth and its gum: u from the gum to the crowns' edges, v the crowns' own shades."""
+    row = build_dentition(Arch(gum=0.0, front=0.0, up=-1 if upper else 1), DETAIL, seed=3 if upper else 4)
+    places = _in_eye_distances(row.vertices)
+    crowns = row.enamel > 0.5
+    edge, front = places[crowns, 1].max() if upper else places[crowns, 1].min(), places[:, 2].min()
+    shift = (at.middle, at.edge, at.depth) if upper else (at.middle, at.edge - OVERBITE, at.depth + OVERJET)
+    shade = (row.shade - SHADES[0]) / (SHADES[1] - SHADES[0])
+    uv = np.column_stack([(row.enamel + 1) / 2, shade]).clip(0, 1).astype(np.float32)
+    return MouthPart(places - (0, edge, front) + shift, row.triangles, uv)
+
+
+def tongue(at: RestingMouth) -> MouthPart:
+    """The tongue, as it lies behind the lower teeth: u from its tip to its root, v from its middle to its sides."""
+    template = load_template()
+    quads = template.quads[slice(*template.parts["tongue"])]
+    known, index = np.unique(quads, return_inverse=True)
+    finer = catmull_clark(index.reshape(quads.shape), len(known))
+    lower = _in_eye_distances(template.vertices[template.vertices_of("lower_teeth")])
+    places = np.asarray(finer.points @ _in_eye_distances(template.vertices[known])) * (TONGUE_WIDTH, 1, 1)
+    depth = (places[:, 2] - places[:, 2].min()) / np.ptp(places[:, 2])
+    aside = np.abs(places[:, 0]) / np.abs(places[:, 0]).max()
+    shift = np.array([at.middle, at.edge - OVERBITE, at.depth + OVERJET]) - (0, lower[:, 1].min(), lower[:, 2].min())
+    return MouthPart(places + shift, triangulate(finer.quads), np.column_stack([depth, aside]).astype(np.float32))
+
+
+def mouth_bag(lips: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(V, 3) the vertices of the bag behind inner `lips` (20, 3), in the order of `LIPS_INNER`: rings, and its end."""
+    lips = np.asarray(lips, np.float64)
+    middle = lips.mean(axis=0)
+    up = -np.sin(2 * np.pi * np.arange(len(lips)) / len(lips))  # from corner over the upper lip to corner, y down
+    rings = []
+    for depth, higher, share in RINGS:
+        ring = middle + (lips - middle) * (share, 1, 1)
+        ring[:, 1] += higher * up
+        ring[:, 2] += depth
+        rings.append(ring)
+    end = rings[-1].mean(axis=0) + np.array([0, 0, BOTTOM])
+    return np.concatenate([*rings, end[None]])
+
+
+def bag_surface() -> tuple[NDArray[np.int32], NDArray[np.float32]]:
+    """(T, 3) the bag's triangles, seen from within, and (V, 2) its places on its ramp: u from the lips to the throat."""
+    count = len(LIPS_INNER)
+    index = np.arange(len(RINGS) * count).reshape(len(RINGS), count)
+    after = np.roll(index, -1, axis=1)
+    walls = [
+        np.stack([index[:-1], index[1:], after[1:]], axis=-1).reshape(-1, 3),
+        np.stack([index[:-1], after[1:], after[:-1]], axis=-1).reshape(-1, 3),
+    ]
+    end = np.stack([index[-1], np.full(count, index.size), after[-1]], axis=-1)
+    depth = np.append(np.repeat([ring[0] for ring in RINGS], count), RINGS[-1][0] + BOTTOM) / (RINGS[-1][0] + BOTTOM)
+    return np.concatenate([*walls, end]).astype(np.int32), np.column_stack([depth, np.full(len(depth), 0.5)]).astype(
+        np.float32
+    )
+
+
+def _in_eye_distances(places: NDArray[np.floating]) -> NDArray[np.float64]:
+    return np.asarray(places, np.float64) @ PICTURE_TO_TEMPLATE / EYE_DISTANCE

@@ -1,0 +1,59 @@
+"""Where a person's mouth is in their head, seen from the front: what teeth are laid behind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.landmarks import mouth_opening
+
+CORNERS = (78, 308)
+UPPER_MIDDLE = (82, 13, 312)
+BEHIND_LIPS = 0.03
+"""Eye distances by which teeth lie behind the inner lips."""
+BELOW_LIPS = 0.06
+"""Eye distances below where the lips meet, at which upper teeth end."""
+SHUT_OPENING = 0.05
+"""Of a mouth that tells where its lips meet."""
+NOSE_BASE = (2, 94, 98, 327)
+
+
+@dataclass(frozen=True)
+class RestingMouth:
+    """front : (478, 3) the face from the front, in its eye distances, y down and z away from the viewer. shut : (478, 3) the same with closed
+    lips, as far as it is known."""
+
+    front: NDArray[np.float64]
+    shut: NDArray[np.float64]
+
+    @property
+    def depth(self) -> float:
+        """Of the front of the upper teeth."""
+        return float(self.front[list(UPPER_MIDDLE), 2].mean()) + BEHIND_LIPS
+
+    @property
+    def middle(self) -> float:
+        """Of the mouth, along x."""
+        return float(self.front[list(CORNERS), 0].mean())
+
+    @property
+    def width(self) -> float:
+        """From corner to corner."""
+        return float(np.linalg.norm(self.front[CORNERS[1]] - self.front[CORNERS[0]]))
+
+    @property
+    def edge(self) -> float:
+        """The height at which the upper teeth end."""
+        return float(self.shut[[13, 14], 1].mean()) + BELOW_LIPS
+
+
+def resting_mouth(front: NDArray[np.floating], neutral: NDArray[np.floating]) -> RestingMouth:
+    """That of a face `front` (478, 3), whose mouth may be open: then `neutral` (478, 3), the person's face at rest, tells where its lips
+    meet, the bases of both noses laid on one another."""
+    whole = np.asarray(front, np.float64)
+    if float(mouth_opening(whole)) < SHUT_OPENING:
+        return RestingMouth(whole, whole)
+    base = list(NOSE_BASE)
+    return RestingMouth(whole, np.asarray(neutral + (whole[base] - neutral[base]).mean(axis=0), np.float64))

@@ -1,0 +1,109 @@
+"""Lower teeth, tongue and the dark in a mouth that moves."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from engine.perception.expression.features import frontalise
+from engine.perception.head_pose import canonical_face
+from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
+from engine.persona.mouth.jaw import CHIN, jaw_of
+from engine.persona.mouth.modelled_mouth import ModelledMouth
+from engine.persona.mouth.mouth_colours import mouth_colours
+from engine.persona.mouth.mouth_parts import modelled_teeth, mouth_bag
+from engine.persona.mouth.resting_mouth import resting_mouth
+
+LOWER = [*LIPS_INNER[11:], *LIPS_OUTER[11:], *CHIN]
+EYES = 80.0
+SHAPE = (400, 400)
+WALL = (0, 255, 0)
+
+
+def front(angle: float) -> np.ndarray:
+    """(478, 3) the general face from the front, in eye distances, its jaw open by an angle in radians."""
+    shut = frontalise(canonical_face()[None].astype(np.float64))[0]
+    upper, lower = np.array(LIPS_INNER[1:10]), np.array(LIPS_INNER[:10:-1])
+    shut[upper] = shut[lower] = (shut[upper] + shut[lower]) / 2
+    hinge = jaw_of(shut, shut)._replace(angle=angle)
+    shut[LOWER] = hinge.moved(shut[LOWER])
+    return shut
+
+
+def seen(face: np.ndarray, yaw: float = 0.0) -> np.ndarray:
+    """(478, 2) pixels."""
+    turn = Rotation.from_euler("y", yaw, degrees=True).as_matrix()
+    return ((face @ turn.T)[:, :2] * EYES + 180).astype(np.float32)
+
+
+def picture(skin: tuple[int, int, int]) -> np.ndarray:
+    rgb = np.full((*SHAPE, 3), skin, np.uint8)
+    cv2.fillPoly(rgb, [np.rint(seen(front(0.0))[list(LIPS_OUTER)]).astype(np.int32)], [int(0.8 * one) for one in skin])
+    return rgb
+
+
+@pytest.fixture(scope="module")
+def mouth() -> ModelledMouth:
+    rest = front(0.0)
+    colours = mouth_colours(picture((190, 150, 130)), seen(rest))
+    return ModelledMouth(resting_mouth(rest, rest), colours, True)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.1, 0.35])
+def test_a_jaw_is_found_by_its_chin_from_before(angle: float) -> None:
+    shut = front(0.0)
+    found = jaw_of(front(angle)[:, :2], shut)
+    assert found.angle == pytest.approx(angle, abs=1e-3) and found.aside == pytest.approx(0, abs=1e-9)
+    points = np.random.default_rng(0).normal(0, 1, (5, 3))
+    np.testing.assert_allclose(found._replace(angle=0.0).moved(points), points, atol=1e-12)
+
+
+@pytest.mark.parametrize(("angle", "yaw"), [(0.08, 0.0), (0.2, 0.0), (0.35, 0.0), (0.2, 25.0), (0.3, -25.0)])
+def test_nothing_shows_through_an_open_mouth(mouth: ModelledMouth, angle: float, yaw: float) -> None:
+    face = seen(front(angle), yaw)
+    frame = np.empty((*SHAPE, 3), np.uint8)
+    frame[:] = WALL
+    mouth.draw(frame, face, 0)
+    inner = np.zeros(SHAPE, np.uint8)
+    cv2.fillPoly(inner, [np.rint(face[list(LIPS_INNER)]).astype(np.int32)], 1)
+    deep = cv2.erode(inner, np.ones((7, 7), np.uint8)) > 0
+    assert deep.any() and (frame[deep].argmax(axis=1) != 1).all(), "reds and greys: no green wall"
+    assert (frame[cv2.dilate(inner, np.ones((11, 11), np.uint8)) == 0] == WALL).all()
+
+
+def test_a_shut_mouth_shows_nothing(mouth: ModelledMouth) -> None:
+    frame = np.full((*SHAPE, 3), 99, np.uint8)
+    mouth.draw(frame, seen(front(0.0)), 0)
+    assert (frame == 99).all()
+
+
+def test_lower_teeth_go_with_the_jaw_and_upper_ones_stay(mouth: ModelledMouth) -> None:
+    at = resting_mouth(front(0.0), front(0.0))
+    upper, lower = (len(modelled_teeth(at, one).vertices) for one in (True, False))
+    shut, wide = (mouth.places(seen(front(angle))) for angle in (0.0, 0.3))
+    moved = np.linalg.norm(wide - shut, axis=1) / EYES
+    assert moved[:upper].max() < 5e-3 < 0.2 < moved[upper : upper + lower].min()
+
+
+def test_both_rows_meet_behind_closed_lips() -> None:
+    at = resting_mouth(front(0.0), front(0.0))
+    upper, lower = (modelled_teeth(at, one).vertices for one in (True, False))
+    assert upper[:, 1].max() > lower[:, 1].min(), "the upper ones reach over the lower ones"
+    lips = at.front[list(LIPS_INNER)]
+    assert lips[:, 1].mean() < upper[:, 1].max() and upper[:, 2].min() > lips[[4, 5, 6], 2].mean() + 0.02, (
+        "behind the lips"
+    )
+    np.testing.assert_array_equal(mouth_bag(lips)[: len(lips)], lips)
+
+
+def test_a_person_in_black_and_white_has_a_mouth_in_black_and_white() -> None:
+    face = seen(front(0.0))
+    grey, red = (mouth_colours(picture(skin), face) for skin in ((150, 150, 150), (200, 150, 130)))
+    assert all((np.ptp(ramp.astype(int), axis=-1) == 0).all() for ramp in grey)
+    assert all((ramp[..., 0] >= ramp[..., 2]).all() and np.ptp(ramp.astype(int), axis=-1).max() > 20 for ramp in red)
+    dark = mouth_colours(picture((75, 52, 45)), face)
+    assert all(one.mean() < 0.7 * other.mean() for one, other in zip(dark, red, strict=True)), (
+        "in the light of the skin"
+    )
