@@ -173,7 +173,7 @@ def _scanned(
     frames: ChosenFrames, cameras: ClipCameras, given: tuple[GivenLandmark, ...], grown: Similarity, run: Run
 ) -> Clipped:
     """A clip with its cloud and landmarks, some `given` by hand, as large as the person is (`grown`)."""
-    seen = run.stage("find_landmarks", find_landmarks, frames, cameras, run.tick)
+    seen = run.stage("find_landmarks", find_landmarks, frames, cameras, run.warn, run.tick)
     dense = run.stage("measure_cloud", measure_cloud, frames, cameras, seen, run.tick)
     return frames, scan_clip(frames, seen, dense, given).moved(grown)
 

@@ -22,6 +22,7 @@ from engine.avatar.landmarks.detection import spatial_landmarks
 from engine.avatar.landmarks.given import GivenLandmark, placed_by_hand
 from engine.avatar.landmarks.in_frames import FrameLandmarks, frame_landmarks
 from engine.avatar.landmarks.spatial import SpatialLandmarks
+from engine.avatar.landmarks.worn_on_face import worn_on_face
 from engine.avatar.options import KnownLens
 from engine.avatar.registration.feet.foot_outlines import Silhouette
 from engine.avatar.registration.fitted_template import FittedTemplate
@@ -134,8 +135,9 @@ def lens_of_frames(lens: KnownLens, size: tuple[int, int], shrunk: tuple[int, in
     return Lens(np.array([lens.focal * scale, lens.k1, lens.k2]), centre, known=True)
 
 
-def find_landmarks(chosen: ChosenFrames, found: ClipCameras, tick: Tick) -> ClipLandmarks:
-    """The landmarks that the frames of a clip show (section 3.3), and masks in which, by these, no hand or foot is missing."""
+def find_landmarks(chosen: ChosenFrames, found: ClipCameras, warn: Warn, tick: Tick) -> ClipLandmarks:
+    """The landmarks that the frames of a clip show (section 3.3), and masks in which, by these, no hand or foot is missing. Warns of
+    what the face wears that is not fitted."""
     placed = placed_frames(found)
     cameras = [_camera_of(found, int(k), chosen.size) for k in placed]
     seen = []
@@ -143,6 +145,8 @@ def find_landmarks(chosen: ChosenFrames, found: ClipCameras, tick: Tick) -> Clip
         picture = chosen.picture(int(k), LANDMARK_SIDE)
         seen.append(frame_landmarks(picture).scaled(chosen.size[0] / picture.shape[0]))
         tick(number / len(placed))
+    for notice in worn_on_face(seen):
+        warn(notice.code, notice.message)
     landmarks = spatial_landmarks(list(zip(cameras, seen, strict=True)))
     frames = [_foot_frame(chosen, found, int(k)) for k in placed]
     believed = [frame.mask for frame in frames]

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.joint_names import SIDES
 from engine.perception.body import BODY_LANDMARKS, Body, find_body
+from engine.perception.face_wear import FaceWear, face_wear
 from engine.perception.faces import find_faces
 from engine.perception.hands import find_hands
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS, fiducials
@@ -40,12 +41,14 @@ EYE_POINTS = np.array([[*LEFT_EYE, *LEFT_IRIS], [*RIGHT_EYE, *RIGHT_IRIS]])
 @dataclass(frozen=True)
 class FrameLandmarks:
     """What one frame shows: `body`, pixels (2,) and confidence by name; `face` (68, 2) pixels or None; `hands`, by side, (21, 2)
-    pixels and confidence; `eyes` (2, 21, 2) pixels, the left and the right one's `EYE_POINTS`, where there is a face."""
+    pixels and confidence; `eyes` (2, 21, 2) pixels, the left and the right one's `EYE_POINTS`, where there is a face; what it
+    wears, `wear`."""
 
     body: Mapping[str, tuple[NDArray[np.float64], float]]
     face: NDArray[np.float64] | None
     hands: Mapping[str, tuple[NDArray[np.float64], float]] = field(default_factory=dict)
     eyes: NDArray[np.float64] | None = None
+    wear: FaceWear = field(default_factory=FaceWear)
 
     def scaled(self, factor: float) -> FrameLandmarks:
         """Those of the same frame, larger by `factor`."""
@@ -58,6 +61,7 @@ class FrameLandmarks:
             None if self.face is None else at(self.face),
             {side: (at(points), confidence) for side, (points, confidence) in self.hands.items()},
             None if self.eyes is None else at(self.eyes),
+            self.wear,
         )
 
 
@@ -75,7 +79,7 @@ def frame_landmarks(rgb: NDArray[np.uint8]) -> FrameLandmarks:
     mesh = _face_mesh(rgb, body if named else None)
     if mesh is None:
         return FrameLandmarks(named, None, hands)
-    return FrameLandmarks(named, np.asarray(fiducials(mesh)), hands, mesh[EYE_POINTS])
+    return FrameLandmarks(named, np.asarray(fiducials(mesh)), hands, mesh[EYE_POINTS], face_wear(rgb, mesh))
 
 
 def _face_mesh(rgb: NDArray[np.uint8], body: Body | None) -> NDArray[np.float64] | None:

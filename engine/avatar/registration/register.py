@@ -40,6 +40,11 @@ MAX_COEFFICIENT = 5.0
 MIN_POINTS = 2000
 """Of a cloud that says anything of a body."""
 
+EYES_NOT_MEASURED = Notice(
+    "eyes_not_measured",
+    "No three frames show the eyes open and from the front: lids are where the face was fitted, and irises are as large as most.",
+)
+
 
 @dataclass(frozen=True)
 class Scan:
@@ -146,7 +151,7 @@ def _person(
         iris=eyes.iris,
         head_to_body=placed,
         coefficients=coefficients,
-        notices=notices,
+        notices=notices if eyes.measured else (*notices, EYES_NOT_MEASURED),
     )
 
 

@@ -52,6 +52,10 @@ def test_hands_that_no_landmarks_tell_of_are_named(fitted: FittedTemplate) -> No
     assert "left and the right hand" in notice.message
 
 
+def test_eyes_that_no_frame_shows_are_said_to_be_guessed(fitted: FittedTemplate) -> None:
+    assert "eyes_not_measured" in [notice.code for notice in fitted.notices]
+
+
 def test_hands_in_t_pose_are_those_of_the_body_s_space(models: HumanModels, fitted: FittedTemplate) -> None:
     hands = models.skin.vertices[models.skin.regions["whole_hands"]]
     flat = models.space.vertices(fitted.coefficients)
