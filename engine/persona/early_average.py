@@ -15,7 +15,9 @@ from engine.perception.identity.descriptor import IdentityDistances
 from engine.persona.collection.person import belonging
 from engine.persona.collection.photo_face import PhotoFace
 from engine.persona.collection.sorting import Choice, reasons_against
-from engine.persona.texture.texture_frame import sampled, texture_frame
+from engine.persona.texture.aligned_photos import align_photos
+from engine.persona.texture.bare_skin import bared
+from engine.persona.texture.texture_frame import texture_frame
 
 SIZE = (244, 194)
 """Height and width, pixels."""
@@ -46,7 +48,8 @@ class EarlyAverage:
             self._show()
 
     def _aligned(self, rgb: NDArray[np.uint8], face: PhotoFace) -> NDArray[np.uint8]:
-        return np.rint(sampled(rgb, self._frame.lookup(face.mesh))).astype(np.uint8)
+        laid = align_photos(self._frame, [face.mesh], lambda number: rgb)
+        return bared(self._frame, laid).colours[0]
 
     def _show(self) -> None:
         """Leaves and tells of the average of the one person's faces that are of use, where there are enough by now."""
@@ -60,6 +63,6 @@ class EarlyAverage:
             return
         self._wanted = 2 * len(used)
         mean = np.mean(used, axis=0)
-        mean[~self._frame.covered] = BACKGROUND
+        mean[~self._frame.face] = BACKGROUND
         write_still(self._out / "average.png", np.rint(mean).astype(np.uint8), self._synthetic)
         self._publish(self._out / "average.png")

@@ -16,6 +16,7 @@ from engine.persona.persona import Persona
 from engine.persona.shape.average_shape import average_depth
 from engine.persona.texture.aligned_photos import AlignedPhotos, align_photos
 from engine.persona.texture.appearance_subspace import Appearance, appearance, exposed
+from engine.persona.texture.bare_skin import bared
 from engine.persona.texture.dense_alignment import align_densely, shifted
 from engine.persona.texture.expression_weights import expression_points
 from engine.persona.texture.template_shape import template_shape
@@ -50,10 +51,13 @@ def learn_persona(
     that are `insisted` on are used however little of them can be believed."""
     mesh = template_shape(meshes)
     frame = texture_frame(mesh, size)
-    aligned = align_photos(frame, list(meshes), photo, lambda fraction: tick(0.4 * fraction))
-    shown = aligned.shown * _mouths(frame, mouth_opening(frontalise(meshes)))
+    laid = align_photos(frame, list(meshes), photo, lambda fraction: tick(0.3 * fraction))
+    mouths = _mouths(frame, mouth_opening(frontalise(meshes)))
+    aligned = bared(frame, laid)
+    tick(0.4)
+    shown = aligned.shown * mouths
     first = appearance(exposed(aligned.grey(), frame.face), shown, frame.covered)
-    used = believed_share(frame, first, shown) >= MIN_BELIEVED
+    used = believed_share(frame, first, laid.shown * mouths) >= MIN_BELIEVED
     used[list(insisted)] = True
     if not used.all():
         aligned, shown, meshes = AlignedPhotos(aligned.colours[used], aligned.shown[used]), shown[used], meshes[used]

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+import numpy as np
+
 from engine.errors import InputError
 from engine.export.still import write_still
 from engine.kind import Given
 from engine.persona.animating import animate_persona, require_playable
 from engine.persona.collecting import learnt_of_photos
 from engine.persona.composite.photo_performance import PHOTO_STAGES
+from engine.persona.early_average import BACKGROUND
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import read_persona, write_persona
 from engine.persona.results.pictures import Studio
@@ -45,7 +48,8 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
     with run.timed("write_persona"):
         write_persona(out / "persona.npz", persona)
         average = persona.average
-        write_still(out / "average.png", average, run.mark_synthetic)
+        alone = np.where(persona.frame.face[..., None], average, np.array(BACKGROUND, np.uint8))
+        write_still(out / "average.png", alone, run.mark_synthetic)
         if not isinstance(driver, Path):
             at_rest = Studio(persona, options.size, options.background).picture(persona.neutral, average)
             write_still(out / "poster.jpg", at_rest, run.mark_synthetic)

@@ -22,6 +22,9 @@ CONFIDENCE_SIGMA = 1.5
 """Pixels of a frame 194 wide over which the response of the Laplacian is told."""
 CAP_PERCENTILE = 80
 """Of a pixel's responses in all photographs: a stronger one is a hair or an edge of light, not a finer crease."""
+REDESCENT = 2.0
+"""The power with which the confidence falls again where a photograph has more than that, beside how much finer it is all over: a hair is left
+out, and not only held back."""
 MIN_CONFIDENCE = 0.05
 """Grey levels: where no photograph has any detail, all count alike."""
 MIN_PIXEL_BELIEF = 1e-3
@@ -95,7 +98,11 @@ def _confidence(bands: NDArray[np.float32], unit: float) -> NDArray[np.float32]:
     grey = np.abs(bands @ np.array([0.299, 0.587, 0.114], np.float32))
     told = np.array([cv2.GaussianBlur(one, (0, 0), CONFIDENCE_SIGMA * unit) for one in grey])
     capped = np.minimum(told, np.percentile(told, CAP_PERCENTILE, axis=0)) + MIN_CONFIDENCE
-    return np.asarray(capped**ALPHA, np.float32)
+    sharpness = np.median((told + MIN_CONFIDENCE) / (told.mean(axis=0) + MIN_CONFIDENCE), axis=(1, 2), keepdims=True)
+    told /= sharpness
+    most = np.percentile(told, CAP_PERCENTILE, axis=0) + MIN_CONFIDENCE
+    capped *= np.minimum(1, most / np.maximum(told, MIN_CONFIDENCE)) ** REDESCENT
+    return np.asarray(np.maximum(capped, MIN_CONFIDENCE) ** ALPHA, np.float32)
 
 
 def _shrunk(weights: NDArray[np.floating], shape: Sequence[int]) -> NDArray[np.float32]:

@@ -108,6 +108,19 @@ def test_detail_comes_from_those_that_have_it() -> None:
     assert detail[0] > 1.5 * detail[1]
 
 
+def test_a_hair_that_one_photograph_shows_is_left_out() -> None:
+    photos = np.array([noise(k, contrast=4) for k in range(10)])
+    plain = texture_synthesis(photos, np.ones((10, *SIZE)))(np.ones((1, 10), np.float32))[0].astype(int)
+    haired = photos.copy()
+    cv2.line(haired[3], (15, 10), (60, 80), (20, 20, 20), 1, cv2.LINE_AA)
+    alone = np.full((1, 10), 0.5, np.float32)
+    alone[0, 3] = 1  # the photograph that shows the hair counts most
+    found = texture_synthesis(haired, np.ones((10, *SIZE)))(alone)[0].astype(int)
+    hair = np.abs(haired[3].astype(int) - photos[3]).max(axis=-1) > 60
+    drawn = plain[hair].mean() - found[hair].mean()
+    assert drawn < 0.04 * (photos[3][hair].mean() - haired[3][hair].mean()), "a plain mean has a sixth of it"
+
+
 def test_photographs_are_balanced_to_one_tone() -> None:
     face = np.zeros(SIZE, np.bool_)
     face[20:80, 20:60] = True
