@@ -34,9 +34,10 @@ FACE_VERTICES = 468
 
 @dataclass(frozen=True)
 class Puppet:
-    """A person's face that can be posed."""
+    """A person's face that can be posed; its skin goes on over its eyes and mouth, or has `openings` there."""
 
     persona: Persona
+    openings: bool = False
 
     def draw(
         self,
@@ -66,7 +67,7 @@ class Puppet:
     @cached_property
     def mouth(self) -> MouthInterior:
         """What is between its lips."""
-        return puppet_mouth(self.persona)
+        return puppet_mouth(self.persona).interior
 
     def vertices(self, face: NDArray[np.floating]) -> NDArray[np.float64]:
         """(M, 3) the vertices that are drawn of a `face` (478, 3), with the average shape's relief; in eye distances."""
@@ -90,7 +91,7 @@ class Puppet:
 
     @cached_property
     def _subdivision(self) -> tuple[sp.csr_array, NDArray[np.int32]]:
-        coarse = np.concatenate([face_triangles(), opening_triangles()])
+        coarse = face_triangles() if self.openings else np.concatenate([face_triangles(), opening_triangles()])
         matrix, triangles = midpoint_subdivision(coarse, FACE_VERTICES, SUBDIVISIONS)
         return matrix, np.ascontiguousarray(triangles[:, ::-1])  # counter-clockwise, which is what is not culled
 

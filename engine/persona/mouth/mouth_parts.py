@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.face.face_points import PICTURE_TO_TEMPLATE
-from engine.body.subdivision import catmull_clark
-from engine.body.template import load_template
+from engine.body.subdivision import Subdivision, catmull_clark
+from engine.body.template import Template, load_template
 from engine.geometry.surface import triangulate
 from engine.perception.landmarks import LIPS_INNER
 from engine.performances.modelling.teeth import Arch, build_dentition
@@ -25,9 +25,11 @@ DETAIL = 0.4
 """Of the crowns' meshes."""
 OVERBITE, OVERJET = 0.03, 0.05
 """Eye distances by which lower teeth end above the upper ones' edges, and lie behind them, where the jaw is closed."""
-TONGUE_WIDTH = 0.85
-"""Of the template's tongue, so that it lies within the row of teeth."""
-RINGS = ((0.0, 0.0, 1.0), (0.04, 0.1, 1.03), (0.15, 0.25, 1.15), (0.5, 0.3, 1.2), (0.8, 0.2, 0.9))
+TONGUE_SHARES = (0.85, 0.5, 0.45)
+"""Of the template's tongue, along x, y and z from its tip: so that it lies within the row of teeth, and its root within a face without a neck."""
+GUM, ROW_DEPTH = 0.2, 0.5
+"""Eye distances from the crowns' edges up to which there is gum, and from their front up to which there are teeth: the face has no more room."""
+RINGS = ((0.0, 0.0, 1.0), (0.04, 0.1, 1.03), (0.15, 0.25, 1.15), (0.35, 0.28, 1.15), (0.55, 0.18, 0.9))
 """Of the bag: eye distances behind the lips, by which it is higher and deeper than their opening, and its share of their width."""
 BOTTOM = 0.05
 """Eye distances behind the last ring at which the bag ends."""
@@ -57,21 +59,39 @@ def modelled_teeth(at: RestingMouth, upper: bool) -> MouthPart:
     shift = (at.middle, at.edge, at.depth) if upper else (at.middle, at.edge - OVERBITE, at.depth + OVERJET)
     shade = (row.shade - SHADES[0]) / (SHADES[1] - SHADES[0])
     uv = np.column_stack([(row.enamel + 1) / 2, shade]).clip(0, 1).astype(np.float32)
-    return MouthPart(places - (0, edge, front) + shift, row.triangles, uv)
+    away = np.abs(places - (0, edge, front))
+    kept = ((away[:, 1] < GUM) & (away[:, 2] < ROW_DEPTH))[row.triangles].all(axis=1)
+    known, triangles = np.unique(row.triangles[kept], return_inverse=True)
+    placed = places[known] - (0, edge, front) + shift
+    return MouthPart(placed, triangles.reshape(-1, 3).astype(np.int32), uv[known])
 
 
 def tongue(at: RestingMouth) -> MouthPart:
     """The tongue, as it lies behind the lower teeth: u from its tip to its root, v from its middle to its sides."""
     template = load_template()
-    quads = template.quads[slice(*template.parts["tongue"])]
-    known, index = np.unique(quads, return_inverse=True)
-    finer = catmull_clark(index.reshape(quads.shape), len(known))
+    known, finer = _tongue(template)
     lower = _in_eye_distances(template.vertices[template.vertices_of("lower_teeth")])
-    places = np.asarray(finer.points @ _in_eye_distances(template.vertices[known])) * (TONGUE_WIDTH, 1, 1)
+    places = finer.points @ (_in_eye_distances(template.vertices[known]) - (0, lower[:, 1].min(), lower[:, 2].min()))
+    tip = np.array([0, places[:, 1].min(), places[:, 2].min()])
+    places = tip + (places - tip) * TONGUE_SHARES
     depth = (places[:, 2] - places[:, 2].min()) / np.ptp(places[:, 2])
     aside = np.abs(places[:, 0]) / np.abs(places[:, 0]).max()
-    shift = np.array([at.middle, at.edge - OVERBITE, at.depth + OVERJET]) - (0, lower[:, 1].min(), lower[:, 2].min())
+    shift = np.array([at.middle, at.edge - OVERBITE, at.depth + OVERJET])
     return MouthPart(places + shift, triangulate(finer.quads), np.column_stack([depth, aside]).astype(np.float32))
+
+
+def tongue_put_out() -> NDArray[np.float64]:
+    """(V, 3) by how much ARKit's `tongueOut` moves the vertices of the tongue, eye distances."""
+    template = load_template()
+    known, finer = _tongue(template)
+    return np.asarray(finer.points @ _in_eye_distances(template.face_units.displacement({"tongueOut": 1.0})[known]))
+
+
+def _tongue(template: Template) -> tuple[NDArray[np.integer], Subdivision]:
+    """The template's vertices that are the tongue's, and how they become finer ones."""
+    quads = template.quads[slice(*template.parts["tongue"])]
+    known, index = np.unique(quads, return_inverse=True)
+    return known, catmull_clark(index.reshape(quads.shape), len(known))
 
 
 def mouth_bag(lips: NDArray[np.floating]) -> NDArray[np.float64]:

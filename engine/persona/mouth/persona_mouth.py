@@ -2,25 +2,46 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.perception.landmarks import eye_distance
 from engine.persona.mouth.modelled_mouth import ModelledMouth
-from engine.persona.mouth.mouth_colours import mouth_colours
+from engine.persona.mouth.mouth_colours import MouthColours, mouth_colours
 from engine.persona.mouth.photo_teeth import PhotoTeeth, teeth_gain
-from engine.persona.mouth.resting_mouth import resting_mouth
+from engine.persona.mouth.resting_mouth import RestingMouth, resting_mouth
 from engine.persona.mouth.teeth_strip import teeth_strip
 from engine.persona.persona import Persona
 
+MIN_CROWNS = 0.07
+"""By how much crowns stand out in a photograph (`TeethStrip.crowns`) whose teeth are no mere white band: then modelled ones have its colour."""
 
-def puppet_mouth(persona: Persona) -> MouthInterior:
-    """What is between the puppet's lips, in the light of its texture at rest: upper teeth of one photograph, where one shows any, and of no
-    other, since the mean of several is a ghost; the rest is modelled."""
-    average = persona.average
-    at = resting_mouth(persona.neutral, persona.neutral)
-    mesh = persona.frame.places[:478]
+
+@dataclass(frozen=True)
+class PersonaMouth:
+    """at : how the face rests. colours : of what is modelled. photo : the upper teeth of a photograph; None where none shows any that can be
+    told apart, and all is modelled."""
+
+    at: RestingMouth
+    colours: MouthColours
+    photo: PhotoTeeth | None
+
+    @property
+    def interior(self) -> MouthInterior:
+        """What draws it."""
+        return self.photo or ModelledMouth(self.at, self.colours, True)
+
+
+def puppet_mouth(persona: Persona) -> PersonaMouth:
+    """What is between the puppet's lips, in the light of its texture at rest: upper teeth of one photograph, since the mean of several is a
+    ghost; the rest is modelled."""
+    at, average, mesh = resting_mouth(persona.neutral, persona.neutral), persona.average, persona.frame.places[:478]
     if persona.teeth is None:
-        return ModelledMouth(at, mouth_colours(average, mesh), True)
+        return PersonaMouth(at, mouth_colours(average, mesh), None)
     strip = teeth_strip(persona.teeth, float(eye_distance(mesh[:, :2])))
-    gain = teeth_gain(average, mesh, persona.teeth, strip)
-    behind = ModelledMouth(at, mouth_colours(average, mesh, strip.usual() * gain), False)
-    return PhotoTeeth(at, average, mesh, persona.teeth, behind, persona.mesh[None, :, :2], True)
+    colours = mouth_colours(average, mesh, strip.usual() * teeth_gain(average, mesh, persona.teeth, strip))
+    if strip.crowns() < MIN_CROWNS:
+        return PersonaMouth(at, colours, None)
+    behind = ModelledMouth(at, colours, False)
+    open_mouth = persona.mesh[None, :, :2]
+    return PersonaMouth(at, colours, PhotoTeeth(at, average, mesh, persona.teeth, behind, open_mouth, True))

@@ -57,7 +57,7 @@ class PhotoTeeth:
         faces: NDArray[np.floating],
         always: bool = False,
     ):
-        self._at, self._behind = at, behind
+        self.at, self._behind = at, behind
         self._appearing = 0.0 if always else max(APPEARING_OPENING, REST_FACTOR * float(mouth_opening(mesh)))
         self._strip = teeth_strip(photo, float(eye_distance(mesh[:, :2])))
         self._wider, self._longer = self._size(faces[np.asarray(mouth_opening(faces)) > FULL_OPENING])
@@ -88,24 +88,29 @@ class PhotoTeeth:
         """(h, w, 4) the teeth's colours in the target's light, and their shares, in a part of `shape` (h, w) of the picture of a `face`
         (478, 2) whose first pixel is at `corner` (2,)."""
         layer = self.upper_teeth(self.places(face, corner, shape))
-        layer[..., :3] *= self._gain * in_mouth(face, corner, shape).light()[..., None]
-        if self._grey:
-            layer[..., :3] = (layer[..., :3] @ LUMINANCE_WEIGHTS)[..., None]
+        layer[..., :3] = self.lit(layer[..., :3]) * in_mouth(face, corner, shape).light()[..., None]
         return layer
+
+    def lit(self, colours: NDArray[np.float32]) -> NDArray[np.float32]:
+        """(..., 3) colours of the photograph's teeth in the light of the picture."""
+        lit = colours * self._gain
+        if self._grey:
+            lit[:] = (lit @ LUMINANCE_WEIGHTS)[..., None]
+        return np.asarray(lit, np.float32)
 
     def places(
         self, face: NDArray[np.floating], corner: NDArray[np.floating], shape: tuple[int, int]
     ) -> NDArray[np.float64]:
         """(h, w, 2) where on the arch of the teeth each pixel is, as the target's skull has it from the front, in eye distances from
         the middle of where the upper teeth end."""
-        matrix, shift = skull_camera(self._at.front, face)
+        matrix, shift = skull_camera(self.at.front, face)
         rows, columns = np.mgrid[: shape[0], : shape[1]].astype(np.float64)
         seen = np.stack([columns, rows], axis=-1) + corner - shift
         back = np.linalg.inv(matrix[:, :2]).T
-        depth = np.full(shape, self._at.depth)
+        depth = np.full(shape, self.at.depth)
         for _ in range(ARCH_ROUNDS):  # the arch goes back to both sides
-            front = (seen - depth[..., None] * matrix[:, 2]) @ back - (self._at.middle, self._at.edge)
-            depth = self._at.depth + ARCH * front[..., 0] ** 2
+            front = (seen - depth[..., None] * matrix[:, 2]) @ back - (self.at.middle, self.at.edge)
+            depth = self.at.depth + ARCH * front[..., 0] ** 2
         return np.asarray(front, np.float64)
 
     def upper_teeth(self, places: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -120,10 +125,10 @@ class PhotoTeeth:
             return 1.0, 1.0
         widths, heights = [], []
         for face in faces:
-            matrix, shift = skull_camera(self._at.front, face)
+            matrix, shift = skull_camera(self.at.front, face)
             widths.append(np.linalg.norm(face[CORNERS[0]] - face[CORNERS[1]]) / np.linalg.norm(matrix[0]))
-            lip = face[list(UPPER_MIDDLE)].mean(axis=0) - shift - self._at.depth * matrix[:, 2]
-            heights.append(self._at.edge - np.linalg.solve(matrix[:, :2], lip)[1])
+            lip = face[list(UPPER_MIDDLE)].mean(axis=0) - shift - self.at.depth * matrix[:, 2]
+            heights.append(self.at.edge - np.linalg.solve(matrix[:, :2], lip)[1])
         middle = np.full((), self._strip.middle)
         own = float(self._strip.ends(middle) - self._strip.lip(middle))
         wide, high = (float(np.percentile(one, WIDE_PERCENTILE)) for one in (widths, heights))

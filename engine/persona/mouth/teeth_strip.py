@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import uniform_filter1d
 
 from engine.face_animation.mouth.hidden_regions import (
     LOWER_INNER_LIP,
@@ -29,6 +30,11 @@ MARGIN = 0.1
 """Eye distances around the lips that are kept."""
 SOFTNESS = 0.018
 """Eye distances over which the teeth pass into the dark."""
+ROW_SAMPLES = 200
+CROWN_ROW = 0.55
+"""Of the way from the lip to where teeth end, at which crowns are told apart."""
+CROWN_WIDTH, CROWN_WIDTHS = 0.125, 1.0
+"""Eye distances that a front tooth is wide, and such widths over which light is told that is no crown's."""
 MAX_SHARPENING = 0.6
 """Of what is finer than a pixel, where the photograph is enlarged twice or more: its own pixels have blurred it."""
 TEETH_PERCENTILE, USUAL_PERCENTILE = 90, 60
@@ -98,6 +104,15 @@ class TeethStrip:
         """The luminance of the lightest teeth, each channel times its `gain` (3,)."""
         light = (self.layer[..., :3] * gain)[self.layer[..., 3] > 0.5] @ LUMINANCE_WEIGHTS
         return max(float(np.percentile(light, TEETH_PERCENTILE)), 1.0) if len(light) else 255.0
+
+    def crowns(self) -> float:
+        """By how much single crowns stand out along the row: the standard deviation of light, of what is finer than two of them, as a share of
+        the light."""
+        x = np.linspace(self.upper[1, 0], self.upper[-2, 0], ROW_SAMPLES)
+        y = self.lip(x) + CROWN_ROW * (self.ends(x) - self.lip(x))
+        light = self.sampled(x[None], y[None])[0, :, :3] @ LUMINANCE_WEIGHTS
+        smooth = uniform_filter1d(light, round(CROWN_WIDTHS * ROW_SAMPLES * CROWN_WIDTH / np.ptp(x)), mode="nearest")
+        return float((light - smooth).std() / max(float(light.mean()), 1.0))
 
     def usual(self) -> NDArray[np.float64]:
         """(3,) the colour of teeth that are well lit, as the photograph has them."""

@@ -8,43 +8,62 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.face.face_points import PICTURE_TO_TEMPLATE
+from engine.body.template import FACE_UNITS
 from engine.export.glb import CharacterModel, write_glb
+from engine.export.gltf_materials import Material
 from engine.geometry.morph_target import morph_target
 from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.persona.persona import Persona
 from engine.persona.puppet import Puppet
 from engine.persona.results.face_units import FaceUnits
+from engine.persona.results.inner_parts import InnerPart, inner_parts
 
 EYE_DISTANCE = 0.063
 """Metres between the middles of the eyes: people's mean, since no photograph tells how large somebody is."""
 NECK = (0.0, -0.9, 1.3)
 """About where a head turns, in eye distances from between the eyes, in the axes of pictures."""
+ROUGHNESS = 0.5
+"""Of eyes, teeth and tongue, which are moist."""
 LEAST = 1e-4
 """Metres that a unit moves a vertex by, at least."""
 
 
 def write_puppet(path: Path, persona: Persona, units: FaceUnits, texture: NDArray[np.uint8], synthetic: bool) -> None:
-    """Write the GLB: the neutral face with the average shape's relief, y up, facing +z, one joint that turns it, `Head`; and `units`.
+    """Write the GLB: the neutral face with the average shape's relief, y up, facing +z, one joint that turns it, `Head`; all of ARKit's face
+    units; and behind openings for eyes and mouth what is there (`engine.persona.results.inner_parts`), each with a material of its own.
 
     texture : (H, W, 3) of the persona's frame.
     """
-    puppet = Puppet(persona)
+    puppet = Puppet(persona, openings=True)
     metres = PICTURE_TO_TEMPLATE * EYE_DISTANCE
-    vertices = (puppet.vertices(persona.neutral) @ metres).astype(np.float32)
-    surface = puppet.surface
+    parts = [_skin(puppet, units, texture), *inner_parts(puppet, units)]
+    starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
     head = (np.array([NECK]) @ metres).astype(np.float32)
     mesh = SkinnedMesh(
         Skeleton(("Head",), np.array([-1], np.int32), head),
-        vertices,
-        surface.triangles,
-        surface.uv,
-        np.zeros((len(vertices), 4), np.uint8),
-        np.tile(np.array([1, 0, 0, 0], np.float32), (len(vertices), 1)),
+        (np.concatenate([part.vertices for part in parts]) @ metres).astype(np.float32),
+        np.concatenate([part.triangles + start for part, start in zip(parts, starts, strict=False)]).astype(np.int32),
+        np.concatenate([part.uv for part in parts]),
+        np.zeros((starts[-1], 4), np.uint8),
+        np.tile(np.array([1, 0, 0, 0], np.float32), (starts[-1], 1)),
         texture,
     )
-    morphs = [
-        morph_target(name, puppet.finer(moved) @ metres, LEAST)
-        for name, moved in zip(units.names, units.moved, strict=True)
-    ]
-    write_glb(path, CharacterModel(mesh, unlit=False, morphs=morphs), name="puppet", synthetic=synthetic)
+    morphs = []
+    for unit in FACE_UNITS:
+        moved = np.concatenate([part.moved.get(unit, np.zeros_like(part.vertices)) for part in parts])
+        morphs.append(morph_target(unit, moved @ metres, LEAST))
+    materials = [Material("skin"), *(_material(part) for part in parts[1:])]
+    material_of = np.repeat(np.arange(len(parts)), [len(part.triangles) for part in parts])
+    model = CharacterModel(mesh, unlit=False, morphs=morphs, materials=materials, material_of=material_of)
+    write_glb(path, model, name="puppet", synthetic=synthetic)
+
+
+def _skin(puppet: Puppet, units: FaceUnits, texture: NDArray[np.uint8]) -> InnerPart:
+    surface = puppet.surface
+    moved = {name: puppet.finer(one) for name, one in zip(units.names, units.moved, strict=True)}
+    return InnerPart("skin", puppet.vertices(puppet.persona.neutral), surface.triangles, surface.uv, texture, moved)
+
+
+def _material(part: InnerPart) -> Material:
+    return Material(part.name, part.texture, alpha=part.alpha, two_sided=part.alpha == "MASK", roughness=ROUGHNESS)

@@ -13,6 +13,7 @@ from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.mouth.photo_teeth import PhotoTeeth
 from engine.persona.mouth.resting_mouth import resting_mouth
 from engine.persona.mouth.skull import skull_camera
+from engine.persona.mouth.teeth_strip import teeth_strip
 
 SKIN = (190, 150, 130)
 CAVITY = np.array([50.0, 20.0, 20.0])
@@ -105,3 +106,12 @@ def test_it_is_drawn_between_the_lips_alone_and_only_where_they_part(mouth: Phot
         cv2.fillPoly(inner, [np.rint(mesh[list(LIPS_INNER), :2]).astype(np.int32)], 1)
         assert changed.any() == drawn
         assert not changed[cv2.dilate(inner, np.ones((9, 9), np.uint8)) == 0].any()
+
+
+def test_a_white_band_shows_no_crowns() -> None:
+    smile = face(0.14)
+    striped = picture(smile)
+    band = striped.copy()
+    band[(striped == (150, 135, 120)).all(axis=-1)] = (225, 215, 200)
+    crowns = [teeth_strip(FacePhoto(rgb, smile, 0), 80.0).crowns() for rgb in (striped, band)]
+    assert crowns[1] < 0.04 < 0.1 < crowns[0]

@@ -9,11 +9,14 @@ import numpy as np
 import pytest
 from glb_reader import Glb, validate
 
+from engine.body import FACE_UNITS
 from engine.media.image import read_image
 from engine.persona.persona import Persona
 from engine.persona.puppet import Puppet
+from engine.persona.results.behind_skin import BehindSkin
 from engine.persona.results.expression_textures import NAMES, expression_textures, write_expression_textures
 from engine.persona.results.face_units import EXPRESSIONS, FaceUnits
+from engine.persona.results.inner_parts import inner_parts
 from engine.persona.results.puppet_model import EYE_DISTANCE, write_puppet
 
 
@@ -32,7 +35,8 @@ def test_the_validator_finds_nothing_but_a_texture_of_the_personas_own_size(path
 def test_its_units_are_morph_targets_of_a_face_in_metres(path: Path, persona: Persona, units: FaceUnits) -> None:
     glb = Glb(path)
     mesh = glb.json["meshes"][0]
-    assert mesh["extras"]["targetNames"] == list(units.names)
+    names = mesh["extras"]["targetNames"]
+    assert names == list(FACE_UNITS) and len(names) == 52, "all that ARKit names"
     primitive = mesh["primitives"][0]
     places, normals = (glb.array(primitive["attributes"][name]) for name in ("POSITION", "NORMAL"))
     eyes = (places[33] + places[133]) / 2, (places[263] + places[362]) / 2
@@ -42,9 +46,45 @@ def test_its_units_are_morph_targets_of_a_face_in_metres(path: Path, persona: Pe
     assert nose[2] > chin[2] and forehead[1] > chin[1], "y up, facing +z"
     np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-4)
     assert normals[:, 2].mean() > 0.5, "seen from before"
-    jaw = glb.array(primitive["targets"][units.names.index("jawOpen")]["POSITION"])
-    wanted = Puppet(persona).finer(units.doing({"jawOpen": 1})) * EYE_DISTANCE * (1, -1, -1)
-    np.testing.assert_allclose(jaw, wanted, atol=2e-4)
+    jaw = glb.array(primitive["targets"][names.index("jawOpen")]["POSITION"])
+    wanted = Puppet(persona, openings=True).finer(units.doing({"jawOpen": 1})) * EYE_DISTANCE * (1, -1, -1)
+    np.testing.assert_allclose(jaw[: len(wanted)], wanted, atol=2e-4)
+
+
+def test_behind_its_skin_are_eyes_and_a_mouth_with_materials_of_their_own(path: Path) -> None:
+    glb = Glb(path)
+    primitives = glb.json["meshes"][0]["primitives"]
+    names = [glb.json["materials"][one["material"]]["name"] for one in primitives]
+    assert names[0] == "skin" and {"left_eye", "right_eye", "upper_teeth", "lower_teeth", "tongue", "mouth"} < {*names}
+    places = glb.array(primitives[0]["attributes"]["POSITION"])
+    targets = glb.json["meshes"][0]["extras"]["targetNames"]
+
+    def moved(part: str, unit: str) -> np.ndarray:
+        used = np.unique(glb.array(primitives[names.index(part)]["indices"]))
+        return glb.array(primitives[0]["targets"][targets.index(unit)]["POSITION"])[used]
+
+    assert moved("lower_teeth", "jawOpen")[:, 1].max() < -0.004, "the lower row goes down with the jaw"
+    assert not moved("upper_teeth", "jawOpen").any(), "and the upper one stays"
+    assert moved("tongue", "tongueOut")[:, 2].max() > 0.02 and not moved("lower_teeth", "tongueOut").any()
+    for side, away in (("left", 1), ("right", -1)):
+        front = np.unique(glb.array(primitives[names.index(f"{side}_eye")]["indices"]))
+        iris = front[places[front, 2].argmax()]
+        for way, axis, sign in (("In", 0, -away), ("Out", 0, away), ("Up", 1, 1), ("Down", 1, -1)):
+            unit = f"eyeLook{way}{side.capitalize()}"
+            there = glb.array(primitives[0]["targets"][targets.index(unit)]["POSITION"])[iris]
+            assert sign * there[axis] > 0.002, f"{unit} turns the eye"
+        assert not moved(f"{side}_eye", f"eyeBlink{side.capitalize()}").any()
+
+
+def test_the_skin_covers_what_is_behind_it_whatever_it_does(persona: Persona, units: FaceUnits) -> None:
+    puppet = Puppet(persona, openings=True)
+    skin = BehindSkin(puppet, units)
+    for part in inner_parts(puppet, units):
+        if part.name.endswith("teeth") or part.name == "tongue":
+            moves = {unit: moved for unit, moved in part.moved.items() if unit != "tongueOut"}
+            assert skin.needed(part.vertices, moves).max() < 0.005, part.name
+    far = np.array([[0.0, 1.0, -5.0]])
+    assert skin.needed(far, {})[0] > 3, "what is before the face has to go far back"
 
 
 def test_textures_of_expressions_lie_side_by_side(persona: Persona, units: FaceUnits, tmp_path: Path) -> None:

@@ -1,0 +1,1 @@
+"""Eyeballs of a persona, that turn behind its lids."""

@@ -1,0 +1,46 @@
+"""A photograph's upper teeth as a surface: the arch on which they lie, and their colours and shares on it."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.persona.mouth.photo_teeth import PhotoTeeth
+from engine.persona.mouth.teeth_strip import ARCH
+
+HALF_WIDTH, ABOVE, BELOW = 0.45, 0.3, 0.04
+"""Eye distances from the middle of the edge of the teeth."""
+COLUMNS, ROWS = 32, 4
+PIXELS = 320
+"""Of an eye distance."""
+
+
+class TeethSheet(NamedTuple):
+    """vertices : (V, 3) of a head from the front, in eye distances, y down and z away. triangles : (T, 3), counter-clockwise from before.
+    uv : (V, 2). texture : (h, w, 4) uint8, with alpha."""
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    uv: NDArray[np.float32]
+    texture: NDArray[np.uint8]
+
+
+def teeth_sheet(teeth: PhotoTeeth) -> TeethSheet:
+    """That of a photograph's teeth, where the skull has them."""
+    at = teeth.at
+    across, down = np.linspace(-HALF_WIDTH, HALF_WIDTH, COLUMNS + 1), np.linspace(-ABOVE, BELOW, ROWS + 1)
+    x, y = (one.ravel() for one in np.meshgrid(across, down))
+    vertices = np.column_stack([at.middle + x, at.edge + y, at.depth + ARCH * x**2])
+    uv = np.column_stack([(x + HALF_WIDTH) / (2 * HALF_WIDTH), (y + ABOVE) / (ABOVE + BELOW)]).astype(np.float32)
+    index = np.arange((ROWS + 1) * (COLUMNS + 1)).reshape(ROWS + 1, COLUMNS + 1)
+    a, b, c, d = index[:-1, :-1].ravel(), index[:-1, 1:].ravel(), index[1:, 1:].ravel(), index[1:, :-1].ravel()
+    triangles = np.concatenate([np.stack([a, c, b], axis=1), np.stack([a, d, c], axis=1)]).astype(np.int32)
+    width, height = round(2 * HALF_WIDTH * PIXELS), round((ABOVE + BELOW) * PIXELS)
+    columns = ((np.arange(width) + 0.5) / width * 2 - 1) * HALF_WIDTH
+    rows = (np.arange(height) + 0.5) / height * (ABOVE + BELOW) - ABOVE
+    layer = teeth.upper_teeth(np.stack(np.meshgrid(columns, rows), axis=-1))
+    colours = teeth.lit(layer[..., :3])
+    texture = np.dstack([colours, 255 * layer[..., 3]])
+    return TeethSheet(vertices, triangles, uv, np.clip(np.rint(texture), 0, 255).astype(np.uint8))
