@@ -112,7 +112,7 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
     found = run.stage("find_cameras", find_cameras, chosen[0], near_frames, beside, lenses, run.warn, run.tick)
     given = given_landmarks(options.landmarks, chosen[0].indices, placed_frames(found.body))
     grown = in_metres(options.height_m)
-    clips = [_scanned(chosen[0], found.body, given, grown, run)]
+    clips = [_scanned(chosen[0], found.body, given, grown, True, run)]
     for early in _write_capture(out, {"body": clips[0]})[1:]:  # written again once the head's have joined them
         run.publish(early)
     clips += _scanned_if_measured([(chosen[-1], found.head if head else None)], "head_not_measured", grown, run)
@@ -170,12 +170,18 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
 
 
 def _scanned(
-    frames: ChosenFrames, cameras: ClipCameras, given: tuple[GivenLandmark, ...], grown: Similarity, run: Run
+    frames: ChosenFrames,
+    cameras: ClipCameras,
+    given: tuple[GivenLandmark, ...],
+    grown: Similarity,
+    whole: bool,
+    run: Run,
 ) -> Clipped:
-    """A clip with its cloud and landmarks, some `given` by hand, as large as the person is (`grown`)."""
+    """A clip of the `whole` person or of a part with its cloud and landmarks, some `given` by hand, as large as the person is
+    (`grown`)."""
     seen = run.stage("find_landmarks", find_landmarks, frames, cameras, run.warn, run.tick)
     dense = run.stage("measure_cloud", measure_cloud, frames, cameras, seen, run.tick)
-    return frames, scan_clip(frames, seen, dense, given).moved(grown)
+    return frames, scan_clip(frames, seen, dense, given, whole).moved(grown)
 
 
 def _scanned_if_measured(
@@ -187,7 +193,7 @@ def _scanned_if_measured(
         if cameras is None:
             continue
         try:
-            found.append(_scanned(frames, cameras, (), grown, run))
+            found.append(_scanned(frames, cameras, (), grown, False, run))
         except InputError as refused:
             if refused.code not in UNMEASURED:
                 raise

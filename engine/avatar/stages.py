@@ -18,6 +18,7 @@ from engine.avatar.capture.dense import DenseCloud, dense_cloud
 from engine.avatar.capture.foot_masks import FootFrame, feet_of, told_from_floor
 from engine.avatar.capture.limb_masks import limbs_of, shown_limbs, with_limbs
 from engine.avatar.capture.person_frame import USUAL_HEIGHT
+from engine.avatar.landmarks.back_projection import back_projected, completed
 from engine.avatar.landmarks.detection import spatial_landmarks
 from engine.avatar.landmarks.given import GivenLandmark, placed_by_hand
 from engine.avatar.landmarks.in_frames import FrameLandmarks, frame_landmarks
@@ -183,12 +184,18 @@ def stereo_side(found: ClipCameras) -> int:
 
 
 def scan_clip(
-    chosen: ChosenFrames, landmarks: ClipLandmarks, dense: DenseCloud, given: tuple[GivenLandmark, ...]
+    chosen: ChosenFrames, landmarks: ClipLandmarks, dense: DenseCloud, given: tuple[GivenLandmark, ...], whole: bool
 ) -> ClipScan:
-    """The landmarks of the person in space, with all that is known of one clip. The person's sway is in the cameras as dense
-    stereo has laid them on the cloud. Those `given` by hand are in pixels of the clip's own size."""
+    """The landmarks of the person in space, with all that is known of one clip, which shows the `whole` person or the head from near. The
+    person's sway is in the cameras as dense stereo has laid them on the cloud. Those `given` by hand are in pixels of the clip's own
+    size.
+
+    Faces that are seen from near are triangulated better than one view and the cloud place them."""
     cameras = tuple(_resized(camera, chosen.size) for camera in dense.cameras)
-    found = spatial_landmarks(list(zip(cameras, landmarks.seen, strict=True)))
+    seen = list(zip(cameras, landmarks.seen, strict=True))
+    found = spatial_landmarks(seen)
+    if whole:
+        found = completed(found, back_projected(seen, dense.cloud.points))
     by_hand = {one.name: placed_by_hand(one, cameras) for one in given}
     spatial = replace(found, body={**found.body, **by_hand})
     return ClipScan(landmarks.placed, cameras, landmarks.masks, dense, spatial)
