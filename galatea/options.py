@@ -49,7 +49,7 @@ class CharacterOptions(TypedDict, total=False):
     person_index: int | Literal["all"] | None
     mask_strokes: Sequence[Mapping[str, Any]]
     label_strokes: Sequence[Mapping[str, Any]]
-    back_texture: Literal["mirror", "inpaint"]
+    back_texture: Literal["see_through", "mirror", "inpaint"]
 
 
 class AvatarOptions(TypedDict, total=False):

@@ -112,9 +112,9 @@ class CharacterOptions(BaseModel):
     label_strokes: Annotated[tuple[LabelStroke, ...], Field(fail_fast=True, max_length=500)] = Field(
         (), description="Strokes over the label map, in their order."
     )
-    back_texture: Literal["mirror", "inpaint"] = Field(
-        "mirror",
-        description="The back: a mirrored copy of the front, or filled by what the sides of each part of the body show.",
+    back_texture: Literal["see_through", "mirror", "inpaint"] = Field(
+        "see_through",
+        description="The back: the front seen through, without what the sides of the trunk have not (ties, prints, collars); a mirrored copy of the front; or filled by what the sides of each part of the body show.",
     )
 
     @model_validator(mode="after")

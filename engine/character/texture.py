@@ -1,7 +1,7 @@
 """The character's colours: one texture of the picture's own pixels, of what is hidden, and of the back.
 
 The paper's section 5: the front by projection; front regions behind limbs filled by PatchMatch; the back a mirrored copy of
-the front, on which the face gives way to what surrounds it (hair, a hat).
+the front, on which the face gives way to what surrounds it (hair, a hat). Beyond it, what only fronts have gives way, too.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from engine.character.label_map import Labels
 from engine.character.labels import LEGS, complete_labels
 from engine.character.limb_edges import soft_limbs
 from engine.character.limb_texture import LimbSurfaces, behind_another, own_of_limbs, paint_limbs
+from engine.character.see_through import without_front_features
 from engine.character.sheets import ClosedMesh
 from engine.character.sides import places_on_the_picture
 from engine.imaging.filling.inpaint import inpaint
@@ -29,7 +30,7 @@ from engine.imaging.masks.mask_distance import distance_inside, distance_to
 from engine.imaging.masks.usual_colours import usual_colours
 from engine.imaging.resample import enlarged_mask
 
-BackTexture = Literal["mirror", "inpaint"]
+BackTexture = Literal["see_through", "mirror", "inpaint"]
 
 SURE = 0.9
 """Alpha from which a pixel's colour is the person's own; colours of the others are continued from these."""
@@ -41,6 +42,8 @@ SIDES = 0.4
 """How far the sides of a part reach in, as a share of the way to its middle."""
 OFF = 8.0
 """Levels by which front and back differ where they are not the same."""
+INNER_FACE = np.array([1, 1, 0.7, 0.7, 1], np.float32)
+"""Factors of a face's oval within which it shows skin."""
 SEAM_FROM, SEAM_TO = 2.0, 8.0
 """Pixels of the grid from the outline up to which the back is the front, and from which on it is itself."""
 HEAD_FROM, HEAD_TO = 1.8, 4.9
@@ -122,7 +125,7 @@ def paint_tiles(
     body = _behind_the_limbs(seen, labels, around, own, oval) if limbs.any() else seen
     if along is not None:
         body = np.where((enlarged_mask(along & limbs, size) & own)[..., None], seen, body)
-    behind = body if back == "mirror" else _from_the_sides(body, labels, size, own)
+    behind = _behind(body, labels, face, own, back)
     head = enlarged_mask(labels.labels == BODY_PARTS.index("head"), size) & own
     beside = body
     if oval is not None and turned is not None and head.any():
@@ -196,6 +199,24 @@ def joined_at_the_outline(
     held = np.where((depth <= begin * scale)[..., None], front, back).astype(np.float32)
     joined = poisson_blend(back.astype(np.float32), held, band)
     return np.asarray(np.clip(joined + 0.5, 0, 255), np.uint8)
+
+
+def _behind(
+    rgb: NDArray[np.uint8],
+    labels: Labels,
+    face: NDArray[np.float32] | None,
+    own: NDArray[np.bool_],
+    back: BackTexture,
+) -> NDArray[np.uint8]:
+    """What the body has at its back, but for the head: the front (h, w, 3), as it is or as `back` says."""
+    if back == "mirror":
+        return rgb
+    if back == "inpaint":
+        return _from_the_sides(rgb, labels, (own.shape[1], own.shape[0]), own)
+    trunk, head = (labels.labels == BODY_PARTS.index(name) for name in ("torso", "head"))
+    legs = np.isin(labels.labels, LEGS)
+    inner = head & within_oval(face * INNER_FACE, head.shape) if face is not None else np.zeros_like(head)
+    return without_front_features(rgb, trunk, legs, head, inner, own)
 
 
 def _from_the_sides(

@@ -1727,11 +1727,11 @@ export interface components {
              */
             label_strokes?: components["schemas"]["LabelStroke"][];
             /**
-             * @description The back: a mirrored copy of the front, or filled by what the sides of each part of the body show.
-             * @default mirror
+             * @description The back: the front seen through, without what the sides of the trunk have not (ties, prints, collars); a mirrored copy of the front; or filled by what the sides of each part of the body show.
+             * @default see_through
              * @enum {string}
              */
-            back_texture?: "mirror" | "inpaint";
+            back_texture?: "see_through" | "mirror" | "inpaint";
         };
         /** @description One field that is wrong. */
         FieldError: {

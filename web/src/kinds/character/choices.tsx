@@ -17,7 +17,7 @@ const both: Partial<Record<string, readonly BodyPart[]>> = {
   legs: ['left_leg', 'right_leg'],
 };
 const cameras = ['fixed', 'orbit', 'parallax'] as const;
-const backs = ['mirror', 'inpaint'] as const;
+const backs = ['see_through', 'mirror', 'inpaint'] as const;
 const triangles = [10_000, 30_000, 60_000, 120_000, 200_000] as const;
 const levels = [0, 1, 2, 3] as const;
 
@@ -49,7 +49,7 @@ export const defaults: Choices = {
   size: null,
   rate: 30,
   format: 'mp4',
-  back: 'mirror',
+  back: 'see_through',
   triangles: 60_000,
   levels: 0,
   partial: false,

@@ -28,7 +28,7 @@ export interface CharacterCorrections {
 export type CharacterOptions = Omit<Partial<Schemas['CharacterOptions']>, keyof CharacterCorrections> &
   Omit<CharacterCorrections, 'motion' | 'mask' | 'labels'> & {
     motion?: MotionName;
-    back_texture?: 'mirror' | 'inpaint';
+    back_texture?: 'see_through' | 'mirror' | 'inpaint';
   };
 
 /** Null takes one back: to what is found by itself, or to the default. */

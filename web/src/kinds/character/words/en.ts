@@ -114,7 +114,7 @@ const english = {
     levels: 'Levels of detail (LOD)',
     noLevels: 'None',
     back: 'Back of the character',
-    backs: { mirror: 'Front, mirrored', inpaint: 'Inpainted' },
+    backs: { see_through: 'Front, without what only fronts have', mirror: 'Front, mirrored', inpaint: 'Inpainted' },
     partial: 'Accept a person who is cut off or hidden below the chest',
     lit: 'Also a lit preview image of the 3D shape',
     vrm: 'Also as VRM, for avatars in games and chats',
