@@ -82,9 +82,13 @@ def follow_driver(
 
 
 def analyse_driver(
-    tracking: ConcurrentStage[FaceTrack], neutral_of: Callable[[FaceTrack], NeutralFrame], run: Run, loop: bool = False
+    tracking: ConcurrentStage[FaceTrack],
+    neutral_of: Callable[[FaceTrack], NeutralFrame],
+    run: Run,
+    loop: bool = False,
+    creases: bool = True,
 ) -> DriverPerformance:
-    """Everything that depends on the driver alone, but for the choice of its neutral frame."""
+    """Everything that depends on the driver alone, but for the choice of its neutral frame. `creases` : whether they are carried over."""
     track = tracking.once()
     choice = neutral_of(track)
     neutral = choice.frame
@@ -93,5 +97,7 @@ def analyse_driver(
     if loop:
         track = close_loop(track)
     observations = run.beside("glance_at_driver", observe_driver, track, neutral, shared=True)
-    ratios = run.stage("ratio_images", keep_ratio_images, track, neutral, run.tick, shared=True)
+    ratios = RatioStrip()
+    if creases:
+        ratios = run.stage("ratio_images", keep_ratio_images, track, neutral, run.tick, shared=True)
     return DriverPerformance(track, choice, ratios, observations())

@@ -6,6 +6,7 @@ over time, and one fixed map carries the ratios on to the still target; from the
 
 from __future__ import annotations
 
+import itertools
 import os
 from collections import deque
 from collections.abc import Callable, Iterator
@@ -153,17 +154,20 @@ def _openings(mesh: NDArray[np.floating], shape: tuple[int, ...], grow: float) -
 
 @dataclass(frozen=True)
 class RatioStrip:
-    """A driver's ratio images, kept: grey pictures whose level 0 stands for `MIN_RATIO`, each further one for `RATIO_STEP`."""
+    """A driver's ratio images, kept: grey pictures whose level 0 stands for `MIN_RATIO`, each further one for `RATIO_STEP`. Without `images`
+    no creases are carried over: each ratio is one."""
 
-    images: FilmStrip
+    images: FilmStrip | None = None
 
     def __iter__(self) -> Iterator[NDArray[np.float32]]:
         """One (*CROP,) float32 for each frame."""
-        for frame in range(len(self.images)):
-            yield self.ratio(frame)
+        frames = itertools.count() if self.images is None else range(len(self.images))
+        return (self.ratio(frame) for frame in frames)
 
     def ratio(self, frame: int) -> NDArray[np.float32]:
         """One frame's, (*CROP,) float32."""
+        if self.images is None:
+            return np.ones(CROP_SHAPE, np.float32)
         return np.float32(MIN_RATIO) + np.float32(RATIO_STEP) * self.images.picture(frame)
 
 

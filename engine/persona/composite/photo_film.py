@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget, draw_in_order
+from engine.face_animation.creases.fine_details import RatioStrip
 from engine.face_animation.motion_transfer.control_motion import ControlMotion, carry_motion
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
 from engine.perception.expression.features import frontalise
@@ -38,9 +39,15 @@ class PhotoActing:
     rest: NDArray[np.float32]
 
 
-def act(target: RiggedTarget, driver: RegisteredDriver, options: ActingOptions, persona: Persona) -> PhotoActing:
+def act(
+    target: RiggedTarget,
+    driver: RegisteredDriver,
+    options: ActingOptions,
+    persona: Persona,
+    smoothing: float = SMOOTHING_FRAMES,
+) -> PhotoActing:
     """What the photograph's face does when it follows the driver. The expression is read off its own face as it moves, so that
-    nothing has to be carried from the driver's to the persona's."""
+    nothing has to be carried from the driver's to the persona's. `smoothing` : of the photographs' weights, in frames."""
     control, mesh = target.rig.control, target.face.mesh
     proxy = build_head_proxy(control.points, mesh) if options.head_3d else None
     motions = tuple(carry_motion(driver.track, driver.neutral, mesh, control, proxy, options, driver.residuals))
@@ -50,7 +57,7 @@ def act(target: RiggedTarget, driver: RegisteredDriver, options: ActingOptions, 
     scale = persona.frame.scale * REFERENCE_WIDTH / persona.frame.size[1]
     shown, known = expression_points(front) * scale, persona.points * scale
     rest = expression_weights(shown[driver.neutral][None], known)[0]
-    return PhotoActing(motions, faces, depths, expression_weights(shown, known, SMOOTHING_FRAMES), rest)
+    return PhotoActing(motions, faces, depths, expression_weights(shown, known, smoothing), rest)
 
 
 def photo_frames(
@@ -58,16 +65,16 @@ def photo_frames(
     retouching: Retouching,
     persona: Persona,
     acting: PhotoActing,
-    ratios: Iterable[NDArray[np.float32]],
 ) -> Iterator[NDArray[np.uint8]]:
-    """(h, w, 3) the frames of a film, drawn side by side on all cores. `ratios` as `FaceAnimation.frames` takes them."""
+    """(h, w, 3) the frames of a film, drawn side by side on all cores."""
+    none = RatioStrip().ratio(0)
 
-    def draw(motion: ControlMotion, ratio: NDArray[np.float32], texture: NDArray[np.uint8]) -> NDArray[np.uint8]:
-        frame = animation.draw(motion, ratio)
+    def draw(motion: ControlMotion, texture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        frame = animation.draw(motion, none)
         retouching(frame, acting.faces[motion.frame], acting.depths[motion.frame], texture)
         return frame
 
-    return draw_in_order(draw, zip(acting.motions, ratios, _textures(persona, acting.weights), strict=True))
+    return draw_in_order(draw, zip(acting.motions, _textures(persona, acting.weights), strict=True))
 
 
 def _textures(persona: Persona, weights: NDArray[np.float32]) -> Iterator[NDArray[np.uint8]]:

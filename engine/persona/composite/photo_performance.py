@@ -13,31 +13,31 @@ from engine.errors import InputError
 from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.animation import FaceAnimation, Parts, RegisteredDriver, RiggedTarget
 from engine.face_animation.driver_tracking.neutral import choose_neutral_frame, warn_if_never_at_rest
-from engine.face_animation.mouth.mouth_interior import DriverMouth, MouthInterior
 from engine.face_animation.stages import analyse_driver, follow_driver, prepare_target
 from engine.face_animation.target_face import TargetFace
-from engine.perception.expression.features import frontalise
 from engine.perception.face_track.track import FaceTrack
+from engine.persona.composite.acting_mouth import acting_mouth
 from engine.persona.composite.framing import framed
-from engine.persona.composite.photo_film import PhotoActing, act, photo_frames
+from engine.persona.composite.photo_film import act, photo_frames
 from engine.persona.composite.portrait_choice import WHOLE_HEAD_SHARE, head_share
 from engine.persona.composite.retouching import retouching_of
-from engine.persona.mouth.photo_teeth import PhotoTeeth
-from engine.persona.mouth.resting_mouth import resting_mouth
 from engine.persona.mouth.skin_colour import is_grey
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona
+from engine.persona.texture.expression_weights import SMOOTHING_FRAMES
 from engine.run import Run
 
 PHOTO_STAGES = {
     "register_driver": 3.0,
-    "ratio_images": 3.0,
     "glance_at_driver": 0.5,
     "separate_layers": 1.0,
     "rig_target": 0.5,
     "look_again": 1.0,
 }
 """The stages beside those of every persona, and their usual share of the time."""
+
+STILL_STAGES = ("separate_layers", "rig_target")
+"""Those of them that a driver's picture asks for."""
 
 OWN_CREASES = Parts(details=False)
 """The driver's are not carried over: a strand of its hair on the forehead, or its brows' ridge, would be drawn on the person's."""
@@ -60,27 +60,38 @@ def perform_photo(persona: Persona, driver: Path, options: PersonaOptions, run: 
     ------
     InputError : `no_portrait_photo`, and what following a driver may raise.
     """
-    target = _target(persona, options.size, run)
+    target = acting_photo(persona, options.size, run)
     tracking = follow_driver(driver, options.fps, options.trim, options.driver_face_index, run)
     prepared = prepare_target(target, run)
-    played = analyse_driver(tracking, lambda track: choose_neutral_frame(track, target.mesh, None), run)
+    played = analyse_driver(
+        tracking, lambda track: choose_neutral_frame(track, target.mesh, None), run, creases=OWN_CREASES.details
+    )
     warn_if_never_at_rest(played.choice, run.warn)
-    follows = ActingOptions()
-    residuals = played.residuals_on(prepared, follows, run)
+    residuals = played.residuals_on(prepared, ActingOptions(), run)
     rigged = RiggedTarget(target, prepared.layers(), prepared.rig())
-    registered = RegisteredDriver(played.track, played.neutral, residuals)
     with run.timed("perform"):
-        acting = act(rigged, registered, follows, persona)
-        mouth = _mouth(persona, target, DriverMouth(target, played.track, played.neutral), acting, run)
-        animation = FaceAnimation(rigged, registered, follows, OWN_CREASES, mouth=mouth)
-        assert persona.portrait is not None
-        base = persona.synthesis(acting.rest[None])[0]
-        retouching = retouching_of(persona, persona.portrait, base, is_grey(target.rgb, target.mesh))
-    frames = photo_frames(animation, retouching, persona, acting, played.ratios)
+        frames = acted(
+            persona, rigged, RegisteredDriver(played.track, played.neutral, residuals), SMOOTHING_FRAMES, run
+        )
     return PhotoPerformance(played.track, played.neutral, target.size, frames)
 
 
-def _target(persona: Persona, size: tuple[int, int], run: Run) -> TargetFace:
+def acted(
+    persona: Persona, target: RiggedTarget, driver: RegisteredDriver, smoothing: float, run: Run
+) -> Iterator[NDArray[np.uint8]]:
+    """(h, w, 3) the persona's photograph following a driver, frame by frame; `smoothing` as `act` takes it."""
+    follows = ActingOptions()
+    acting = act(target, driver, follows, persona, smoothing)
+    mouth = acting_mouth(persona, target.face, acting.faces, run)
+    animation = FaceAnimation(target, driver, follows, OWN_CREASES, mouth=mouth)
+    assert persona.portrait is not None
+    base = persona.synthesis(acting.rest[None])[0]
+    retouching = retouching_of(persona, persona.portrait, base, is_grey(target.face.rgb, target.face.mesh))
+    return photo_frames(animation, retouching, persona, acting)
+
+
+def acting_photo(persona: Persona, size: tuple[int, int], run: Run) -> TargetFace:
+    """The photograph that acts, as large as `size` (width, height) has room for. Raises `InputError` `no_portrait_photo`; warns `head_cut`."""
     if persona.portrait is None:
         raise InputError(
             "no_portrait_photo",
@@ -95,15 +106,3 @@ def _target(persona: Persona, size: tuple[int, int], run: Run) -> TargetFace:
             " or name one as `photo`.",
         )
     return framed(persona.portrait, size)
-
-
-def _mouth(persona: Persona, target: TargetFace, behind: MouthInterior, acting: PhotoActing, run: Run) -> MouthInterior:
-    if persona.teeth is None:
-        run.warn(
-            "no_teeth_shown",
-            "None of the photos shows the person's upper teeth from before and large enough: what is between the lips is the driver's. Add a"
-            " larger photo with a smile.",
-        )
-        return behind
-    at = resting_mouth(frontalise(target.mesh[None])[0], persona.neutral)
-    return PhotoTeeth(at, target.rgb, target.mesh, persona.teeth, behind, acting.faces)

@@ -37,10 +37,20 @@ def jaw_of(face: NDArray[np.floating], shut: NDArray[np.floating]) -> Jaw:
     own."""
     hinge = shut[list(HINGE), 1:].mean(axis=0)
     chin, now = shut[list(CHIN)].mean(axis=0), np.asarray(face, np.float64)[list(CHIN), :2].mean(axis=0)
-    down, forward = chin[1] - hinge[0], hinge[1] - chin[2]
-    wanted = now[1] - hinge[0]
+    return Jaw(_angle(chin, float(now[1]), hinge), float(now[0] - chin[0]), np.asarray(hinge, np.float64))
+
+
+def held_between(jaw: Jaw, point: NDArray[np.floating], heights: tuple[float, float]) -> Jaw:
+    """The jaw open as nearly as it is, that a `point` (3,) of it, given at rest, is between two `heights`, the upper one first."""
+    least, most = (_angle(np.asarray(point, np.float64), height, jaw.hinge) for height in heights)
+    return jaw._replace(angle=float(np.clip(jaw.angle, least, most)))
+
+
+def _angle(point: NDArray[np.float64], height: float, hinge: NDArray[np.float64]) -> float:
+    """Radians by which the jaw is open where a point (3,) of it is at a `height`."""
+    down, forward = point[1] - hinge[0], hinge[1] - point[2]
     angle = 0.0
     for _ in range(ROUNDS):
-        off = down * np.cos(angle) + forward * np.sin(angle) - wanted
+        off = down * np.cos(angle) + forward * np.sin(angle) - (height - hinge[0])
         angle -= off / max(forward * np.cos(angle) - down * np.sin(angle), 0.3 * forward)
-    return Jaw(float(np.clip(angle, 0, MAX_ANGLE)), float(now[0] - chin[0]), np.asarray(hinge, np.float64))
+    return float(np.clip(angle, 0, MAX_ANGLE))

@@ -11,11 +11,19 @@ from numpy.typing import NDArray
 from engine.face_animation.mouth.hidden_regions import box_around, soft_polygon
 from engine.geometry.adjacency import edge_table
 from engine.geometry.surface import vertex_normals
-from engine.perception.landmarks import LIPS_INNER, eye_distance
-from engine.persona.mouth.jaw import jaw_of
+from engine.perception.landmarks import LIPS_INNER, eye_distance, mouth_opening
+from engine.persona.mouth.jaw import held_between, jaw_of
 from engine.persona.mouth.mouth_colours import RAMP, MouthColours
 from engine.persona.mouth.mouth_light import in_mouth
-from engine.persona.mouth.mouth_parts import bag_surface, modelled_teeth, mouth_bag, tongue
+from engine.persona.mouth.mouth_parts import (
+    OVERBITE,
+    OVERJET,
+    TONGUE_SHARE,
+    bag_surface,
+    modelled_teeth,
+    mouth_bag,
+    tongue,
+)
 from engine.persona.mouth.resting_mouth import RestingMouth
 from engine.persona.mouth.skull import skull_camera
 from engine.render.mipmap import build_mipmap
@@ -28,20 +36,31 @@ AMBIENT = 0.5
 """Of the light on a surface, that it has wherever it faces."""
 DARKENING = 0.9
 """Eye distances behind the upper teeth at which a third of the light is left."""
+LOWER_MIDDLE, ABOVE_LIP, BELOW_LIP = 14, 0.07, 0.03
+"""The middle of the lower inner lip, and eye distances above and below it between which lower teeth end: where a face opens its mouth farther or
+less far than its chin tells, they go along, and neither stand in the middle of a mouth nor leave it empty."""
+DEEPER = 2.5
+"""The bag than in the model: a tongue lies in it wherever the jaw is."""
+FLATTENED = 0.45
+"""Of depths behind the upper teeth, where the mouth is drawn: how far a head is bent forward or back is known to some degrees only, and in true
+depth these decide whether a tongue is seen at all."""
+APPEARING = 0.06
+"""By how much a mouth opens while its inside appears."""
 DISTANCE = 4096.0
 """Pixels from the eye: so far off that nearer parts are no larger."""
 
 
 class ModelledMouth:
     """`MouthInterior` of a person: what is modelled, in their `colours`, behind the lips of a face that rests as `at` says. `upper` :
-    whether upper teeth are modelled, too."""
+    whether upper teeth are modelled, too. `appearing` : the opening from which on it is seen."""
 
-    def __init__(self, at: RestingMouth, colours: MouthColours, upper: bool):
-        self._at = at
+    def __init__(self, at: RestingMouth, colours: MouthColours, upper: bool, appearing: float = 0.0):
+        self._at, self._appearing = at, appearing
         rows = [(modelled_teeth(at, True), colours.upper)] if upper else []
         jaw = [(modelled_teeth(at, False), colours.lower), (tongue(at), colours.tongue)]
-        self._of_skull = sum(len(part.vertices) for part, _ in rows)
         parts = [*rows, *jaw]
+        upper_end = sum(len(part.vertices) for part, _ in rows)
+        self._ends = [upper_end, upper_end + len(jaw[0][0].vertices)]
         self._vertices = np.concatenate([part.vertices for part, _ in parts])
         self._textures = [*(ramp for _, ramp in parts), colours.bag]
         bag, bag_uv = bag_surface()
@@ -58,7 +77,8 @@ class ModelledMouth:
         """As `MouthInterior.draw`."""
         inner = face[list(LIPS_INNER), :2].astype(np.float32)
         box = box_around(inner, frame.shape[:2])
-        if box is None or cv2.contourArea(inner) < 1:
+        share = shown_share(face, self._appearing)
+        if box is None or share == 0 or cv2.contourArea(inner) < 1:
             return
         x0, y0, x1, y1 = box
         shape, corner = (y1 - y0, x1 - x0), np.array([x0, y0], np.float32)
@@ -70,7 +90,7 @@ class ModelledMouth:
         sigma = max(LEAST_SOFT_PIXELS, LIP_SOFTNESS * float(eye_distance(face)))
         mask = cv2.GaussianBlur(soft_polygon(inner - corner, shape), (0, 0), sigma)[..., None]
         part = frame[y0:y1, x0:x1]
-        part[:] = np.clip(part + np.asarray(mask) * (lit - part) + 0.5, 0, 255).astype(np.uint8)
+        part[:] = np.clip(part + share * np.asarray(mask) * (lit - part) + 0.5, 0, 255).astype(np.uint8)
 
     def places(self, face: NDArray[np.floating]) -> NDArray[np.float64]:
         """(V, 3) where all vertices are, pixels of the picture of a `face` (478, 2), and how far away."""
@@ -79,10 +99,14 @@ class ModelledMouth:
         camera = np.vstack([matrix, np.cross(matrix[0], matrix[1]) / scale])
         depths = self._at.front[:, 2]
         front = (np.asarray(face, np.float64) - shift - depths[:, None] * matrix[:, 2]) @ np.linalg.inv(matrix[:, :2]).T
-        jaw = jaw_of(front, self._at.shut)
+        edge = np.array([self._at.middle, self._at.edge - OVERBITE, self._at.depth + OVERJET])
+        lip = float(front[LOWER_MIDDLE, 1])
+        jaw = held_between(jaw_of(front, self._at.shut), edge, (lip - ABOVE_LIP, lip + BELOW_LIP))
         lips = np.column_stack([front, depths])[list(LIPS_INNER)]
-        rows = self._vertices
-        places = np.concatenate([rows[: self._of_skull], jaw.moved(rows[self._of_skull :]), mouth_bag(lips)])
+        upper, lower, flesh = np.split(self._vertices, self._ends)
+        tongue_jaw = jaw._replace(angle=TONGUE_SHARE * jaw.angle)
+        places = np.concatenate([upper, jaw.moved(lower), tongue_jaw.moved(flesh), mouth_bag(lips, DEEPER)])
+        places[:, 2] = self._at.depth + FLATTENED * (places[:, 2] - self._at.depth)
         points = places @ camera.T
         points[:, :2] += shift
         points[:, 2] += DISTANCE
@@ -105,6 +129,13 @@ class ModelledMouth:
         shade = facing * deep
         shade[len(self._vertices) :] = 1  # its ramp has its light
         return np.asarray(shade, np.float32)
+
+
+def shown_share(face: NDArray[np.floating], appearing: float) -> float:
+    """How much of the inside of a mouth is seen of a face (478, 2), from an opening of `appearing` on; all of it always where that is zero."""
+    if appearing == 0:
+        return 1.0
+    return float(np.clip((float(mouth_opening(face)) - appearing) / APPEARING, 0, 1))
 
 
 def _on_atlas(uv: NDArray[np.float32], number: int, count: int) -> NDArray[np.float32]:

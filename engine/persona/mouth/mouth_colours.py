@@ -14,7 +14,7 @@ from engine.persona.mouth.skin_colour import is_grey, skin_colour
 
 ENAMEL, DENTINE = np.array([204, 195, 178.0]), np.array([182, 165, 134.0])
 GUM, TONGUE = np.array([176, 96, 95.0]), np.array([196, 110, 108.0])
-LINING, THROAT = np.array([112, 48, 48.0]), np.array([34, 12, 13.0])
+LINING, THROAT = np.array([140, 60, 58.0]), np.array([50, 17, 17.0])
 """sRGB, of mouths whose skin has the luminance `USUAL_SKIN`."""
 USUAL_SKIN = 165.0
 LIGHT_RANGE = (0.35, 1.25)
@@ -24,7 +24,7 @@ SKIN_SHARE = 0.3
 """Of the skin's hue in modelled teeth: half the light that falls on them comes from it."""
 LOWER_TEETH = 0.8
 """Of the upper teeth's light, that lower ones have."""
-DARK_FROM = 0.5
+DARK_FROM = 0.8
 """Of the bag's depth, from which on it is as dark as the throat."""
 RAMP = (64, 16)
 """Width and height of a ramp of colours, pixels."""

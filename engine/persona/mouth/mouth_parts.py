@@ -27,7 +27,9 @@ OVERBITE, OVERJET = 0.03, 0.05
 """Eye distances by which lower teeth end above the upper ones' edges, and lie behind them, where the jaw is closed."""
 TONGUE_SHARES = (0.85, 0.5, 0.45)
 """Of the template's tongue, along x, y and z from its tip: so that it lies within the row of teeth, and its root within a face without a neck."""
-GUM, ROW_DEPTH = 0.2, 0.5
+TONGUE_SHARE = 0.85
+"""Of the jaw's angle, by which the tongue lies lower where it opens: its back is lifted off the floor of the mouth."""
+UPPER_GUM, LOWER_GUM, ROW_DEPTH = 0.34, 0.2, 0.5
 """Eye distances from the crowns' edges up to which there is gum, and from their front up to which there are teeth: the face has no more room."""
 RINGS = ((0.0, 0.0, 1.0), (0.04, 0.1, 1.03), (0.15, 0.25, 1.15), (0.35, 0.28, 1.15), (0.55, 0.18, 0.9))
 """Of the bag: eye distances behind the lips, by which it is higher and deeper than their opening, and its share of their width."""
@@ -60,7 +62,7 @@ def modelled_teeth(at: RestingMouth, upper: bool) -> MouthPart:
     shade = (row.shade - SHADES[0]) / (SHADES[1] - SHADES[0])
     uv = np.column_stack([(row.enamel + 1) / 2, shade]).clip(0, 1).astype(np.float32)
     away = np.abs(places - (0, edge, front))
-    kept = ((away[:, 1] < GUM) & (away[:, 2] < ROW_DEPTH))[row.triangles].all(axis=1)
+    kept = ((away[:, 1] < (UPPER_GUM if upper else LOWER_GUM)) & (away[:, 2] < ROW_DEPTH))[row.triangles].all(axis=1)
     known, triangles = np.unique(row.triangles[kept], return_inverse=True)
     placed = places[known] - (0, edge, front) + shift
     return MouthPart(placed, triangles.reshape(-1, 3).astype(np.int32), uv[known])
@@ -94,8 +96,9 @@ def _tongue(template: Template) -> tuple[NDArray[np.integer], Subdivision]:
     return known, catmull_clark(index.reshape(quads.shape), len(known))
 
 
-def mouth_bag(lips: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(V, 3) the vertices of the bag behind inner `lips` (20, 3), in the order of `LIPS_INNER`: rings, and its end."""
+def mouth_bag(lips: NDArray[np.floating], deeper: float = 1.0) -> NDArray[np.float64]:
+    """(V, 3) the vertices of the bag behind inner `lips` (20, 3), in the order of `LIPS_INNER`: rings, and its end; so many times `deeper`
+    than a face without a neck has room for."""
     lips = np.asarray(lips, np.float64)
     middle = lips.mean(axis=0)
     up = -np.sin(2 * np.pi * np.arange(len(lips)) / len(lips))  # from corner over the upper lip to corner, y down
@@ -103,9 +106,9 @@ def mouth_bag(lips: NDArray[np.floating]) -> NDArray[np.float64]:
     for depth, higher, share in RINGS:
         ring = middle + (lips - middle) * (share, 1, 1)
         ring[:, 1] += higher * up
-        ring[:, 2] += depth
+        ring[:, 2] += deeper * depth
         rings.append(ring)
-    end = rings[-1].mean(axis=0) + np.array([0, 0, BOTTOM])
+    end = rings[-1].mean(axis=0) + np.array([0, 0, deeper * BOTTOM])
     return np.concatenate([*rings, end[None]])
 
 

@@ -13,9 +13,6 @@ from engine.persona.mouth.resting_mouth import RestingMouth, resting_mouth
 from engine.persona.mouth.teeth_strip import teeth_strip
 from engine.persona.persona import Persona
 
-MIN_CROWNS = 0.07
-"""By how much crowns stand out in a photograph (`TeethStrip.crowns`) whose teeth are no mere white band: then modelled ones have its colour."""
-
 
 @dataclass(frozen=True)
 class PersonaMouth:
@@ -40,8 +37,8 @@ def puppet_mouth(persona: Persona) -> PersonaMouth:
         return PersonaMouth(at, mouth_colours(average, mesh), None)
     strip = teeth_strip(persona.teeth, float(eye_distance(mesh[:, :2])))
     colours = mouth_colours(average, mesh, strip.usual() * teeth_gain(average, mesh, persona.teeth, strip))
-    if strip.crowns() < MIN_CROWNS:
+    if not strip.has_crowns:
         return PersonaMouth(at, colours, None)
     behind = ModelledMouth(at, colours, False)
     open_mouth = persona.mesh[None, :, :2]
-    return PersonaMouth(at, colours, PhotoTeeth(at, average, mesh, persona.teeth, behind, open_mouth, True))
+    return PersonaMouth(at, colours, PhotoTeeth(at, average, mesh, persona.teeth, behind, open_mouth))

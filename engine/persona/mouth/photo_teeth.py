@@ -15,15 +15,15 @@ from engine.face_animation.mouth.hidden_regions import LUMINANCE_WEIGHTS, box_ar
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, eye_distance, mouth_opening
 from engine.persona.collection.face_photo import FacePhoto
-from engine.persona.mouth.modelled_mouth import LEAST_SOFT_PIXELS, LIP_SOFTNESS
+from engine.persona.mouth.modelled_mouth import LEAST_SOFT_PIXELS, LIP_SOFTNESS, shown_share
 from engine.persona.mouth.mouth_light import in_mouth
-from engine.persona.mouth.resting_mouth import CORNERS, UPPER_MIDDLE, RestingMouth
+from engine.persona.mouth.resting_mouth import CORNERS, FULL_OPENING, UPPER_MIDDLE, RestingMouth
 from engine.persona.mouth.skin_colour import is_grey, skin_colour
 from engine.persona.mouth.skull import skull_camera
 from engine.persona.mouth.teeth_strip import ARCH, TeethStrip, teeth_strip
 
-APPEARING_OPENING, FULL_OPENING = 0.03, 0.09
-"""Of the mouth, beyond that of the picture's, between which the inside appears."""
+APPEARING_OPENING = 0.03
+"""Of the mouth, from which on the inside appears."""
 REST_FACTOR = 1.15
 """Of a picture's own opening, up to which its own inside is shown."""
 MAX_WIDER, MAX_LONGER = 1.25, 1.35
@@ -43,8 +43,8 @@ class PhotoTeeth:
     """`MouthInterior` of a person: the upper teeth of one `photo`, in the light of a picture `rgb` (H, W, 3) of their face at `mesh` (478, 3),
     before what is `behind` them. `at` : how the face rests.
 
-    `faces` (F, 478, 2) what the face does: what of its teeth that uncovers is as wide and long as the teeth are made, once. `always` : they
-    are drawn wherever lips part; otherwise the picture's own inside is seen up to its own opening.
+    `faces` (F, 478, 2) what the face does: what of its teeth that uncovers is as wide and long as the teeth are made, once. `appearing` :
+    the opening from which on they are seen.
     """
 
     def __init__(
@@ -55,10 +55,10 @@ class PhotoTeeth:
         photo: FacePhoto,
         behind: MouthInterior,
         faces: NDArray[np.floating],
-        always: bool = False,
+        appearing: float = 0.0,
     ):
         self.at, self._behind = at, behind
-        self._appearing = 0.0 if always else max(APPEARING_OPENING, REST_FACTOR * float(mouth_opening(mesh)))
+        self._appearing = appearing
         self._strip = teeth_strip(photo, float(eye_distance(mesh[:, :2])))
         self._wider, self._longer = self._size(faces[np.asarray(mouth_opening(faces)) > FULL_OPENING])
         self._gain = teeth_gain(rgb, mesh, photo, self._strip)
@@ -67,8 +67,7 @@ class PhotoTeeth:
     def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], driver_frame: int) -> None:
         """As `MouthInterior.draw`."""
         self._behind.draw(frame, face, driver_frame)
-        opening = float(mouth_opening(face))
-        share = float(np.clip((opening - self._appearing) / (FULL_OPENING - APPEARING_OPENING), 0, 1))
+        share = shown_share(face, self._appearing)
         inner = face[list(LIPS_INNER), :2].astype(np.float32)
         box = box_around(inner, frame.shape[:2])
         if share == 0 or box is None:
@@ -134,6 +133,12 @@ class PhotoTeeth:
         wide, high = (float(np.percentile(one, WIDE_PERCENTILE)) for one in (widths, heights))
         wider = float(np.clip(wide / self._strip.width, 1, MAX_WIDER))
         return wider, float(np.clip(high / own, 1, MAX_LONGER))
+
+
+def appearing_opening(mesh: NDArray[np.floating]) -> float:
+    """The opening of a mouth from which on its inside is drawn: up to there the picture's own is seen, whose face is at `mesh`
+    (478, 2 or 3)."""
+    return max(APPEARING_OPENING, REST_FACTOR * float(mouth_opening(mesh)))
 
 
 def teeth_gain(

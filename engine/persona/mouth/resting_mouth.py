@@ -17,6 +17,8 @@ BELOW_LIPS = 0.06
 """Eye distances below where the lips meet, at which upper teeth end."""
 SHUT_OPENING = 0.05
 """Of a mouth that tells where its lips meet."""
+FULL_OPENING = 0.09
+"""Of a mouth that is open."""
 NOSE_BASE = (2, 94, 98, 327)
 
 

@@ -31,6 +31,8 @@ MARGIN = 0.1
 SOFTNESS = 0.018
 """Eye distances over which the teeth pass into the dark."""
 ROW_SAMPLES = 200
+MIN_CROWNS = 0.07
+"""By how much crowns stand out (`TeethStrip.crowns`) that are seen."""
 CROWN_ROW = 0.55
 """Of the way from the lip to where teeth end, at which crowns are told apart."""
 CROWN_WIDTH, CROWN_WIDTHS = 0.125, 1.0
@@ -104,6 +106,11 @@ class TeethStrip:
         """The luminance of the lightest teeth, each channel times its `gain` (3,)."""
         light = (self.layer[..., :3] * gain)[self.layer[..., 3] > 0.5] @ LUMINANCE_WEIGHTS
         return max(float(np.percentile(light, TEETH_PERCENTILE)), 1.0) if len(light) else 255.0
+
+    @property
+    def has_crowns(self) -> bool:
+        """Whether single ones are seen, and not a mere white band."""
+        return self.crowns() >= MIN_CROWNS
 
     def crowns(self) -> float:
         """By how much single crowns stand out along the row: the standard deviation of light, of what is finer than two of them, as a share of

@@ -14,7 +14,14 @@ from engine.perception.landmarks import LIPS_INNER
 from engine.persona.eyes.eye_texture import eye_textures
 from engine.persona.eyes.eyeball import EYES, eyeball, lid_rim
 from engine.persona.mouth.jaw import CHIN, jaw_of
-from engine.persona.mouth.mouth_parts import bag_surface, modelled_teeth, mouth_bag, tongue, tongue_put_out
+from engine.persona.mouth.mouth_parts import (
+    TONGUE_SHARE,
+    bag_surface,
+    modelled_teeth,
+    mouth_bag,
+    tongue,
+    tongue_put_out,
+)
 from engine.persona.mouth.persona_mouth import puppet_mouth
 from engine.persona.mouth.skin_colour import skin_colour
 from engine.persona.mouth.teeth_sheet import COLUMNS, teeth_sheet
@@ -83,8 +90,9 @@ def _mouth(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
     at, colours = mouth.at, mouth.colours
     jaws = {unit: jaw_of(persona.neutral + units.doing({unit: 1.0}), persona.neutral) for unit in JAW_UNITS}
 
-    def with_jaw(vertices: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
-        moves = {OPEN_JAW: jaws[OPEN_JAW].moved(vertices) - vertices}
+    def with_jaw(vertices: NDArray[np.float64], share: float = 1.0) -> dict[str, NDArray[np.float64]]:
+        jaw = jaws[OPEN_JAW]
+        moves = {OPEN_JAW: jaw._replace(angle=share * jaw.angle).moved(vertices) - vertices}
         for unit in JAW_UNITS[1:]:
             chin = units.doing({unit: 1.0})[list(CHIN)].mean(axis=0)
             moves[unit] = np.broadcast_to(chin, vertices.shape)
@@ -99,8 +107,9 @@ def _mouth(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
         bent = sheet.vertices + _evenly(skin.needed(sheet.vertices, {}))[:, None] * BACK
         upper = InnerPart("upper_teeth", *sheet._replace(vertices=bent), alpha="MASK")
     row, flesh = modelled_teeth(at, False), tongue(at)
-    lower, lying = (_set_back(one.vertices, skin, with_jaw(one.vertices)) for one in (row, flesh))
-    out = {"tongueOut": tongue_put_out(), **with_jaw(lying)}
+    lower = _set_back(row.vertices, skin, with_jaw(row.vertices))
+    lying = _set_back(flesh.vertices, skin, with_jaw(flesh.vertices, TONGUE_SHARE))
+    out = {"tongueOut": tongue_put_out(), **with_jaw(lying, TONGUE_SHARE)}
     triangles, uv = bag_surface()
     lips = puppet.vertices(persona.neutral)[list(LIPS_INNER)] + APART
     bag = mouth_bag(lips)

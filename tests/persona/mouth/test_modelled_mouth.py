@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
-from engine.persona.mouth.jaw import CHIN, jaw_of
+from engine.persona.mouth.jaw import CHIN, held_between, jaw_of
 from engine.persona.mouth.modelled_mouth import ModelledMouth
 from engine.persona.mouth.mouth_colours import mouth_colours
 from engine.persona.mouth.mouth_parts import modelled_teeth, mouth_bag
@@ -56,6 +56,12 @@ def test_a_jaw_is_found_by_its_chin_from_before(angle: float) -> None:
     shut = front(0.0)
     found = jaw_of(front(angle)[:, :2], shut)
     assert found.angle == pytest.approx(angle, abs=1e-3) and found.aside == pytest.approx(0, abs=1e-9)
+    edge = np.array([0.0, 1.1, -0.2])
+    height = float(found.moved(edge)[1])
+    assert held_between(found, edge, (height - 0.1, height + 0.1)) == found
+    for heights, goal in (((height + 0.1, height + 0.2), height + 0.1), ((0.0, height - 0.05), height - 0.05)):
+        held = held_between(found, edge, heights)
+        assert held.moved(edge)[1] == pytest.approx(max(goal, edge[1]), abs=1e-3)
     points = np.random.default_rng(0).normal(0, 1, (5, 3))
     np.testing.assert_allclose(found._replace(angle=0.0).moved(points), points, atol=1e-12)
 
@@ -84,7 +90,7 @@ def test_lower_teeth_go_with_the_jaw_and_upper_ones_stay(mouth: ModelledMouth) -
     upper, lower = (len(modelled_teeth(at, one).vertices) for one in (True, False))
     shut, wide = (mouth.places(seen(front(angle))) for angle in (0.0, 0.3))
     moved = np.linalg.norm(wide - shut, axis=1) / EYES
-    assert moved[:upper].max() < 5e-3 < 0.2 < moved[upper : upper + lower].min()
+    assert moved[:upper].max() < 5e-3 < 0.15 < moved[upper : upper + lower].min()
 
 
 def test_both_rows_meet_behind_closed_lips() -> None:

@@ -10,7 +10,7 @@ from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES
 from engine.persona.collection.face_photo import FacePhoto
-from engine.persona.mouth.photo_teeth import PhotoTeeth
+from engine.persona.mouth.photo_teeth import PhotoTeeth, appearing_opening
 from engine.persona.mouth.resting_mouth import resting_mouth
 from engine.persona.mouth.skull import skull_camera
 from engine.persona.mouth.teeth_strip import teeth_strip
@@ -57,7 +57,9 @@ def mouth() -> PhotoTeeth:
     smile, rest = face(0.14), face(0.0)
     at = resting_mouth(frontalise(rest[None])[0], frontalise(rest[None])[0])
     faces = np.array([face(0.2)[:, :2], rest[:, :2]])
-    return PhotoTeeth(at, picture(rest), rest, FacePhoto(picture(smile), smile, 0), Dark(), faces)
+    return PhotoTeeth(
+        at, picture(rest), rest, FacePhoto(picture(smile), smile, 0), Dark(), faces, appearing_opening(rest)
+    )
 
 
 def test_the_skull_is_found_whatever_the_mouth_does() -> None:

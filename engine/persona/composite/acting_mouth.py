@@ -1,0 +1,38 @@
+"""The mouth of a photograph of the persona that acts."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.mouth.mouth_interior import MouthInterior
+from engine.face_animation.target_face import TargetFace
+from engine.perception.expression.features import frontalise
+from engine.perception.landmarks import eye_distance
+from engine.persona.mouth.modelled_mouth import ModelledMouth
+from engine.persona.mouth.mouth_colours import mouth_colours
+from engine.persona.mouth.photo_teeth import PhotoTeeth, appearing_opening, teeth_gain
+from engine.persona.mouth.resting_mouth import resting_mouth
+from engine.persona.mouth.teeth_strip import teeth_strip
+from engine.persona.persona import Persona
+from engine.run import Run
+
+
+def acting_mouth(persona: Persona, target: TargetFace, faces: NDArray[np.floating], run: Run) -> MouthInterior:
+    """What is between the lips of the persona's photograph `target`, whose face does `faces` (F, 478, 2): the upper teeth of one photograph
+    before what is modelled, in the target's light; warns where no photograph has any."""
+    rgb, mesh = target.rgb, target.mesh
+    at = resting_mouth(frontalise(mesh[None])[0], persona.neutral)
+    appearing = appearing_opening(mesh)
+    if persona.teeth is None:
+        run.warn(
+            "no_teeth_shown",
+            "None of the photos shows the person's upper teeth from before and large enough: those between the lips are modelled. Add a"
+            " larger photo with a smile.",
+        )
+        return ModelledMouth(at, mouth_colours(rgb, mesh), True, appearing)
+    strip = teeth_strip(persona.teeth, float(eye_distance(mesh[:, :2])))
+    colours = mouth_colours(rgb, mesh, strip.usual() * teeth_gain(rgb, mesh, persona.teeth, strip))
+    if not strip.has_crowns:
+        return ModelledMouth(at, colours, True, appearing)
+    return PhotoTeeth(at, rgb, mesh, persona.teeth, ModelledMouth(at, colours, False, appearing), faces, appearing)
