@@ -90,7 +90,7 @@ class PersonaOptions(TypedDict, total=False):
     fps: float | None
     trim: tuple[float, float] | None
     driver_face_index: int
-    composite: Literal["none", "photo", "side_by_side"]
+    composite: Literal["auto", "none", "photo", "side_by_side"]
     photo: int | None
     background: tuple[int, int, int]
     sound: bool

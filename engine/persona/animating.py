@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.errors import InputError
 from engine.export.encoders import VideoTarget
 from engine.export.still import write_still
 from engine.export.video import VideoWriter
@@ -31,14 +30,16 @@ from engine.persona.still import play_picture
 from engine.run import Run
 
 
-def require_playable(driver: Path, options: PersonaOptions) -> None:
-    """Raises `InputError` `composite_needs_video` where a photograph would have to follow a picture: before anything is worked out."""
-    if options.composite == "photo" and is_picture(driver):
-        raise InputError(
-            "composite_needs_video",
-            "A photo that acts follows a video: give one as driver, or have the puppet alone play the picture.",
-            ("driver", "composite"),
+def with_composite(options: PersonaOptions, persona: Persona, run: Run) -> PersonaOptions:
+    """The options with what is seen of this `persona`, where they leave it open; warns `puppet_alone` where it cannot be a photograph."""
+    if options.composite != "auto":
+        return options
+    if persona.portrait is None:
+        run.warn(
+            "puppet_alone",
+            "None of the photos shows half of a head, so the puppet is seen alone. Add a photo from before with hair and neck to see the person.",
         )
+    return options.model_copy(update={"composite": "none" if persona.portrait is None else "photo"})
 
 
 def is_picture(driver: Path) -> bool:
@@ -53,7 +54,7 @@ def animate_persona(
     what the report says of it."""
     driver, photos = inputs["driver"], inputs.get("driver_photos", ())
     assert isinstance(driver, Path) and isinstance(photos, tuple)
-    if options.composite == "photo":
+    if options.composite == "photo" and not is_picture(driver):
         if photos:
             run.warn(
                 "driver_photos_unused",

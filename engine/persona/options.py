@@ -48,13 +48,14 @@ class PersonaOptions(BaseModel):
     driver_face_index: Annotated[int, Field(ge=0, le=99)] = Field(
         0, description="Which face of the driver, counted from the largest in the first frame that shows any."
     )
-    composite: Literal["none", "photo", "side_by_side"] = Field(
-        "none",
-        description="The puppet alone on a plain background, the person as they are in one of the photos, or the puppet beside the driver.",
+    composite: Literal["auto", "none", "photo", "side_by_side"] = Field(
+        "auto",
+        description="What is seen: the puppet alone on a plain background (none), the person as they are in one of the photos (photo), or the"
+        " puppet beside the driver (side_by_side). By itself (auto) a photo, where one shows half a head, else the puppet alone.",
     )
     photo: FaceNumber | None = Field(
         None,
-        description="Whose photo acts, with `composite` as `photo`: a face by its number in `faces.json`. Default: the best one.",
+        description="Whose photo acts, where one does: a face by its number in `faces.json`. Default: the best one.",
     )
     background: tuple[Channel, Channel, Channel] = Field(
         (58, 60, 64), description="Red, green and blue of the plain background."

@@ -10,9 +10,9 @@ import numpy as np
 from engine.errors import InputError
 from engine.export.still import write_still
 from engine.kind import Given
-from engine.persona.animating import animate_persona, require_playable
+from engine.persona.animating import animate_persona, is_picture, with_composite
 from engine.persona.collecting import learnt_of_photos
-from engine.persona.composite.photo_performance import PHOTO_STAGES
+from engine.persona.composite.photo_performance import PHOTO_STAGES, STILL_STAGES
 from engine.persona.early_average import BACKGROUND
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import read_persona, write_persona
@@ -30,8 +30,6 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
     """Make a persona of `inputs["photos"]`, or take that of `inputs["persona"]`, and let it play `inputs["driver"]` where there is
     one; leaves the artifacts of the contract in `out`."""
     photos, kept, driver = inputs.get("photos", ()), inputs.get("persona"), inputs.get("driver")
-    if isinstance(driver, Path):
-        require_playable(driver, options)
     run.plan(_plan(inputs, options))
     told: dict[str, object] = {}
     if isinstance(kept, Path):
@@ -57,6 +55,8 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
         with run.timed("write_results"):
             told["photos_near"] = write_results(out, persona, average, options.background, run.mark_synthetic)
     if isinstance(driver, Path):
+        options = with_composite(options, persona, run)
+        run.plan(_plan(inputs, options))
         told |= animate_persona(persona, inputs, options, out, run)
     write_report(
         out / "report.json",
@@ -72,10 +72,10 @@ def _plan(inputs: Mapping[str, Given], options: PersonaOptions) -> dict[str, flo
     if not {"persona", "driver"} <= {*inputs}:
         stages["write_results"] = 2.0
     if "driver" in inputs:
-        acts = options.composite == "photo"
-        stages |= {
-            name: share
-            for name, share in (ANIMATING | (PHOTO_STAGES if acts else {})).items()
-            if name != "find_driver_at_rest" or ("driver_photos" in inputs and not acts)
-        }
+        driver = inputs["driver"]
+        acts, still = options.composite in ("photo", "auto"), isinstance(driver, Path) and is_picture(driver)
+        photo = {name: share for name, share in PHOTO_STAGES.items() if name in STILL_STAGES or not still}
+        stages |= ANIMATING | (photo if acts else {})
+        if "driver_photos" not in inputs or (acts and not still):
+            del stages["find_driver_at_rest"]
     return stages

@@ -13,9 +13,10 @@ from engine.media.image import over_grey, read_image
 from engine.perception.expression.features import frontalise
 from engine.perception.faces import find_faces
 from engine.persona.collection.photo_face import as_looked_at
+from engine.persona.composite.photo_still import expression_of_photo
 from engine.persona.film import beside, puppet_frames
 from engine.persona.motion.estimated_rest import estimated_rest
-from engine.persona.motion.performance import perform
+from engine.persona.motion.performance import Performance, perform
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona
 from engine.run import Run
@@ -29,12 +30,12 @@ def play_picture(
     out: Path,
     run: Run,
 ) -> dict[str, object]:
-    """Leave `still.png`, the puppet with the expression of `picture`. `rest` (478, 3) is that face at rest, from the front, in eye
+    """Leave `still.png`, the puppet, or a photograph, with the expression of `picture`. `rest` (478, 3) is that face at rest, from the front, in eye
     distances; None has it estimated. What the report says of it.
 
     Raises
     ------
-    InputError : `no_face_in_driver`, `driver_face_out_of_range`, and what reading a picture raises.
+    InputError : `no_face_in_driver`, `driver_face_out_of_range`, `no_portrait_photo`, and what reading a picture raises.
     """
     with run.timed("track_driver"):
         given = read_image(picture, run.limits)
@@ -46,17 +47,24 @@ def play_picture(
             "One picture does not tell what the driver's face is like at rest: it was estimated. Give driver_photos, or a video.",
         )
         rest = estimated_rest(frontalise(mesh[None].astype(np.float64))[0])
-    with run.timed("perform"):
-        performance = perform(persona, mesh[None], rest)
-    with run.timed("animate"):
-        width, height = options.size
-        alone = options.composite == "none"
-        shown = (width if alone else width // 2, height)
-        frame = next(iter(puppet_frames(persona, performance, shown, options.background)))
-        still = frame if alone else beside(rgb, frame, options.size)
-        for name in ("still.png", "poster.jpg"):
-            write_still(out / name, still, run.mark_synthetic)
+    if options.composite == "photo":
+        still = expression_of_photo(persona, rgb, mesh, rest, options, run)
+    else:
+        still = _puppet(persona, rgb, perform(persona, mesh[None], rest), options)
+    for name in ("still.png", "poster.jpg"):
+        write_still(out / name, still, run.mark_synthetic)
     return {"driver_size": list(rgb.shape[1::-1])}
+
+
+def _puppet(
+    persona: Persona, rgb: NDArray[np.uint8], performance: Performance, options: PersonaOptions
+) -> NDArray[np.uint8]:
+    """(h, w, 3) the puppet in the one frame of a `performance`, alone or beside the picture (H, W, 3)."""
+    width, height = options.size
+    alone = options.composite == "none"
+    shown = (width if alone else width // 2, height)
+    frame = next(iter(puppet_frames(persona, performance, shown, options.background)))
+    return frame if alone else beside(rgb, frame, options.size)
 
 
 def _face(rgb: NDArray[np.uint8], index: int) -> NDArray[np.float32]:

@@ -20,7 +20,7 @@ from engine.persona.pipeline import make_persona
 from engine.run import Run
 from engine.store import StageStore
 
-OPTIONS = PersonaOptions(size=(96, 120))
+OPTIONS = PersonaOptions(size=(96, 120), composite="none")
 STRANGER = Path(__file__).resolve().parents[2] / "web/public/samples/eileen-collins.jpg"
 
 
@@ -98,13 +98,6 @@ def test_a_driver_that_cuts_to_somebody_else_is_played_to_its_end(
     with Run() as run:
         make_persona(inputs, OPTIONS, tmp_path, run)
     assert sum(1 for _ in read_video(tmp_path / "animation.mp4")) == 12
-
-
-def test_a_photo_that_should_follow_a_picture_is_refused_before_anything_is_looked_at(tmp_path: Path) -> None:
-    inputs: dict[str, Path | tuple[Path, ...]] = {"photos": (tmp_path / "not there.jpg",), "driver": STRANGER}
-    with Run() as run, pytest.raises(InputError) as error:
-        make_persona(inputs, PersonaOptions(composite="photo"), tmp_path, run)
-    assert error.value.code == "composite_needs_video" and not run.seconds
 
 
 def filmed(path: Path, frames: list[np.ndarray]) -> None:

@@ -16,6 +16,7 @@ from engine.media.video import probe_video, read_video
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import mouth_opening
 from engine.performances import video
+from engine.persona.animating import with_composite
 from engine.persona.composite.framing import framed
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import read_persona, write_persona
@@ -24,7 +25,7 @@ from engine.run import Run
 from engine.store import StageStore
 
 Collection = tuple[np.ndarray, list[np.ndarray]]
-OPTIONS = PersonaOptions(size=(160, 200), trim=(0.5, 1.1), fps=15, background=(200, 20, 20))
+OPTIONS = PersonaOptions(size=(160, 200), trim=(0.5, 1.1), fps=15, background=(200, 20, 20), composite="none")
 
 
 @pytest.fixture(scope="module")
@@ -122,14 +123,16 @@ def test_too_few_photos_of_the_driver_are_refused(whole: Path, tmp_path: Path) -
     assert error.value.code == "too_few_driver_photos" and error.value.correctable == ("driver_photos",)
 
 
-def test_a_picture_gives_its_expression(whole: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("composite", ["none", "photo"])
+def test_a_picture_gives_its_expression(whole: Path, tmp_path: Path, composite: str) -> None:
     openings, persona = [], whole / "out/persona.npz"
+    options = PersonaOptions.model_validate({"size": (300, 400), "composite": composite})
     for number in (0, 20):  # at rest, and greatly surprised
         (out := tmp_path / str(number)).mkdir()
         picture = whole / f"photos/{number:02}.jpg"
         with Run() as run:
-            make_persona({"persona": persona, "driver": picture}, PersonaOptions(size=(300, 400)), out, run)
-        assert [notice.code for notice in run.notices] == ["driver_rest_estimated"]
+            make_persona({"persona": persona, "driver": picture}, options, out, run)
+        assert {notice.code for notice in run.notices} - {"no_teeth_shown", "head_cut"} == {"driver_rest_estimated"}
         with FaceTracker(alone=True) as tracker:
             openings.append(float(mouth_opening(tracker(read_image(out / "still.png").rgb)[0])))
         assert not (out / "animation.mp4").exists()
@@ -188,3 +191,12 @@ def test_a_persona_whose_photographs_all_cut_the_head_cannot_act_as_one(whole: P
     with Run() as run, pytest.raises(InputError) as refused:
         make_persona(given, OPTIONS.model_copy(update={"composite": "photo"}), tmp_path, run)
     assert refused.value.code == "no_portrait_photo"
+
+
+def test_by_itself_the_person_is_seen_where_a_photograph_shows_a_head(whole: Path, tmp_path: Path) -> None:
+    persona = read_persona(whole / "out/persona.npz")
+    auto = OPTIONS.model_copy(update={"composite": "auto"})
+    for shown, expected in ((persona, "photo"), (replace(persona, portrait=None), "none")):
+        with Run() as run:
+            assert with_composite(auto, shown, run).composite == expected
+        assert [notice.code for notice in run.notices] == (["puppet_alone"] if expected == "none" else [])

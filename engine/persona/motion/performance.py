@@ -47,11 +47,11 @@ def perform(
     transfer = DeformationTransfer(texture_frame(driver, FRAME_SIZE), texture_frame(persona.neutral, FRAME_SIZE))
     faces = persona.neutral + transfer.of_frames(front - driver, tick)
     weights = persona.weights(faces, SMOOTHING_FRAMES)
-    linear, shift = _placings(meshes)
+    linear, shift = placings(meshes)
     return Performance(faces, weights, linear, shift)
 
 
-def _placings(meshes: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def placings(meshes: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(F, 3, 3) and (F, 3) that carry faces from the front, in eye distances, to where the meshes are."""
     chosen = list(RIGID_VERTICES)
     model = canonical_face()[chosen].astype(np.float64)

@@ -1897,13 +1897,13 @@ export interface components {
              */
             driver_face_index?: number;
             /**
-             * @description The puppet alone on a plain background, the person as they are in one of the photos, or the puppet beside the driver.
-             * @default none
+             * @description What is seen: the puppet alone on a plain background (none), the person as they are in one of the photos (photo), or the puppet beside the driver (side_by_side). By itself (auto) a photo, where one shows half a head, else the puppet alone.
+             * @default auto
              * @enum {string}
              */
-            composite?: "none" | "photo" | "side_by_side";
+            composite?: "auto" | "none" | "photo" | "side_by_side";
             /**
-             * @description Whose photo acts, with `composite` as `photo`: a face by its number in `faces.json`. Default: the best one.
+             * @description Whose photo acts, where one does: a face by its number in `faces.json`. Default: the best one.
              * @default null
              */
             photo?: number | null;

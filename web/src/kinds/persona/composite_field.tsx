@@ -7,22 +7,20 @@ import { words as personaWords } from './words';
 
 const words = personaWords.studio;
 /** What the service has where nothing is said. */
-export const USUAL_COMPOSITE = 'none';
-/** What most people want: the person, where the photos allow it. */
-export const BEST_COMPOSITE = 'photo';
+export const USUAL_COMPOSITE = 'auto';
+/** Those in which a photo acts, 'auto' where one can. */
+export const actsByPhoto = (composite: string): boolean => composite === 'photo' || composite === USUAL_COMPOSITE;
 
 /** In the order in which they are offered; what the service has besides comes last. */
 const known = Object.keys(words.composites);
 
 interface Props {
   value: string;
-  /** Of a picture as the performance, what shows the face alone. */
-  still: boolean;
   onChange: (composite: string) => void;
 }
 
-export function CompositeField({ value, still, onChange }: Props) {
-  const choices = useComposites().filter((one) => !still || one !== BEST_COMPOSITE);
+export function CompositeField({ value, onChange }: Props) {
+  const choices = useComposites();
   if (choices.length < 2) return null;
   return (
     <fieldset class="field composites">

@@ -42,7 +42,7 @@ export function PersonaOptionFields({ value, mayHaveSound, onChange }: Props) {
         nameOf={(one) => words.videoSizes[one] ?? one}
         onChange={(one) => set('size', one === usualSize ? undefined : one.split('x').map(Number))}
       />
-      {value.composite !== 'photo' && (
+      {value.composite !== 'photo' && value.composite !== 'auto' && (
         <div class="field">
           <label for={id}>{words.background}</label>
           <input

@@ -21,7 +21,7 @@ import { EarlierPersonas } from './collection/earlier_personas';
 import { PerformerPhotos } from './collection/performer_photos';
 import { PhotosPanel } from './collection/photos_panel';
 import { useGiving } from './collection/use_giving';
-import { BEST_COMPOSITE, CompositeField, USUAL_COMPOSITE, useComposites } from './composite_field';
+import { actsByPhoto, CompositeField, USUAL_COMPOSITE, useComposites } from './composite_field';
 import { type Draft, usePersonaDraft } from './draft';
 import { PersonaOptionFields } from './option_fields';
 import { personaOrder, type Source } from './order';
@@ -67,7 +67,7 @@ export default function PersonaStudio({ kind }: StudioProps) {
   const source = sourceOf(draft);
   const composites = useComposites();
   const still = performance?.by === 'file' && isStill(performance.file);
-  const composite = compositeOf(draft, composites, still);
+  const composite = compositeOf(draft, composites);
   const options = optionsOf(draft, performance, composite);
   return (
     <>
@@ -131,10 +131,9 @@ export default function PersonaStudio({ kind }: StudioProps) {
               <>
                 <CompositeField
                   value={composite}
-                  still={still}
                   onChange={(composite) => change(({ options }) => ({ options: { ...options, composite } }))}
                 />
-                {composite !== BEST_COMPOSITE && (
+                {(still || !actsByPhoto(composite)) && (
                   <PerformerPhotos
                     photos={draft.performer}
                     refused={refused.performer === true}
@@ -183,10 +182,10 @@ function sourceOf({ from, photos, persona }: Draft): Source | null {
 
 const needsConsent = ({ from, performer }: Draft): boolean => from === 'photos' || performer.length > 0;
 
-/** As it was chosen, or the best that there is; of a picture as the performance none acts. */
-function compositeOf({ options }: Draft, offered: readonly string[], still: boolean): string {
-  const wanted = String(options.composite ?? BEST_COMPOSITE);
-  return offered.includes(wanted) && !(still && wanted === BEST_COMPOSITE) ? wanted : USUAL_COMPOSITE;
+/** As it was chosen, where the service has that. */
+function compositeOf({ options }: Draft, offered: readonly string[]): string {
+  const wanted = String(options.composite ?? USUAL_COMPOSITE);
+  return offered.includes(wanted) ? wanted : USUAL_COMPOSITE;
 }
 
 /** What is to be sent: nothing that holds anyway, and nothing that has no meaning here. */

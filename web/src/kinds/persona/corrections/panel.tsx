@@ -14,7 +14,7 @@ import { useFaces } from '../faces/use_faces';
 import { PersonaOptionFields } from '../option_fields';
 import { examplesIn, LEAST_PHOTOS } from '../types';
 import { words as personaWords } from '../words';
-import { BEST_COMPOSITE, CompositeField, USUAL_COMPOSITE } from '../composite_field';
+import { actsByPhoto, CompositeField, USUAL_COMPOSITE } from '../composite_field';
 import { isStill } from '../../../performances/performance';
 import { ActingPhotoField } from './acting_photo_field';
 import { draftOf, isChanged, isUsed, type RevisionDraft, revisionOf } from './changes';
@@ -84,10 +84,9 @@ export default function PersonaPanel({ job, onProblem }: CorrectionsProps) {
           <summary>{words.options}</summary>
           <CompositeField
             value={String(draft.options.composite ?? USUAL_COMPOSITE)}
-            still={playsStill}
             onChange={(one) => setOption('composite', one === USUAL_COMPOSITE ? undefined : one)}
           />
-          {sorted && draft.options.composite === BEST_COMPOSITE && (
+          {sorted && actsByPhoto(String(draft.options.composite ?? USUAL_COMPOSITE)) && (
             <ActingPhotoField
               faces={faces}
               isUsed={(number) => isUsed(number, faces.sheet.faces[number]!, before, draft)}

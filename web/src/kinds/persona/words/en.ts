@@ -40,7 +40,6 @@ const english = {
     no_portrait_photo: 'None of the photos shows enough of the head',
     photo_not_used: 'The chosen face is not among those that are used',
     photo_needs_photos: 'A photo can only be chosen beside the photos',
-    composite_needs_video: 'A photo that acts needs a video to follow',
     persona_too_large: 'The persona’s file is too large',
   },
 
@@ -135,6 +134,7 @@ const english = {
     startAgain: 'Play it',
     composite: 'What is seen',
     composites: {
+      auto: 'The person, where a photo shows the head',
       photo: 'The person, as in one of the photos',
       none: 'The face alone',
       side_by_side: 'The face beside the performer',
