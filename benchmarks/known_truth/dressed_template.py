@@ -48,7 +48,8 @@ EYE_WHITE_RGB, IRIS_RGB = (225, 220, 215), (70, 50, 40)
 
 @dataclass(frozen=True)
 class Look:
-    """Somebody: who, how they stand, what they wear. `clothes`: how much of `CLOTH_CENTIMETRES` it is (0: bare)."""
+    """Somebody: who, how they stand, what they wear. `clothes`: how much of `CLOTH_CENTIMETRES` it is (0: bare). `pattern`: how much
+    of a film's patterns their cloth has; below 1 it has neither stripes nor print."""
 
     name: str
     phenotype: Phenotype
@@ -59,6 +60,7 @@ class Look:
     hair: tuple[int, int, int] = (70, 48, 36)
     shoes: tuple[int, int, int] = (60, 44, 38)
     clothes: float = 1.0
+    pattern: float = 1.0
 
 
 ARMS_DOWN: Turns = {

@@ -1,4 +1,4 @@
-"""Two people made of the template: every vertex of theirs is known by its number, every joint by its name.
+"""Three people made of the template, the third in plain dark cloth: every vertex of theirs is known by its number, every joint by its name.
 
 Their skin and clothes have detail at all scales that a film can show: cloth with noise, seams and print, skin with spots, lips,
 brows and lids.
@@ -58,6 +58,17 @@ LOOKS = {
         hair=(96, 64, 42),
         shoes=(88, 76, 70),
         clothes=0.5,
+    ),
+    "template-dark": Look(
+        "template-dark",
+        Phenotype(0.5, 1, 0.6, 0.5, 0.55),
+        A_POSE,
+        (34, 34, 38),
+        (26, 26, 30),
+        shoes=(24, 22, 22),
+        hair=(30, 24, 22),
+        clothes=0.5,
+        pattern=0.3,
     ),
 }
 CLOTH_CELLS = (0.004, 0.009, 0.022, 0.06)
@@ -182,7 +193,9 @@ def _weave(colours: NDArray[np.float32], texels: _Texels, look: Look, random: np
     for colour, spread in ((look.shirt, 1.0), (look.trousers, 1.1), (look.shoes, 0.9), (look.hair, 1.3)):
         here = texels.worn(colour)
         noise = space_noise(texels.points[here], CLOTH_CELLS, random)
-        colours[here] *= np.clip(1 + spread * CLOTH_SPREAD * noise, 0.2, 1.8)[:, None]
+        colours[here] *= np.clip(1 + spread * look.pattern * CLOTH_SPREAD * noise, 0.2, 1.8)[:, None]
+    if look.pattern < 1:
+        return
     shirt = np.flatnonzero(texels.worn(look.shirt))
     height = texels.points[shirt, 1]
     colours[shirt[np.mod(height, 0.06) < 0.012]] *= np.float32(0.62)
@@ -192,7 +205,7 @@ def _weave(colours: NDArray[np.float32], texels: _Texels, look: Look, random: np
 def _print(colours: NDArray[np.float32], texels: _Texels, look: Look, person: Person) -> None:
     """Words on chest and back, pressed on from before and behind."""
     rig = load_rig(HUMAN_RIG)
-    if person.joints is None:
+    if person.joints is None or look.pattern < 1:
         return
     middle = person.joints[rig.index("Spine2")]
     rows, columns = (round(metres * 1500) for metres in PRINT_METRES[::-1])

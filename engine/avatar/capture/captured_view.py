@@ -19,6 +19,11 @@ class CapturedView:
     figure: NDArray[np.bool_]
     camera: Camera
 
+    @property
+    def grey(self) -> NDArray[np.float32]:
+        """(H, W) its grey levels, 0 to 255, not rounded: in dark cloth all texture is between one level and the next."""
+        return np.asarray(cv2.cvtColor(self.image.astype(np.float32), cv2.COLOR_RGB2GRAY), np.float32)
+
     def undistorted(self) -> CapturedView:
         """The view as a lens without distortion would show it; what its picture lacks at the borders is black and no figure."""
         if not self.camera.distortion:

@@ -137,10 +137,7 @@ def _measured(
     views: Sequence[CapturedView], hull: VisualHull, sources: Sequence[Sequence[int]], told: Callable[[float], None]
 ) -> list[DepthMap]:
     """Each view's depth against its sources'."""
-    ready = [
-        StereoView(cv2.cvtColor(view.image, cv2.COLOR_RGB2GRAY).astype(np.float32), view.figure, view.camera)
-        for view in views
-    ]
+    ready = [StereoView(view.grey, view.figure, view.camera) for view in views]
     maps = []
     for number, view in enumerate(ready):
         others = [ready[source] for source in sources[number]]

@@ -76,3 +76,10 @@ def test_the_lens_is_taken_out_of_a_view_and_kept_in_its_camera() -> None:
     column, row = straight.camera.project(point)[:2]
     shown = straight.image[round(float(row)), round(float(column))]
     assert np.abs(shown[:2] - np.array([30.0, 45.0])).max() <= 1.5
+
+
+def test_grey_levels_are_finer_than_those_of_pictures() -> None:
+    image = np.array([[[20, 20, 20], [21, 20, 20], [20, 21, 20], [20, 20, 21]]], np.uint8)
+    camera = Camera((0.0, 0.0, 0.0), 100.0, (1.5, 0.0), (1, 4))
+    grey = CapturedView(image, np.ones((1, 4), np.bool_), camera).grey
+    np.testing.assert_allclose(grey[0] - 20, [0, 0.299, 0.587, 0.114], atol=1e-3)
