@@ -92,5 +92,6 @@ class PersonaOptions(TypedDict, total=False):
     driver_face_index: int
     composite: Literal["auto", "none", "photo", "side_by_side"]
     photo: int | None
+    average_light: Sequence[int]
     background: tuple[int, int, int]
     sound: bool

@@ -5,15 +5,17 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from engine.errors import InputError
 from engine.export.still import write_first_impression
 from engine.perception.identity.backend import descriptor_distances, descriptor_name
 from engine.persona.collection.coverage import rare, shown_expressions, shown_sides
+from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.collection.face_sheet import write_faces
 from engine.persona.collection.photos import Photos, read_photos
 from engine.persona.collection.sorting import Choice
-from engine.persona.composite.acting_photos import with_acting_photos
+from engine.persona.composite.acting_photos import PORTRAIT_REACH, around, with_acting_photos
 from engine.persona.early_average import EarlyAverage
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona
@@ -21,10 +23,17 @@ from engine.persona.stages import SortedFaces, find_faces_of_photos, learn, sort
 from engine.run import Run
 
 
-def learnt_of_photos(
-    paths: Sequence[Path], options: PersonaOptions, out: Path, run: Run
-) -> tuple[Persona, dict[str, object]]:
-    """The persona of photographs and archives, and what the report says of them; leaves `preview.jpg`, `faces.json`, `faces.jpg` and early
+class LearntOfPhotos(NamedTuple):
+    """The `persona`, what the report says of its photographs (`told`), and those of them that are wanted in the average light (`relit`), by the
+    numbers of their faces."""
+
+    persona: Persona
+    told: dict[str, object]
+    relit: dict[int, FacePhoto]
+
+
+def learnt_of_photos(paths: Sequence[Path], options: PersonaOptions, out: Path, run: Run) -> LearntOfPhotos:
+    """The persona of photographs and archives; leaves `preview.jpg`, `faces.json`, `faces.jpg` and early
     averages in `out` as they come.
 
     Raises
@@ -47,6 +56,8 @@ def learnt_of_photos(
     chosen.require_enough()
     if options.photo is not None:
         chosen.place(options.photo)  # refused early where it is left out
+    for number in options.average_light:
+        chosen.place(number, "average_light")
     width = options.texture_width or texture_width(chosen.kept)
     learnt = run.stage("learn_persona", learn, photos, chosen, options.keep, width, run.tick)
     if not learnt.used.all():
@@ -68,7 +79,11 @@ def learnt_of_photos(
     wanted = None if options.photo is None else chosen.place(options.photo)
     faces = chosen.kept
     persona = with_acting_photos(learnt.persona, faces, lambda place: photos.picture(faces[place].photo), wanted)
-    return persona, {**told, "expressions": expressions, "sides": sides}
+    relit = {}
+    for number in options.average_light:
+        place = chosen.place(number, "average_light")
+        relit[number] = around(FacePhoto(photos.picture(faces[place].photo), faces[place].mesh, place), PORTRAIT_REACH)
+    return LearntOfPhotos(persona, {**told, "expressions": expressions, "sides": sides}, relit)
 
 
 def _tell_faces(out: Path, photos: Photos, chosen: SortedFaces, run: Run) -> None:

@@ -57,6 +57,10 @@ class PersonaOptions(BaseModel):
         None,
         description="Whose photo acts, where one does: a face by its number in `faces.json`. Default: the best one.",
     )
+    average_light: Annotated[tuple[FaceNumber, ...], Field(max_length=64)] = Field(
+        (),
+        description="Photos to leave in the light that all have in the mean, as `average_light_N.png`: faces by their numbers in `faces.json`.",
+    )
     background: tuple[Channel, Channel, Channel] = Field(
         (58, 60, 64), description="Red, green and blue of the plain background."
     )

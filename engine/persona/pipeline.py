@@ -12,10 +12,12 @@ from engine.export.still import write_still
 from engine.kind import Given
 from engine.persona.animating import animate_persona, is_picture, with_composite
 from engine.persona.collecting import learnt_of_photos
+from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.composite.photo_performance import PHOTO_STAGES, STILL_STAGES
 from engine.persona.early_average import BACKGROUND
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import read_persona, write_persona
+from engine.persona.results.in_average_light import in_average_light
 from engine.persona.results.pictures import Studio
 from engine.persona.results.writing import write_results
 from engine.run import Run
@@ -32,6 +34,7 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
     photos, kept, driver = inputs.get("photos", ()), inputs.get("persona"), inputs.get("driver")
     run.plan(_plan(inputs, options))
     told: dict[str, object] = {}
+    relit: dict[int, FacePhoto] = {}
     if isinstance(kept, Path):
         if options.photo is not None:
             raise InputError(
@@ -39,10 +42,16 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
                 "A persona that was kept has its photo: send the photos to choose another.",
                 ("photo",),
             )
+        if options.average_light:
+            raise InputError(
+                "photo_needs_photos",
+                "A persona that was kept has two of its photos alone: send the photos to have them in the average light.",
+                ("average_light",),
+            )
         persona = read_persona(kept)
     else:
         assert isinstance(photos, tuple)
-        persona, told = learnt_of_photos(photos, options, out, run)
+        persona, told, relit = learnt_of_photos(photos, options, out, run)
     with run.timed("write_persona"):
         write_persona(out / "persona.npz", persona)
         average = persona.average
@@ -54,6 +63,8 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
     if not (isinstance(kept, Path) and isinstance(driver, Path)):  # an earlier job has left them
         with run.timed("write_results"):
             told["photos_near"] = write_results(out, persona, average, options.background, run.mark_synthetic)
+            for number, photo in relit.items():
+                write_still(out / f"average_light_{number}.png", in_average_light(persona, photo), run.mark_synthetic)
     if isinstance(driver, Path):
         options = with_composite(options, persona, run)
         run.plan(_plan(inputs, options))

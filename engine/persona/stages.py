@@ -90,13 +90,13 @@ class SortedFaces:
                 ("photos",),
             )
 
-    def place(self, number: int) -> int:
-        """Which of `kept` a face is, by its number among all. Raises `InputError` `photo_not_used`."""
+    def place(self, number: int, option: str = "photo") -> int:
+        """Which of `kept` a face is, by its number among all, which `option` names. Raises `InputError` `photo_not_used`."""
         if number >= len(self.reasons) or self.reasons[number] is not None:
             raise InputError(
                 "photo_not_used",
                 f"Face {number} is not among those that are used: choose one that `faces.json` says is kept, or name it in `keep`, too.",
-                ("photo", "keep"),
+                (option, "keep"),
             )
         return self.reasons[:number].count(None)
 

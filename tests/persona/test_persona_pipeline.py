@@ -178,6 +178,27 @@ def test_the_photograph_can_be_chosen(whole: Path, tmp_path: Path) -> None:
         assert refused.value.code == code
 
 
+def test_photographs_are_left_in_the_average_light(whole: Path, tmp_path: Path) -> None:
+    photos = tuple(sorted((whole / "photos").iterdir()))
+    used = [n for n, face in enumerate(json.loads((whole / "out/faces.json").read_text())["faces"]) if face["kept"]]
+    with Run(StageStore(whole / "stages")) as run:
+        make_persona(
+            {"photos": photos}, OPTIONS.model_copy(update={"average_light": (used[2], used[5])}), tmp_path, run
+        )
+    left = {path.name for path in tmp_path.glob("average_light_*.png")}
+    assert left == {f"average_light_{used[2]}.png", f"average_light_{used[5]}.png"}
+    persona = read_persona(tmp_path / "persona.npz")
+    write_persona(tmp_path / "kept.npz", persona)
+    given: tuple[tuple[dict, str], ...] = (
+        ({"photos": photos}, "photo_not_used"),
+        ({"persona": tmp_path / "kept.npz"}, "photo_needs_photos"),
+    )
+    for inputs, code in given:
+        with Run(StageStore(whole / "stages")) as run, pytest.raises(InputError) as refused:
+            make_persona(inputs, OPTIONS.model_copy(update={"average_light": (999,)}), tmp_path, run)
+        assert refused.value.code == code and refused.value.correctable[0] == "average_light"
+
+
 def test_without_photographs_no_other_one_can_be_chosen(whole: Path, tmp_path: Path) -> None:
     with Run() as run, pytest.raises(InputError) as refused:
         make_persona({"persona": whole / "out/persona.npz"}, OPTIONS.model_copy(update={"photo": 1}), tmp_path, run)

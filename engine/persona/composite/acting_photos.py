@@ -36,12 +36,13 @@ def with_acting_photos(
     teeth = teeth_photo(faces, photo, portrait is not None and is_grey(portrait.rgb, portrait.mesh))
     return replace(
         persona,
-        portrait=None if portrait is None else _around(portrait, PORTRAIT_REACH),
-        teeth=None if teeth is None else _around(teeth, TEETH_REACH),
+        portrait=None if portrait is None else around(portrait, PORTRAIT_REACH),
+        teeth=None if teeth is None else around(teeth, TEETH_REACH),
     )
 
 
-def _around(photo: FacePhoto, reach: tuple[tuple[float, float], tuple[float, float]]) -> FacePhoto:
+def around(photo: FacePhoto, reach: tuple[tuple[float, float], tuple[float, float]]) -> FacePhoto:
+    """The part of a photograph that reaches so many of its face's heights to both sides of its middle, as `PORTRAIT_REACH` says it."""
     oval = photo.mesh[list(FACE_OVAL), :2]
     low, high = oval.min(axis=0), oval.max(axis=0)
     middle, height = (low + high) / 2, float(high[1] - low[1])

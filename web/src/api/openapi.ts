@@ -1908,6 +1908,11 @@ export interface components {
              */
             photo?: number | null;
             /**
+             * @description Photos to leave in the light that all have in the mean, as `average_light_N.png`: faces by their numbers in `faces.json`.
+             * @default []
+             */
+            average_light?: number[];
+            /**
              * @description Red, green and blue of the plain background.
              * @default [
              *       58,

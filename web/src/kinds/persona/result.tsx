@@ -102,7 +102,26 @@ function Picture({ job, view }: { job: Job; view: Still }) {
     <figure class={`panel persona-picture ${view}`}>
       <img src={url} alt={words.alts[view]} />
       <figcaption>{words.captions[view]}</figcaption>
+      {view === 'light' && <RelitPhotos job={job} />}
     </figure>
+  );
+}
+
+const RELIT = /^average_light_\d+\.png$/;
+
+/** Those that were asked for. */
+function RelitPhotos({ job }: { job: Job }) {
+  const names = Object.keys(job.artifacts).filter((name) => RELIT.test(name));
+  return (
+    <ul class="relit-photos plain">
+      {names.map((name) => (
+        <li key={name}>
+          <a href={job.artifacts[name]?.url ?? ''}>
+            <img src={job.artifacts[name]?.url ?? ''} alt={words.relit} loading="lazy" />
+          </a>
+        </li>
+      ))}
+    </ul>
   );
 }
 

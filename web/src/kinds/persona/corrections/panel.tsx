@@ -17,6 +17,7 @@ import { words as personaWords } from '../words';
 import { actsByPhoto, CompositeField, USUAL_COMPOSITE } from '../composite_field';
 import { isStill } from '../../../performances/performance';
 import { ActingPhotoField } from './acting_photo_field';
+import { AverageLightField } from './average_light_field';
 import { draftOf, isChanged, isUsed, type RevisionDraft, revisionOf } from './changes';
 import { FacesField, usedCount } from './faces_field';
 import { PerformanceField } from './performance_field';
@@ -92,6 +93,14 @@ export default function PersonaPanel({ job, onProblem }: CorrectionsProps) {
               isUsed={(number) => isUsed(number, faces.sheet.faces[number]!, before, draft)}
               value={(draft.options.photo as number | null | undefined) ?? null}
               onChange={(photo) => setOption('photo', photo ?? undefined)}
+            />
+          )}
+          {sorted && (
+            <AverageLightField
+              faces={faces}
+              isUsed={(number) => isUsed(number, faces.sheet.faces[number]!, before, draft)}
+              value={(draft.options.average_light as readonly number[] | undefined) ?? []}
+              onChange={(photos) => setOption('average_light', photos.length ? photos : undefined)}
             />
           )}
           <PersonaOptionFields value={draft.options} mayHaveSound={playsFile && !playsStill} onChange={(options) => wish({ options })} />

@@ -53,6 +53,7 @@ const english = {
     leave_out: 'faces left out',
     example: 'person meant',
     photo: 'photo that acts',
+    average_light: 'photos in the average light',
     composite: 'what is seen',
     background: 'background',
     size: 'size',
@@ -192,6 +193,7 @@ const english = {
       angles: 'The persona seen from several angles',
       light: 'Photos of the collection, and the same in its average light',
     },
+    relit: 'A photo in the average light',
     captions: {
       still: 'The expression of the picture that was given.',
       average: 'The average of all photos that are used, laid flat, with room for what an open mouth shows.',
@@ -240,6 +242,9 @@ const english = {
     performanceBack: 'As before',
     performanceKept: (name: string) => `As before: ${name}.`,
     options: 'What is seen',
+    averageLight: 'Photos in their average light',
+    averageLightOf: (count: number) =>
+      count === 0 ? 'Click a face to have its photo in the light that all photos have in the mean.' : `${count} ${count === 1 ? 'photo' : 'photos'} will be made in the average light.`,
     actingPhoto: 'The photo that acts',
     actingPhotoBest: 'The best one is chosen by itself. Click a face to choose its photo.',
     actingPhotoOf: (photo: string) => `The photo ${photo} acts.`,
