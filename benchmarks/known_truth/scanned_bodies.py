@@ -38,7 +38,7 @@ def read_scan(path: Path, facing: float) -> Person:
     middle = (points.min(0) + points.max(0)) / 2
     points = (points - [middle[0], points[:, 1].min(), middle[2]]) * scale
     faces = np.concatenate(triangles).astype(np.int32)
-    return Person(path.stem, points, faces, BODY_METRES, _painter(np.concatenate(uv), faces, textures, ends))
+    return Person(path.stem, points, faces, BODY_METRES, texture_painter(np.concatenate(uv), faces, textures, ends))
 
 
 def _texture(material: object) -> NDArray[np.uint8]:
@@ -46,8 +46,8 @@ def _texture(material: object) -> NDArray[np.uint8]:
     return np.asarray(image.convert("RGB"), np.uint8)
 
 
-def _painter(
-    uv: NDArray[np.float64], faces: NDArray[np.int32], textures: list[NDArray[np.uint8]], ends: list[int]
+def texture_painter(
+    uv: NDArray[np.floating], faces: NDArray[np.int32], textures: list[NDArray[np.uint8]], ends: list[int]
 ) -> Callable[[Raster], NDArray[np.float32]]:
     """Colours from several textures, of which each covers the triangles before its end."""
 

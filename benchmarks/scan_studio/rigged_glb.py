@@ -50,7 +50,7 @@ def read_in_a_pose(path: Path, facing: float) -> tuple[list[TexturedPart], dict[
     skin = file.parts.skins[0]
     names = {joint: str(nodes[joint].name).removeprefix("mixamorig:") for joint in skin.joints}
     towards = np.diag([facing, 1.0, facing])
-    worlds = _worlds(file, lambda node, world: world)
+    worlds = node_worlds(file, lambda node, world: world)
     turns = _a_pose({names[j]: towards @ worlds[j][:3, 3] for j in names})
 
     def turned(node: int, world: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -61,7 +61,7 @@ def read_in_a_pose(path: Path, facing: float) -> tuple[list[TexturedPart], dict[
         turn[:3, 3] = world[:3, 3] - turn[:3, :3] @ world[:3, 3]
         return np.asarray(turn @ world)
 
-    posed = _worlds(file, turned)
+    posed = node_worlds(file, turned)
     below = {side: _below(file, next(j for j in names if names[j] == f"{side}Arm")) for side in ("Left", "Right")}
     parts = [
         part
@@ -79,13 +79,13 @@ def read_in_clip(path: Path, clip: str) -> list[TexturedPart]:
     animation = next(one for one in file.parts.animations if one.name == clip)
     for channel in animation.channels:
         if channel.target.path in ("rotation", "translation"):
-            first = _array(file, animation.samplers[channel.sampler].output)[0]
+            first = accessor_array(file, animation.samplers[channel.sampler].output)[0]
             nodes[channel.target.node][channel.target.path] = first.tolist()
-    posed = _worlds(file, lambda node, world: world, nodes)
+    posed = node_worlds(file, lambda node, world: world, nodes)
     return [part for node in nodes if node.mesh is not None for part in _parts(file, node, posed, {}, np.eye(3))]
 
 
-def _worlds(
+def node_worlds(
     file: GltfFile,
     turned: Callable[[int, NDArray[np.float64]], NDArray[np.float64]],
     nodes: Sequence[Any] | None = None,
@@ -140,26 +140,30 @@ def _parts(
     towards: NDArray[np.float64],
 ) -> list[TexturedPart]:
     skin = file.parts.skins[node.skin]
-    inverse_bind = _array(file, skin.inverseBindMatrices).reshape(-1, 4, 4).transpose(0, 2, 1)
+    inverse_bind = accessor_array(file, skin.inverseBindMatrices).reshape(-1, 4, 4).transpose(0, 2, 1)
     moves = posed[skin.joints] @ inverse_bind
     carried = np.array([[joint in below.get(side, ()) for joint in skin.joints] for side in ("Left", "Right")], float)
     found = []
     for primitive in file.parts.meshes[node.mesh].primitives:
         at = primitive.attributes
-        weights, bones = _array(file, at.WEIGHTS_0).astype(np.float64), _array(file, at.JOINTS_0).astype(int)
+        weights, bones = (
+            accessor_array(file, at.WEIGHTS_0).astype(np.float64),
+            accessor_array(file, at.JOINTS_0).astype(int),
+        )
         weights /= weights.sum(1, keepdims=True)
         blended = np.einsum("vk,vkij->vij", weights, moves[bones])
-        points = np.einsum("vij,vj->vi", blended[:, :3, :3], _array(file, at.POSITION)) + blended[:, :3, 3]
+        points = np.einsum("vij,vj->vi", blended[:, :3, :3], accessor_array(file, at.POSITION)) + blended[:, :3, 3]
         arms = np.einsum("vk,svk->sv", weights, carried[:, bones])
-        triangles = _array(file, primitive.indices).reshape(-1, 3).astype(np.int64)
-        image = _image(file, file.parts.materials[primitive.material])
+        triangles = accessor_array(file, primitive.indices).reshape(-1, 3).astype(np.int64)
+        image = material_image(file, file.parts.materials[primitive.material])
         found.append(
-            TexturedPart(points @ towards.T, triangles, _array(file, at.TEXCOORD_0).astype(float), image, arms)
+            TexturedPart(points @ towards.T, triangles, accessor_array(file, at.TEXCOORD_0).astype(float), image, arms)
         )
     return found
 
 
-def _array(file: GltfFile, index: int) -> NDArray[Any]:
+def accessor_array(file: GltfFile, index: int) -> NDArray[Any]:
+    """What an accessor holds, (count,) or (count, width), normalised where it says so."""
     accessor = file.parts.accessors[index]
     data, view = file.view(accessor.bufferView)
     kind, width = np.dtype(COMPONENT_TYPES[accessor.componentType]), COMPONENT_COUNTS[accessor.type]
@@ -168,7 +172,8 @@ def _array(file: GltfFile, index: int) -> NDArray[Any]:
     return found / np.iinfo(kind).max if accessor.normalized else found
 
 
-def _image(file: GltfFile, material: Any) -> NDArray[np.uint8]:
+def material_image(file: GltfFile, material: Any) -> NDArray[np.uint8]:
+    """A material's colours, (H, W, 3) sRGB; plain ones where it has no texture."""
     colour = material.pbrMetallicRoughness.baseColorTexture
     if not colour:
         return np.full((8, 8, 3), PLAIN_RGB, np.uint8)

@@ -67,7 +67,7 @@ def _joined(name: str, parts: Sequence[TexturedPart], joints: Mapping[str, NDArr
     )
     vertices = (points - ground) * scale
     placed = {joint: (place - ground) * scale for joint, place in joints.items()}
-    uv, texture = _one_texture(parts)
+    uv, texture = one_texture(parts)
     point = same_rows(vertices)
     places = np.empty((int(point.max()) + 1, 3))
     places[point] = vertices
@@ -82,7 +82,7 @@ def _joined(name: str, parts: Sequence[TexturedPart], joints: Mapping[str, NDArr
     return Subject(name, vertices, triangles.astype(np.int32), uv, corners, texture, room_light(normals), placed, arms)
 
 
-def _one_texture(parts: Sequence[TexturedPart]) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
+def one_texture(parts: Sequence[TexturedPart]) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
     """(3T, 2) the places of all corners on one texture, and that: the parts' images side by side, each once."""
     images: list[NDArray[np.uint8]] = []
     shown = []

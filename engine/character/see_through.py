@@ -35,6 +35,8 @@ MOST = 0.6
 """Share of the middle that the front alone may have: if it is more, the sides tell nothing, as where they have no light."""
 SKIN = 0.05
 """Share of a face from which a colour is its skin's."""
+MOST_BARE = 0.5
+"""Share of the sides that may be bare: else it is cloth in a skin's colour, or nobody wears any."""
 EDGE = 2
 """Pixels of the grid around what is taken off, in which it is mixed with the cloth."""
 LIGHTNESSES, HUES = 18, 44
@@ -90,8 +92,10 @@ def front_features(
         return nothing
     across = _across(trunk, legs, head)
     bins = _bins(rgb[across.mask])
+    sides = across.place > SIDE_FROM
     skin = _share(_bins(rgb[face]))[tuple(bins.T)] > SKIN
-    bare = pieces_touching(across.drawn(skin), across.drawn(skin & (across.place > SIDE_FROM)))
+    skin &= bool(skin[sides].mean() < MOST_BARE)
+    bare = pieces_touching(across.drawn(skin), across.drawn(skin & sides))
     share = np.where(bare[across.mask], 1, _share_beside(bins, skin, across))
     middle = across.place <= SIDE_FROM
     if (share[middle] < RARE).mean() > MOST:

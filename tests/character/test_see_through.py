@@ -69,6 +69,12 @@ def test_bare_shoulders_are_no_cloth_that_goes_round() -> None:
     assert not found.any(), "the shirt between them stays, and so do they"
 
 
+def test_cloth_in_the_colour_of_skin_is_cloth() -> None:
+    rgb = person(SKIN)
+    rgb[60:90, 32:48] = TIE
+    assert features(rgb)[61:89, 33:47].all()
+
+
 def test_a_print_of_any_size_up_to_half_of_the_width() -> None:
     for half in (4, 8, 12):
         rgb = person()
