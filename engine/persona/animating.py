@@ -22,6 +22,7 @@ from engine.perception.expression.features import frontalise
 from engine.perception.face_track.track import FaceTrack
 from engine.persona.composite.photo_performance import perform_photo
 from engine.persona.film import beside, puppet_frames
+from engine.persona.motion.driver_rest import rest_of_frames
 from engine.persona.motion.performance import perform
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona
@@ -75,7 +76,7 @@ def _play_video(
     if rest is None:
         choice = choose_neutral_frame(track, persona.neutral.astype(np.float32), None)
         warn_if_never_at_rest(choice, run.warn)
-        rest, told["rest_frame"] = frontalise(track.meshes[[choice.frame]])[0], choice.frame
+        rest, told["rest_frame"] = rest_of_frames(frontalise(track.meshes), choice.frame), choice.frame
     with run.timed("perform"):
         performance = perform(persona, track.meshes, rest, run.tick)
     with run.timed("animate"):

@@ -43,13 +43,12 @@ COARSENESS = 2
 class DeformationTransfer:
     """From the average face of a driver to that of a puppet.
 
-    driver, puppet : their frames, of one size. shift : (H, W, 2) pixels from each of the driver's frame to what corresponds to it in the
-    puppet's, beside what the meshes say of that; None for none.
+    driver, puppet : their frames, of one size. What corresponds is what the same triangle of both meshes covers: the flow between averages in
+    one another's light, which the paper has, was tried on heads of known correspondence, and lies farther off.
     """
 
     driver: TextureFrame
     puppet: TextureFrame
-    shift: NDArray[np.float32] | None = None
 
     def __call__(self, deformation: NDArray[np.floating]) -> NDArray[np.float64]:
         """(478, 3) by how much the puppet's vertices move where the driver's move by `deformation` (478, 3); both from the average
@@ -114,20 +113,11 @@ class DeformationTransfer:
         """(h, w, 3) the driver's points, and the corresponding ones of the puppet, in eye distances."""
         step = np.s_[::COARSENESS, ::COARSENESS]
         puppets = self.driver.interpolated(self.puppet.places)
-        if self.shift is not None:
-            puppets = self._by_shift(puppets)
         points = self.driver.interpolated(self.driver.places)
         return (
             np.ascontiguousarray(points[step] / np.float32(self.driver.scale)),
             np.ascontiguousarray(puppets[step] / np.float32(self.puppet.scale)),
         )
-
-    def _by_shift(self, puppets: NDArray[np.float32]) -> NDArray[np.float32]:
-        assert self.shift is not None
-        at = (puppets[..., :2] + self.shift).astype(np.float32)
-        whole = self.puppet.interpolated(self.puppet.places)
-        found = cv2.remap(whole, at[..., 0], at[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-        return np.asarray(found, np.float32)
 
 
 @njit(nogil=True, error_model="numpy", boundscheck=False)
