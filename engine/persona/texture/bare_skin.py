@@ -71,7 +71,7 @@ class BareSkin:
 
     def _surroundings(self, colours: NDArray[np.uint8]) -> NDArray[np.bool_]:
         """(h, w) where what is about the face covers it, in the coarse frame."""
-        area, skin, around, middle = self._areas
+        area, skin, around, middle, brow = self._areas
         small = cv2.resize(colours, area.shape[::-1], interpolation=cv2.INTER_AREA)
         lab = np.asarray(cv2.cvtColor(small.astype(np.float32) / 255, cv2.COLOR_RGB2LAB), np.float32)
         skins = ColourMixture.fit(lab[skin]).widened(LIGHT_VARIANCE)
@@ -81,6 +81,7 @@ class BareSkin:
             return np.zeros(area.shape, np.bool_)
         mixtures = (skins, ColourMixture.fit(others).widened(LIGHT_VARIANCE))
         costs = np.minimum(colour_costs(mixtures, lab[area]), MAX_COST)
+        costs[brow[area]] = 0  # of hair's colour, they go with what is about them
         seeds = np.where(middle[area], 0, UNSEEDED)
         labels = ContrastGraph.of(lab, area).cut(costs, np.zeros(len(costs), np.intp), seeds)
         found = np.zeros(area.shape, np.bool_)
@@ -89,15 +90,14 @@ class BareSkin:
 
     @cached_property
     def _areas(self) -> tuple[NDArray[np.bool_], ...]:
-        """In the coarse frame (h, w) what the frame covers; skin for certain; what is about the face, above the mouth; and the middle of
-        the face, from the brows down."""
+        """In the coarse frame (h, w) what the frame covers; skin for certain; what is about the face, above the mouth; the middle of the
+        face, from the brows down; and the brows."""
         frame, (height, width) = self.frame, self.frame.size
         places = frame.places[:478, :2]
-        features = np.zeros(frame.size, np.uint8)
         brows = np.split(fiducials(frame.places[:478])[BROWS, :2], 2)
-        for outline in (*brows, *(places[list(one)] for one in (LEFT_EYE, RIGHT_EYE, LIPS_OUTER))):
-            cv2.fillConvexPoly(features, cv2.convexHull(np.rint(outline).astype(np.int32)), 1)
-        features = _grown(features, FEATURE_MARGIN * width)
+        hairy = _grown(_hulls(brows, frame.size), FEATURE_MARGIN * width)
+        features = _hulls([places[list(one)] for one in (LEFT_EYE, RIGHT_EYE, LIPS_OUTER)], frame.size)
+        features = hairy | _grown(features, FEATURE_MARGIN * width)
         rows = np.arange(height)[:, None]
         middle = 1 - _grown(1 - frame.face.astype(np.uint8), CENTRE_MARGIN * width)
         middle *= rows > min(float(brow[:, 1].min()) for brow in brows)
@@ -106,8 +106,15 @@ class BareSkin:
         size = WIDTH, round(height * WIDTH / width)
         return tuple(
             cv2.resize(one.astype(np.uint8), size, interpolation=cv2.INTER_NEAREST) > 0
-            for one in (frame.covered, middle * (1 - features), around, middle)
+            for one in (frame.covered, middle * (1 - features), around, middle, hairy)
         )
+
+
+def _hulls(outlines: Sequence[NDArray[np.floating]], size: tuple[int, int]) -> NDArray[np.uint8]:
+    out = np.zeros(size, np.uint8)
+    for outline in outlines:
+        cv2.fillConvexPoly(out, cv2.convexHull(np.rint(outline).astype(np.int32)), 1)
+    return out
 
 
 def _grown(mask: NDArray[np.uint8], reach: float) -> NDArray[np.uint8]:
