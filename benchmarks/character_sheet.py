@@ -82,7 +82,11 @@ def main() -> None:
         start = time.perf_counter()
         woken = wake(picture, asked.options)
         took = time.perf_counter() - start
-        print(picture.stem, f"{took:.1f} s", measure(woken.figure, woken.silhouette, woken.fitted, woken.character))
+        print(
+            picture.stem,
+            f"{took:.1f} s",
+            measure(woken.figure, woken.silhouette, woken.fitted, woken.character).figures,
+        )
         rows.append(row(woken, picture.stem))
     write_sheet(asked.out, contact_sheet(rows))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
 from engine.character.figure import Figure
+from engine.character.left_out import LeftOut, left_out
 from engine.character.rigging import Character
 from engine.character.silhouette import Silhouette
 from engine.character.template_fit import FittedBody
@@ -35,8 +36,16 @@ def picture_camera(character: Character, fitted: FittedBody, size: tuple[int, in
     return replace(fitted.camera, eye=(x, y, z), size=size)
 
 
-def measure(figure: Figure, silhouette: Silhouette, fitted: FittedBody, character: Character) -> dict[str, float]:
-    """Figures for the report.
+@dataclass(frozen=True)
+class Measured:
+    """`figures` for the report, and what the character leaves out of the outline."""
+
+    figures: dict[str, float]
+    left_out: list[LeftOut]
+
+
+def measure(figure: Figure, silhouette: Silhouette, fitted: FittedBody, character: Character) -> Measured:
+    """Measure a character as it is pictured.
 
     `silhouette_iou`: how well the posed mesh covers the mask; `landmark_reprojection`: how far landmarks are from where they
     were seen, as a share of the person's height; `closed`, `holes` (loops of open border) and `non_manifold_edges` of the
@@ -51,7 +60,7 @@ def measure(figure: Figure, silhouette: Silhouette, fitted: FittedBody, characte
     drawn, mask = seen >= 0, silhouette.alpha > 0.5
     points = weld(character.mesh)
     border, crowded = border_edges(points[triangles])
-    return {
+    figures = {
         "silhouette_iou": round(float((drawn & mask).sum() / max((drawn | mask).sum(), 1)), 4),
         "landmark_reprojection": round(fitted.fit.reprojection / max(rows_apart(mask), 1), 4),
         "closed": float(is_closed(points[triangles])),
@@ -61,6 +70,7 @@ def measure(figure: Figure, silhouette: Silhouette, fitted: FittedBody, characte
         "unseen_texture": round(unseen_share(posed, projected, triangles, seen[drawn]), 3),
         "triangles": float(len(triangles)),
     }
+    return Measured(figures, left_out(mask, drawn))
 
 
 def border_edges(faces: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:

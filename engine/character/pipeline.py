@@ -13,6 +13,7 @@ from engine.character.cast_shadow import ground_shadow
 from engine.character.figure import Choice, Figure, find_figure
 from engine.character.film import LONGEST_SIDE, cast_of, film, film_size
 from engine.character.findings import character_names, write_findings
+from engine.character.left_out import warn_of_silhouette
 from engine.character.lit import lit_picture
 from engine.character.measures import measure, picture_camera
 from engine.character.motions import motion_in_use
@@ -110,10 +111,7 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
     shadow = ground_shadow(filled.shadow, people[0].character, people[0].fitted)
     write_stills(out, people, filled.rgb, shadow, options, run)
     animation, frames = write_film(out, people, filled, shadow, options, run)
-    quality = [
-        run.stage("measure", measure, one.figure, one.silhouette, one.fitted, one.character, stored=False)
-        for one in people
-    ]
+    quality = [measure_character(one, run) for one in people]
     joints = dict(people[0].played.joints)
     write_report(
         out / "report.json",
@@ -210,6 +208,14 @@ def reconstruct(
         *(figure, silhouette, fitted, labels, mesh, options.triangles, options.back_texture),
     )
     return Person(figure, silhouette, fitted, labels, character)
+
+
+def measure_character(person: Person, run: Run) -> dict[str, float]:
+    """What the method can say of the result; what is missing of the outline is warned of."""
+    figure, silhouette, fitted, character = person.figure, person.silhouette, person.fitted, person.character
+    measured = run.stage("measure", measure, figure, silhouette, fitted, character, stored=False)
+    warn_of_silhouette(measured.figures["silhouette_iou"], measured.left_out, run.warn)
+    return measured.figures
 
 
 def write_character(out: Path, name: str, person: Person, options: CharacterOptions, run: Run) -> None:
