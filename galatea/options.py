@@ -92,6 +92,7 @@ class PersonaOptions(TypedDict, total=False):
     driver_face_index: int
     composite: Literal["auto", "none", "photo", "side_by_side"]
     photo: int | None
+    light: Literal["own", "average", "left", "right"]
     average_light: Sequence[int]
     background: tuple[int, int, int]
     sound: bool

@@ -57,6 +57,11 @@ class PersonaOptions(BaseModel):
         None,
         description="Whose photo acts, where one does: a face by its number in `faces.json`. Default: the best one.",
     )
+    light: Literal["own", "average", "left", "right"] = Field(
+        "own",
+        description="The light on the face of the film or the still: the photo's own (for the puppet the mean of all photos), that mean, or as the"
+        " photos have it that are lit most from the picture's left or right.",
+    )
     average_light: Annotated[tuple[FaceNumber, ...], Field(max_length=64)] = Field(
         (),
         description="Photos to leave in the light that all have in the mean, as `average_light_N.png`: faces by their numbers in `faces.json`.",

@@ -15,6 +15,7 @@ from engine.persona.collecting import learnt_of_photos
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.composite.photo_performance import PHOTO_STAGES, STILL_STAGES
 from engine.persona.early_average import BACKGROUND
+from engine.persona.light.relighting import LEAST_STRENGTH, in_light
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import read_persona, write_persona
 from engine.persona.results.in_average_light import in_average_light
@@ -68,6 +69,10 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
     if isinstance(driver, Path):
         options = with_composite(options, persona, run)
         run.plan(_plan(inputs, options))
+        if options.light != "own":
+            persona, strength = in_light(persona, options.light)
+            if strength < LEAST_STRENGTH:
+                run.warn("light_rare", "Hardly any photo is lit from that side: the light is nearly the mean of all.")
         told |= animate_persona(persona, inputs, options, out, run)
     write_report(
         out / "report.json",

@@ -19,8 +19,8 @@ from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.face_tessellation import face_triangles, opening_triangles
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, eye_distance
 from engine.persona.collection.face_photo import FacePhoto
-from engine.persona.composite.low_frequencies import low_frequencies
 from engine.persona.composite.regions import retouched_skin
+from engine.persona.light.low_frequencies import low_frequencies
 from engine.persona.persona import Persona
 from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
 from engine.persona.texture.texture_frame import TextureFrame, sampled

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.persona.light.relighting import regenerated
 from engine.persona.persona import Persona
 from engine.persona.puppet import Puppet
 from engine.persona.results.face_units import FaceUnits
@@ -75,12 +76,6 @@ def angles(studio: Studio, shown: Sequence[ShownExpression]) -> NDArray[np.uint8
         [studio.picture(face, texture, yaw) for face, texture in zip(faces, textures, strict=True) for yaw in ANGLES],
         len(ANGLES),
     )
-
-
-def regenerated(persona: Persona, number: int) -> NDArray[np.uint8]:
-    """(H, W, 3) what one of the photographs shows, in the collection's average light, in the persona's frame: its own texture among
-    those whose expressions are like it."""
-    return persona.synthesis(persona.weights_of_points(persona.points[number : number + 1].astype(np.float64)))[0]
 
 
 def average_light(studio: Studio, units: FaceUnits) -> NDArray[np.uint8]:

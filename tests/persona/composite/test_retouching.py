@@ -8,9 +8,9 @@ import pytest
 
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_EYE
-from engine.persona.composite.low_frequencies import low_frequencies
 from engine.persona.composite.regions import retouched_skin
 from engine.persona.composite.retouching import Retouching
+from engine.persona.light.low_frequencies import low_frequencies
 from engine.persona.texture.texture_frame import TextureFrame, texture_frame
 
 SIZE = (244, 194)

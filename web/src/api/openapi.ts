@@ -1908,6 +1908,12 @@ export interface components {
              */
             photo?: number | null;
             /**
+             * @description The light on the face of the film or the still: the photo's own (for the puppet the mean of all photos), that mean, or as the photos have it that are lit most from the picture's left or right.
+             * @default own
+             * @enum {string}
+             */
+            light?: "own" | "average" | "left" | "right";
+            /**
              * @description Photos to leave in the light that all have in the mean, as `average_light_N.png`: faces by their numbers in `faces.json`.
              * @default []
              */

@@ -56,7 +56,7 @@ export interface Gallery {
 }
 
 /** What is of the picture, and so goes along to another performance; the rest is of the photos, or of the performance. */
-const CARRIED = ['size', 'composite', 'background'] as const;
+const CARRIED = ['size', 'composite', 'background', 'light'] as const;
 
 export const carriedOver = (options: PersonaOptions): PersonaOptions =>
   Object.fromEntries(CARRIED.filter((name) => name in options).map((name) => [name, options[name]]));

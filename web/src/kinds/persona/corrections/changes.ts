@@ -7,7 +7,7 @@ import type { Revision } from '../../../sending/use_revision';
 import { type Face, personaOptions } from '../types';
 
 /** What is chosen in the folded options. */
-const choices = ['composite', 'photo', 'average_light', 'background', 'size', 'fps', 'sound', 'texture_width'];
+const choices = ['composite', 'photo', 'average_light', 'background', 'light', 'size', 'fps', 'sound', 'texture_width'];
 
 export interface RevisionDraft {
   /** Numbers of faces that are used, whatever speaks against them. */

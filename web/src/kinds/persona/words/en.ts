@@ -56,6 +56,7 @@ const english = {
     average_light: 'photos in the average light',
     composite: 'what is seen',
     background: 'background',
+    light: 'light',
     size: 'size',
     fps: 'frames per second',
     trim: 'part of the performance',
@@ -150,7 +151,7 @@ const english = {
     } as Record<string, string>,
     sound: 'Keep the sound of the video',
     /** Options by their names; others have the service's own. */
-    options: { texture_width: 'Width of the face’s texture, pixels', fps: 'Frames per second' } as Record<string, string>,
+    options: { texture_width: 'Width of the face’s texture, pixels', fps: 'Frames per second', light: 'Light on the face' } as Record<string, string>,
   },
 
   faces: {
