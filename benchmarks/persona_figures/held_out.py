@@ -3,7 +3,7 @@
 Of each collection, duplicates left out, a tenth at a time is held out and the
 persona learnt of the rest; each photograph held out is laid on the frame by its own mesh, and asks for its own expression. What is
 compared is the band finer than four pixels of a frame 194 wide, of greys whose tone was fitted, after a smooth flow to the photograph
-(the paper's warp to the reference), over what the photograph shows of the skin and beside the lips' inside: SSIM of that band.
+(the paper's warp to the reference), over what the photograph shows of bare skin, beside the lips' inside: SSIM of that band.
 
 The ways: the average of all, laid on one another pixel by pixel, or by the paper's thin-plate spline of 51 points alone (lambda 10); the
 weighted average of photographs laid on one another by a similarity alone; laid on one another pixel by pixel, but mixed in one band; and
@@ -36,6 +36,7 @@ from engine.persona.learning import learn_persona
 from engine.persona.persona import Persona
 from engine.persona.stages import SortedFaces, find_faces_of_photos, sort_faces
 from engine.persona.texture.aligned_photos import align_photos
+from engine.persona.texture.bare_skin import bared
 from engine.persona.texture.expression_weights import (
     FIRST_INNER_FIDUCIAL,
     expression_points,
@@ -98,7 +99,7 @@ def _fold(photos: Photos, chosen: SortedFaces, held: NDArray[np.intp]) -> dict[s
 
     learnt = learn_persona(meshes[rest], lambda place: picture(rest[place]), SIZE)
     persona, used = learnt.persona, rest[learnt.used]
-    shown = align_photos(persona.frame, list(meshes[held]), lambda place: picture(held[place]))
+    shown = bared(persona.frame, align_photos(persona.frame, list(meshes[held]), lambda place: picture(held[place])))
     scale = persona.frame.scale
     points = expression_points(frontalise(meshes[held])) * scale
     pictures = [picture(k) for k in used]

@@ -18,6 +18,7 @@ from engine.perception.landmarks import mouth_opening
 from engine.performances import video
 from engine.persona.animating import with_composite
 from engine.persona.composite.framing import framed
+from engine.persona.early_average import BACKGROUND
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import read_persona, write_persona
 from engine.persona.pipeline import make_persona
@@ -56,6 +57,14 @@ def test_it_leaves_what_the_contract_names(whole: Path) -> None:
     assert faces["skipped"] == [{"file": "notes.jpg", "code": "not_an_image"}]
     sheet = read_image(whole / "out/faces.jpg").rgb
     assert sheet.shape[1] == faces["tile"] * faces["columns"]
+
+
+def test_the_average_is_the_face_alone_on_a_plain_background(whole: Path) -> None:
+    average = read_image(whole / "out/average.png").rgb
+    plain = (average == BACKGROUND).all(axis=-1)
+    assert plain[:3].all() and plain[-3:].all() and plain[:, :3].all() and plain[:, -3:].all()
+    height, width = plain.shape
+    assert not plain[height // 3 : 2 * height // 3, width // 3 : 2 * width // 3].any()
 
 
 def test_the_film_shows_the_face_on_its_background_and_moving(whole: Path) -> None:
