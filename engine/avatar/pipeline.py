@@ -179,7 +179,7 @@ def _scanned(
 ) -> Clipped:
     """A clip of the `whole` person or of a part with its cloud and landmarks, some `given` by hand, as large as the person is
     (`grown`)."""
-    seen = run.stage("find_landmarks", find_landmarks, frames, cameras, run.warn, run.tick)
+    seen = run.stage("find_landmarks", find_landmarks, frames, cameras, whole, run.warn, run.tick)
     dense = run.stage("measure_cloud", measure_cloud, frames, cameras, seen, run.tick)
     return frames, scan_clip(frames, seen, dense, given, whole).moved(grown)
 

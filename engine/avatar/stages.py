@@ -13,6 +13,7 @@ from engine.avatar.attachments.attaching import Sighting, attachments, standing_
 from engine.avatar.attachments.standing_off import well_supported
 from engine.avatar.capture.cameras import CaptureCameras, ClipCameras, solve_cameras
 from engine.avatar.capture.captured_view import CapturedView
+from engine.avatar.capture.carved_masks import within_hull
 from engine.avatar.capture.chosen_frames import ChosenFrames
 from engine.avatar.capture.dense import DenseCloud, dense_cloud
 from engine.avatar.capture.foot_masks import FootFrame, feet_of, told_from_floor
@@ -136,9 +137,10 @@ def lens_of_frames(lens: KnownLens, size: tuple[int, int], shrunk: tuple[int, in
     return Lens(np.array([lens.focal * scale, lens.k1, lens.k2]), centre, known=True)
 
 
-def find_landmarks(chosen: ChosenFrames, found: ClipCameras, warn: Warn, tick: Tick) -> ClipLandmarks:
-    """The landmarks that the frames of a clip show (section 3.3), and masks in which, by these, no hand or foot is missing. Warns of
-    what the face wears that is not fitted."""
+def find_landmarks(chosen: ChosenFrames, found: ClipCameras, whole: bool, warn: Warn, tick: Tick) -> ClipLandmarks:
+    """The landmarks that the frames of a clip show (section 3.3), and masks in which, by these, no hand or foot is missing; of a clip of
+    the `whole` person also without what of the room they let in below the shoulders. Warns of what the face wears that is not
+    fitted."""
     placed = placed_frames(found)
     cameras = [_camera_of(found, int(k), chosen.size) for k in placed]
     seen = []
@@ -154,6 +156,9 @@ def find_landmarks(chosen: ChosenFrames, found: ClipCameras, warn: Warn, tick: T
     limbs = shown_limbs(limbs_of(landmarks), believed, [frame.person for frame in frames])
     with_hands = [replace(one, mask=with_limbs(one.image, one.mask, one.person, limbs)) for one in frames]
     masks = told_from_floor(with_hands, feet_of(landmarks))
+    shoulders = [landmarks.body[name][1] for name in ("LeftShoulder", "RightShoulder") if name in landmarks.body]
+    if whole and shoulders:
+        masks = within_hull(masks, [frame.person for frame in frames], float(np.mean(shoulders)))
     return ClipLandmarks(placed, tuple(seen), tuple(masks))
 
 
