@@ -1,6 +1,6 @@
 """The figures of personas, printed as the tables of `docs/figures.md`.
 
-python benchmarks/persona.py speed|held_out|shape|flicker|all [--collections NAME ...]
+python benchmarks/persona.py speed|held_out|shape|correspondence|flicker|all [--collections NAME ...]
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from benchmarks.persona_figures import flicker, held_out, shape, speed
+from benchmarks.persona_figures import correspondence, flicker, held_out, shape, speed
 from benchmarks.tables import machine
 
-TABLES = ("speed", "held_out", "shape", "flicker")
+TABLES = ("speed", "held_out", "shape", "correspondence", "flicker")
 
 
 def main() -> None:
@@ -35,6 +35,8 @@ def main() -> None:
         held_out.held_out(given.collections, given.folds)
     if given.what in ("shape", "all"):
         shape.shape()
+    if given.what in ("correspondence", "all"):
+        correspondence.correspondence()
     if given.what in ("flicker", "all"):
         flicker.flicker(given.collections)
 
