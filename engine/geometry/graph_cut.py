@@ -83,11 +83,15 @@ def expansion_moves(
         raise ValueError("a node begins with a label that it cannot have")
     pairs = _costs(pair_cost, np.arange(len(ends)), current[ends[:, 0]], current[ends[:, 1]])
     cost, truncated = _sum(unary, ends, pairs, current), 0
+    settled: set[int] = set()  # the labels whose move changes nothing of what there is
     for _ in range(sweeps):
         before = cost
         for label in range(unary.shape[1]):
+            if label in settled:
+                continue
             takes, bent = _expansion(unary, ends, pair_cost, pairs, current, label)
             truncated += bent
+            settled.add(label)
             if not takes.any():
                 continue
             tried = np.where(takes, label, current)
@@ -96,6 +100,7 @@ def expansion_moves(
             new[moved] = _costs(pair_cost, moved, tried[ends[moved, 0]], tried[ends[moved, 1]])
             if (found := _sum(unary, ends, new, tried)) < cost:
                 current, cost, pairs = tried, found, new
+                settled = set() if bent else {label}  # what was the best move leaves none for its label
         if cost >= before:
             break
     return Labelling(current, cost, truncated)
