@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,7 +52,6 @@ class InnerPart:
     uv: NDArray[np.float32]
     texture: NDArray[np.uint8]
     moved: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
-    alpha: Literal["OPAQUE", "MASK"] = "OPAQUE"
 
 
 def inner_parts(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
@@ -105,7 +103,7 @@ def _mouth(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
     else:
         sheet = teeth_sheet(mouth.photo)
         bent = sheet.vertices + _evenly(skin.needed(sheet.vertices, {}))[:, None] * BACK
-        upper = InnerPart("upper_teeth", *sheet._replace(vertices=bent), alpha="MASK")
+        upper = InnerPart("upper_teeth", *sheet._replace(vertices=bent))
     row, flesh = modelled_teeth(at, False), tongue(at)
     lower = _set_back(row.vertices, skin, with_jaw(row.vertices))
     lying = _set_back(flesh.vertices, skin, with_jaw(flesh.vertices, TONGUE_SHARE))

@@ -18,6 +18,7 @@ from engine.persona.persona import Persona
 from engine.persona.puppet import Puppet
 from engine.persona.results.face_units import FaceUnits
 from engine.persona.results.inner_parts import InnerPart, inner_parts
+from engine.persona.results.inside_atlas import inside_atlas
 
 EYE_DISTANCE = 0.063
 """Metres between the middles of the eyes: people's mean, since no photograph tells how large somebody is."""
@@ -31,20 +32,22 @@ LEAST = 1e-4
 
 def write_puppet(path: Path, persona: Persona, units: FaceUnits, texture: NDArray[np.uint8], synthetic: bool) -> None:
     """Write the GLB: the neutral face with the average shape's relief, y up, facing +z, one joint that turns it, `Head`; all of ARKit's face
-    units; and behind openings for eyes and mouth what is there (`engine.persona.results.inner_parts`), each with a material of its own.
+    units; and behind openings for eyes and mouth what is there (`engine.persona.results.inner_parts`), with a material of its own.
 
     texture : (H, W, 3) of the persona's frame.
     """
     puppet = Puppet(persona, openings=True)
     metres = PICTURE_TO_TEMPLATE * EYE_DISTANCE
-    parts = [_skin(puppet, units, texture), *inner_parts(puppet, units)]
+    inside = inner_parts(puppet, units)
+    atlas, places = inside_atlas(inside)
+    parts = [_skin(puppet, units, texture), *inside]
     starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
     head = (np.array([NECK]) @ metres).astype(np.float32)
     mesh = SkinnedMesh(
         Skeleton(("Head",), np.array([-1], np.int32), head),
         (np.concatenate([part.vertices for part in parts]) @ metres).astype(np.float32),
         np.concatenate([part.triangles + start for part, start in zip(parts, starts, strict=False)]).astype(np.int32),
-        np.concatenate([part.uv for part in parts]),
+        np.concatenate([parts[0].uv, *places]),
         np.zeros((starts[-1], 4), np.uint8),
         np.tile(np.array([1, 0, 0, 0], np.float32), (starts[-1], 1)),
         texture,
@@ -53,8 +56,8 @@ def write_puppet(path: Path, persona: Persona, units: FaceUnits, texture: NDArra
     for unit in FACE_UNITS:
         moved = np.concatenate([part.moved.get(unit, np.zeros_like(part.vertices)) for part in parts])
         morphs.append(morph_target(unit, moved @ metres, LEAST))
-    materials = [Material("skin"), *(_material(part) for part in parts[1:])]
-    material_of = np.repeat(np.arange(len(parts)), [len(part.triangles) for part in parts])
+    materials = [Material("skin"), Material("inside", atlas, alpha="MASK", roughness=ROUGHNESS)]
+    material_of = np.repeat([0, 1], [len(parts[0].triangles), sum(len(part.triangles) for part in inside)])
     model = CharacterModel(mesh, unlit=False, morphs=morphs, materials=materials, material_of=material_of)
     write_glb(path, model, name="puppet", synthetic=synthetic)
 
@@ -63,7 +66,3 @@ def _skin(puppet: Puppet, units: FaceUnits, texture: NDArray[np.uint8]) -> Inner
     surface = puppet.surface
     moved = {name: puppet.finer(one) for name, one in zip(units.names, units.moved, strict=True)}
     return InnerPart("skin", puppet.vertices(puppet.persona.neutral), surface.triangles, surface.uv, texture, moved)
-
-
-def _material(part: InnerPart) -> Material:
-    return Material(part.name, part.texture, alpha=part.alpha, two_sided=part.alpha == "MASK", roughness=ROUGHNESS)

@@ -17,7 +17,9 @@ from engine.persona.results.behind_skin import BehindSkin
 from engine.persona.results.expression_textures import NAMES, expression_textures, write_expression_textures
 from engine.persona.results.face_units import EXPRESSIONS, FaceUnits
 from engine.persona.results.inner_parts import inner_parts
+from engine.persona.results.inside_atlas import inside_atlas
 from engine.persona.results.puppet_model import EYE_DISTANCE, write_puppet
+from engine.render.attributes import sample_texture
 
 
 @pytest.fixture(scope="module")
@@ -51,23 +53,30 @@ def test_its_units_are_morph_targets_of_a_face_in_metres(path: Path, persona: Pe
     np.testing.assert_allclose(jaw[: len(wanted)], wanted, atol=2e-4)
 
 
-def test_behind_its_skin_are_eyes_and_a_mouth_with_materials_of_their_own(path: Path) -> None:
+def test_behind_its_skin_are_eyes_and_a_mouth(path: Path, persona: Persona, units: FaceUnits) -> None:
     glb = Glb(path)
     primitives = glb.json["meshes"][0]["primitives"]
-    names = [glb.json["materials"][one["material"]]["name"] for one in primitives]
-    assert names[0] == "skin" and {"left_eye", "right_eye", "upper_teeth", "lower_teeth", "tongue", "mouth"} < {*names}
+    assert [glb.json["materials"][one["material"]]["name"] for one in primitives] == ["skin", "inside"]
+    assert glb.json["materials"][1]["alphaMode"] == "MASK", "teeth end where their photograph's do"
     places = glb.array(primitives[0]["attributes"]["POSITION"])
     targets = glb.json["meshes"][0]["extras"]["targetNames"]
+    puppet = Puppet(persona, openings=True)
+    parts = inner_parts(puppet, units)
+    starts = np.cumsum([len(puppet.surface.uv), *(len(part.vertices) for part in parts)])
+    spans = {
+        part.name: np.arange(start, start + len(part.vertices)) for part, start in zip(parts, starts, strict=False)
+    }
+    assert set(spans) > {"left_eye", "right_eye", "upper_teeth", "lower_teeth", "tongue", "mouth"}
+    assert len(places) == starts[-1]
 
     def moved(part: str, unit: str) -> np.ndarray:
-        used = np.unique(glb.array(primitives[names.index(part)]["indices"]))
-        return glb.array(primitives[0]["targets"][targets.index(unit)]["POSITION"])[used]
+        return glb.array(primitives[0]["targets"][targets.index(unit)]["POSITION"])[spans[part]]
 
     assert moved("lower_teeth", "jawOpen")[:, 1].max() < -0.004, "the lower row goes down with the jaw"
     assert not moved("upper_teeth", "jawOpen").any(), "and the upper one stays"
     assert moved("tongue", "tongueOut")[:, 2].max() > 0.02 and not moved("lower_teeth", "tongueOut").any()
     for side, away in (("left", 1), ("right", -1)):
-        front = np.unique(glb.array(primitives[names.index(f"{side}_eye")]["indices"]))
+        front = spans[f"{side}_eye"]
         iris = front[places[front, 2].argmax()]
         for way, axis, sign in (("In", 0, -away), ("Out", 0, away), ("Up", 1, 1), ("Down", 1, -1)):
             unit = f"eyeLook{way}{side.capitalize()}"
@@ -101,3 +110,16 @@ def test_textures_of_expressions_lie_side_by_side(persona: Persona, units: FaceU
         assert np.abs(kept.astype(int) - texture)[persona.frame.face].mean() < 4
     apart = np.abs(textures[1].astype(int) - textures[0])[persona.frame.face]
     assert apart.mean() > 0.5, "a smile has another texture"
+
+
+def test_textures_lie_below_one_another_in_one_picture(persona: Persona, units: FaceUnits) -> None:
+    parts = inner_parts(Puppet(persona, openings=True), units)
+    atlas, places = inside_atlas(parts)
+    assert atlas.shape[2] == 4 and atlas.shape[0] < 1200
+    for part, at in zip(parts, places, strict=True):
+        assert at.shape == part.uv.shape and at.min() > 0 and at.max() < 1
+        own, there = (
+            sample_texture(texture, uv[None], np.ones((1, len(uv)), np.bool_))[0, :, :3]
+            for texture, uv in ((part.texture, part.uv), (atlas, at))
+        )
+        assert np.abs(own - there).mean() < 6, part.name
