@@ -12,7 +12,7 @@ from engine.face_animation.mouth.hidden_regions import box_around, soft_polygon
 from engine.geometry.adjacency import edge_table
 from engine.geometry.surface import vertex_normals
 from engine.perception.landmarks import LIPS_INNER, eye_distance, mouth_opening
-from engine.persona.mouth.jaw import held_between, jaw_of
+from engine.persona.mouth.jaw import Jaw, held_between, jaw_of
 from engine.persona.mouth.mouth_colours import RAMP, MouthColours
 from engine.persona.mouth.mouth_light import in_mouth
 from engine.persona.mouth.mouth_parts import (
@@ -99,9 +99,7 @@ class ModelledMouth:
         camera = np.vstack([matrix, np.cross(matrix[0], matrix[1]) / scale])
         depths = self._at.front[:, 2]
         front = (np.asarray(face, np.float64) - shift - depths[:, None] * matrix[:, 2]) @ np.linalg.inv(matrix[:, :2]).T
-        edge = np.array([self._at.middle, self._at.edge - OVERBITE, self._at.depth + OVERJET])
-        lip = float(front[LOWER_MIDDLE, 1])
-        jaw = held_between(jaw_of(front, self._at.shut), edge, (lip - ABOVE_LIP, lip + BELOW_LIP))
+        jaw = jaw_behind_lips(self._at, front)
         lips = np.column_stack([front, depths])[list(LIPS_INNER)]
         upper, lower, flesh = np.split(self._vertices, self._ends)
         tongue_jaw = jaw._replace(angle=TONGUE_SHARE * jaw.angle)
@@ -129,6 +127,13 @@ class ModelledMouth:
         shade = facing * deep
         shade[len(self._vertices) :] = 1  # its ramp has its light
         return np.asarray(shade, np.float32)
+
+
+def jaw_behind_lips(at: RestingMouth, front: NDArray[np.floating]) -> Jaw:
+    """The jaw of a face that rests as `at` says and is `front` (478, 2 or 3) from the front: as its chin tells, and where its lower lip is."""
+    edge = np.array([at.middle, at.edge - OVERBITE, at.depth + OVERJET])
+    lip = float(front[LOWER_MIDDLE, 1])
+    return held_between(jaw_of(front, at.shut), edge, (lip - ABOVE_LIP, lip + BELOW_LIP))
 
 
 def shown_share(face: NDArray[np.floating], appearing: float) -> float:

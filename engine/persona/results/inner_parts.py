@@ -12,7 +12,8 @@ from scipy.ndimage import maximum_filter1d, uniform_filter1d
 from engine.perception.landmarks import LIPS_INNER
 from engine.persona.eyes.eye_texture import eye_textures
 from engine.persona.eyes.eyeball import EYES, eyeball, lid_rim
-from engine.persona.mouth.jaw import CHIN, jaw_of
+from engine.persona.mouth.jaw import CHIN
+from engine.persona.mouth.modelled_mouth import jaw_behind_lips
 from engine.persona.mouth.mouth_parts import (
     TONGUE_SHARE,
     bag_surface,
@@ -31,7 +32,9 @@ from engine.persona.results.face_units import OPEN_JAW, FaceUnits
 BACK = np.array([0.0, 0.0, 1.0])
 EVEN_COLUMNS = 4
 """Of a sheet of teeth to either side, over which its arch is bent."""
-JAW_UNITS = (OPEN_JAW, "jawForward", "jawLeft", "jawRight")
+JAW_MOVES = ("jawForward", "jawLeft", "jawRight")
+"""Face units that move a jaw as it is."""
+BAG_DEEPER = 1.5
 APART = np.array([0, 0, 2e-3])
 """Eye distances behind the skin at which what is tied to it begins: at one place with it, both would be shaded as one surface."""
 RIM_SHARE = 0.5
@@ -86,12 +89,11 @@ def _mouth(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
     persona = puppet.persona
     mouth = puppet_mouth(persona)
     at, colours = mouth.at, mouth.colours
-    jaws = {unit: jaw_of(persona.neutral + units.doing({unit: 1.0}), persona.neutral) for unit in JAW_UNITS}
+    open_jaw = jaw_behind_lips(at, persona.neutral + units.doing({OPEN_JAW: 1.0}))
 
     def with_jaw(vertices: NDArray[np.float64], share: float = 1.0) -> dict[str, NDArray[np.float64]]:
-        jaw = jaws[OPEN_JAW]
-        moves = {OPEN_JAW: jaw._replace(angle=share * jaw.angle).moved(vertices) - vertices}
-        for unit in JAW_UNITS[1:]:
+        moves = {OPEN_JAW: open_jaw._replace(angle=share * open_jaw.angle).moved(vertices) - vertices}
+        for unit in JAW_MOVES:
             chin = units.doing({unit: 1.0})[list(CHIN)].mean(axis=0)
             moves[unit] = np.broadcast_to(chin, vertices.shape)
         return moves
@@ -110,9 +112,9 @@ def _mouth(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
     out = {"tongueOut": tongue_put_out(), **with_jaw(lying, TONGUE_SHARE)}
     triangles, uv = bag_surface()
     lips = puppet.vertices(persona.neutral)[list(LIPS_INNER)] + APART
-    bag = mouth_bag(lips)
+    bag = mouth_bag(lips, BAG_DEEPER)
     follows = {
-        unit: mouth_bag(lips + moved[list(LIPS_INNER)]) - bag
+        unit: mouth_bag(lips + moved[list(LIPS_INNER)], BAG_DEEPER) - bag
         for unit, moved in zip(units.names, units.moved, strict=True)
     }
     bag[len(lips) :, 2] += skin.needed(bag, follows)[len(lips) :]  # its first ring is tied to the lips
