@@ -21,7 +21,7 @@ from engine.media.video import read_video
 from engine.perception.expression.features import frontalise
 from engine.perception.face_track.track import FaceTrack
 from engine.persona.composite.photo_performance import perform_photo
-from engine.persona.film import beside, puppet_frames
+from engine.persona.film import beside, puppet_frames, size_beside
 from engine.persona.motion.driver_rest import rest_of_frames
 from engine.persona.motion.performance import perform
 from engine.persona.options import PersonaOptions
@@ -80,18 +80,16 @@ def _play_video(
     with run.timed("perform"):
         performance = perform(persona, track.meshes, rest, run.tick)
     with run.timed("animate"):
-        width, height = options.size
-        alone = options.composite == "none"
-        frames = puppet_frames(
-            persona, performance, options.size if alone else (width // 2, height), options.background
-        )
-        if alone:
+        frames = puppet_frames(persona, performance, options.size, options.background)
+        if options.composite == "none":
             _write_film(frames, track, driver, options, out, run)
         else:
             excerpt = Excerpt(driver, options.fps, options.trim, run.limits)
             filmed = read_video(excerpt.path, excerpt.fps, excerpt.trim, excerpt.limits)
-            both = (beside(one.rgb, other, options.size) for one, other in zip(filmed, frames, strict=False))
-            _write_film(both, track, driver, options, out, run)
+            both = (beside(one.rgb, other, options.background) for one, other in zip(filmed, frames, strict=False))
+            size = size_beside((track.size[0], track.size[1]), options.size)
+            _write_film(both, track, driver, options.model_copy(update={"size": size}), out, run)
+            told["size"] = list(size)
     return told
 
 

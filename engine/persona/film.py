@@ -16,6 +16,8 @@ from engine.persona.puppet import Puppet
 
 HEADROOM = 1.25
 """Of the space that the face takes in all frames, that the picture has."""
+WIDEST = 2.0
+"""Times the puppet's width that a driver beside it may take."""
 TEXTURES_AT_ONCE = 16
 
 
@@ -41,15 +43,23 @@ def puppet_frames(
             yield from pool.map(draw, range(start, count), textures)
 
 
-def beside(left: NDArray[np.uint8], right: NDArray[np.uint8], size: tuple[int, int]) -> NDArray[np.uint8]:
-    """Two pictures side by side in one of `size` (width, height): the left one fitted into its half, black about it."""
+def size_beside(driver: tuple[int, int], size: tuple[int, int]) -> tuple[int, int]:
+    """The even (width, height) of a film of `size` (width, height) with a driver of that size beside it, as high as it, and
+    `WIDEST` times as wide at most."""
     width, height = size
-    half = width // 2
-    out = np.zeros((height, width, 3), np.uint8)
-    out[:, half:] = right
-    factor = min(half / left.shape[1], height / left.shape[0])
+    return width + 2 * round(min(driver[0] / driver[1] * height, WIDEST * width) / 2), height
+
+
+def beside(left: NDArray[np.uint8], right: NDArray[np.uint8], background: tuple[int, int, int]) -> NDArray[np.uint8]:
+    """(h, w, 3) two pictures side by side, as large as `size_beside` says: the left one fitted into its part, the background about
+    it."""
+    height, own = right.shape[:2]
+    width = size_beside((left.shape[1], left.shape[0]), (own, height))[0] - own
+    out = np.empty((height, width + own, 3), np.uint8)
+    out[:], out[:, width:] = background, right
+    factor = min(width / left.shape[1], height / left.shape[0])
     small = resized(left, (max(round(left.shape[1] * factor), 1), max(round(left.shape[0] * factor), 1)))
-    y, x = (height - small.shape[0]) // 2, (half - small.shape[1]) // 2
+    y, x = (height - small.shape[0]) // 2, (width - small.shape[1]) // 2
     out[y : y + small.shape[0], x : x + small.shape[1]] = small
     return out
 

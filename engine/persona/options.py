@@ -38,7 +38,10 @@ class PersonaOptions(BaseModel):
         description="Which of the person's looks to use, where the photos show several, of decades say: its number in `faces.json`, 0 is"
         " the one that most show. Default: all of them.",
     )
-    size: tuple[Side, Side] = Field((600, 800), description="Width and height of the animation, in pixels.")
+    size: tuple[Side, Side] = Field(
+        (600, 800),
+        description="Width and height of the animation, in pixels; `side_by_side` has the driver beside it, as high as it.",
+    )
     fps: Annotated[float, Field(ge=1, le=60)] | None = Field(
         None, description="Frames a second of the animation. Default: one frame for each frame of the driver."
     )

@@ -60,11 +60,8 @@ def _puppet(
     persona: Persona, rgb: NDArray[np.uint8], performance: Performance, options: PersonaOptions
 ) -> NDArray[np.uint8]:
     """(h, w, 3) the puppet in the one frame of a `performance`, alone or beside the picture (H, W, 3)."""
-    width, height = options.size
-    alone = options.composite == "none"
-    shown = (width if alone else width // 2, height)
-    frame = next(iter(puppet_frames(persona, performance, shown, options.background)))
-    return frame if alone else beside(rgb, frame, options.size)
+    frame = next(iter(puppet_frames(persona, performance, options.size, options.background)))
+    return frame if options.composite == "none" else beside(rgb, frame, options.background)
 
 
 def _face(rgb: NDArray[np.uint8], index: int) -> NDArray[np.float32]:

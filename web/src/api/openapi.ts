@@ -1868,7 +1868,7 @@ export interface components {
              */
             look?: number | null;
             /**
-             * @description Width and height of the animation, in pixels.
+             * @description Width and height of the animation, in pixels; `side_by_side` has the driver beside it, as high as it.
              * @default [
              *       600,
              *       800
