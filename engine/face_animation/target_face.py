@@ -20,8 +20,8 @@ class TargetFace:
     original_size : (width, height) of the original picture, pixels.
     place : (2, 3) float64, carries places in what `faces` refers to into `rgb`, both measured from the upper left corner of
         the first pixel: a scale and a shift.
-    people : (h, w) float32 in [0, 1], at whatever size, where people are believed to be in the original picture; None where
-        it is cropped.
+    people : (h, w) float32 in [0, 1], at whatever size, where people are believed to be in what `rgb` shows; None where
+        nobody has looked.
     """
 
     rgb: NDArray[np.uint8]

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from engine.face_animation.eyes.lower_lids import fit_lower_lids
 from engine.face_animation.target_face import TargetFace
-from engine.imaging.resample import even_size
+from engine.imaging.resample import even_size, resized
+from engine.perception.faces import find_faces
 from engine.perception.landmarks import FACE_OVAL
 from engine.perception.segmentation import people_confidence
 from engine.persona.collection.face_photo import FacePhoto
@@ -47,11 +48,23 @@ def framed(photo: FacePhoto, size: tuple[int, int]) -> TargetFace:
     mesh = photo.mesh.copy()
     mesh[:, :2] = (photo.mesh[:, :2] + 0.5) * scale + place[:, 2] - 0.5
     mesh[:, 2] *= scale
-    corner, end = _face_box(photo.mesh)
-    box = np.array([[*corner, *(end - corner)]], np.float32)
+    boxes = np.array([[*corner, *(end - corner)] for corner, end in map(_face_box, _faces(photo))], np.float32)
+    people = resized(people_confidence(photo.rgb), (photo.rgb.shape[1], photo.rgb.shape[0]))
+    people = np.asarray(cv2.warpAffine(people, matrix, (width, height), borderMode=cv2.BORDER_REPLICATE))
     fitted = fit_lower_lids(rgb.astype(np.uint8), mesh.astype(np.float32))
     original = (photo.rgb.shape[1], photo.rgb.shape[0])
-    return TargetFace(rgb.astype(np.uint8), None, fitted, box, original, place, people_confidence(photo.rgb))
+    return TargetFace(rgb.astype(np.uint8), None, fitted, boxes, original, place, people)
+
+
+def _faces(photo: FacePhoto) -> list[NDArray[np.float32]]:
+    """The meshes (478, 3) of the face that acts, and of all others in the photograph."""
+    low, high = _face_box(photo.mesh)
+
+    def another(mesh: NDArray[np.float32]) -> bool:
+        one, end = _face_box(mesh)
+        return bool(np.linalg.norm((one + end - low - high) / 2) > np.linalg.norm(high - low) / 2)
+
+    return [photo.mesh, *filter(another, find_faces(photo.rgb))]
 
 
 def _part(photo: FacePhoto, size: tuple[int, int]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -5,7 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from engine.media.video import read_video
+from engine.perception.faces import find_faces
 from engine.perception.head_pose import canonical_face
+from engine.perception.segmentation import people_confidence
+from engine.performances import video
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.composite.framing import framed, head_box
 
@@ -49,3 +53,21 @@ def test_places_of_the_mesh_are_those_of_the_picture() -> None:
     target = framed(one, (300, 400))
     rows, columns = np.nonzero(target.rgb[..., 0] > 128)
     assert np.abs(np.array([columns.mean(), rows.mean()]) - target.mesh[1, :2]).max() < 1.5
+
+
+def test_people_are_believed_where_the_framed_picture_shows_them() -> None:
+    """Somebody at the right of a wide photograph, and somebody else at its left: what is framed knows of both, in their places."""
+    one = next(iter(read_video(video("happy")))).rgb
+    side = one.shape[0]
+    wide = np.full((side, 2 * side, 3), 215, np.uint8)
+    wide[:, :side] = wide[:, side:] = one
+    right = max(find_faces(wide), key=lambda mesh: float(mesh[:, 0].mean()))
+    target = framed(FacePhoto(wide, right, 0), (300, 300))
+    assert target.people is not None and target.people.shape == target.rgb.shape[:2]
+    alone = people_confidence(target.rgb)
+    both = (target.people > 0.5) & (alone > 0.5)
+    assert both.sum() > 0.8 * ((target.people > 0.5) | (alone > 0.5)).sum()
+    own, others = target.face_boxes()
+    assert np.abs(own[:2] - target.mesh[:, :2].min(axis=0)).max() < 1
+    whole = framed(FacePhoto(wide, right, 0), (1200, 600)).face_boxes()[1]
+    assert len(others) <= len(whole) == 1, "and of whoever stands beside"
