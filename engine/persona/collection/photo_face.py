@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -22,6 +23,8 @@ MAX_FACES_OF_PHOTO = 12
 JUDGED_EYE_DISTANCE = 40.0
 """Pixels between the eyes at which blur is told: a large face is shrunk to it, so that what is told is of the face and not of the
 file's size."""
+NEAR_WIDTHS, LEAST_BESIDE = 2.5, 0.4
+"""Its widths within which another face is beside a face, and the share of them that the other has at least."""
 CHIP = ARCFACE_LAYOUT
 EYES = ((33, 133), (263, 362))
 
@@ -34,6 +37,7 @@ class PhotoFace:
     between the middles of the eyes. yaw, pitch : degrees by which it is turned to the picture's right, and down. blur : in [0, 1],
     as `engine.imaging.blur` tells. size_share : its width, in shares of that of the photograph's largest face. descriptor : (D,)
     float32. chip : (C, C) uint8 grey, the face laid on fixed places. year : in which the photograph was taken, where that is known.
+    beside : how many other faces are near it, and large enough to belong to whoever stands beside.
     """
 
     photo: int
@@ -46,6 +50,7 @@ class PhotoFace:
     descriptor: NDArray[np.float32]
     chip: NDArray[np.uint8]
     year: int | None = None
+    beside: int = 0
 
 
 def as_looked_at(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
@@ -57,7 +62,22 @@ def faces_of(rgb: NDArray[np.uint8], photo: int, describe: FaceDescriptor) -> li
     """The faces of a photograph `rgb` (H, W, 3) uint8, as `as_looked_at` gives it, the largest first."""
     meshes = find_faces(rgb, MAX_FACES_OF_PHOTO)
     widest = max((float(np.ptp(mesh[:, 0])) for mesh in meshes), default=1.0)
-    return [_face(rgb, photo, mesh, widest, describe) for mesh in meshes]
+    beside = _beside(meshes)
+    return [
+        replace(_face(rgb, photo, mesh, widest, describe), beside=count)
+        for mesh, count in zip(meshes, beside, strict=True)
+    ]
+
+
+def _beside(meshes: Sequence[NDArray[np.floating]]) -> list[int]:
+    """How many of the others are near each face (478, 3), and as large as `LEAST_BESIDE` of it."""
+    if not meshes:
+        return []
+    middles = np.array([mesh[:, :2].mean(axis=0) for mesh in meshes])
+    widths = np.array([float(np.ptp(mesh[:, 0])) for mesh in meshes])
+    near = np.linalg.norm(middles[:, None] - middles[None], axis=-1) < NEAR_WIDTHS * widths[:, None]
+    near &= widths[None] > LEAST_BESIDE * widths[:, None]
+    return [int(count) - 1 for count in near.sum(axis=1)]
 
 
 def _face(

@@ -1,4 +1,4 @@
-"""Which photograph of the person acts: from before, large, sharp, bare, with a calm face and the whole head."""
+"""Which photograph of the person acts: from before, large, sharp, bare, with a calm face, the whole head, and nobody beside."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ HIDDEN_SHARE = 0.08
 BLUR = 0.15
 LEAST_EYE_OPENING = 0.2
 """Of the eyes; shut ones stay shut."""
-SHUT_PENALTY, GREY_PENALTY = 3.0, 3.0
+SHUT_PENALTY, GREY_PENALTY, BESIDE_PENALTY = 3.0, 3.0, 2.0
+"""Of shut eyes, of black and white among photographs in colour, and of each face beside: whose pixels are whose is not always seen."""
 LOOKED_AT = 32
 """Photographs that are looked at, of those whose faces are best."""
 MIN_HEAD_SHARE = 0.5
@@ -64,4 +65,5 @@ def _face_score(face: PhotoFace) -> float:
     score = min(float(np.log2(face.eye_distance / LARGE_EYE_DISTANCE)), 0.0)
     score -= float(np.hypot(face.yaw, face.pitch)) / TURN_DEGREES
     score -= float(mouth_opening(face.mesh)) / OPENING + face.blur / BLUR
+    score -= BESIDE_PENALTY * face.beside
     return score - SHUT_PENALTY * (float(eye_opening(face.mesh).min()) < LEAST_EYE_OPENING)

@@ -46,3 +46,13 @@ def test_a_large_photograph_is_shrunk_and_a_small_one_left() -> None:
 
 def test_where_nobody_is_nothing_is_found() -> None:
     assert faces_of(np.full((300, 400, 3), 127, np.uint8), 0, face_descriptor({})) == []
+
+
+def test_whoever_stands_beside_is_counted(picture: np.ndarray) -> None:
+    describe = face_descriptor({})
+    (alone,) = faces_of(picture, 0, describe)
+    low, high = (np.rint(one).astype(int) for one in (alone.mesh[:, :2].min(axis=0), alone.mesh[:, :2].max(axis=0)))
+    width = int(high[0] - low[0])
+    bust = picture[max(0, low[1] - width) : high[1] + width, max(0, low[0] - width // 2) : high[0] + width // 2]
+    pair = faces_of(np.ascontiguousarray(np.hstack([bust, bust])), 1, describe)
+    assert alone.beside == 0 and [face.beside for face in pair] == [1, 1]

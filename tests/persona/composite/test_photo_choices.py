@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -50,6 +51,13 @@ def test_the_larger_and_the_barer_of_two_acts(collection: Collection) -> None:
     assert chosen is not None and chosen.number == 1
     hidden = portrait_photo(as_faces([half, mesh]), np.array([0.9, 0.5]), lambda number: (small, photo)[number])
     assert hidden is not None and hidden.number == 0
+
+
+def test_one_who_is_alone_acts_rather_than_one_of_two(collection: Collection) -> None:
+    mesh, photo = collection[0][0], collection[1][0]
+    both, alone = as_faces([mesh, mesh])
+    chosen = portrait_photo([replace(both, beside=1), alone], np.array([1.0, 0.95]), lambda number: photo)
+    assert chosen is not None and chosen.number == 1
 
 
 def test_photographs_that_cut_the_head_do_not_act(collection: Collection) -> None:
