@@ -24,15 +24,13 @@ def acting_mouth(persona: Persona, target: TargetFace, faces: NDArray[np.floatin
     rgb, mesh = target.rgb, target.mesh
     at = resting_mouth(frontalise(mesh[None])[0], persona.neutral)
     appearing = appearing_opening(mesh)
-    if persona.teeth is None:
+    strip = None if persona.teeth is None else teeth_strip(persona.teeth, float(eye_distance(mesh[:, :2])))
+    if persona.teeth is None or strip is None or not strip.has_crowns:
         run.warn(
             "no_teeth_shown",
-            "None of the photos shows the person's upper teeth from before and large enough: those between the lips are modelled. Add a"
-            " larger photo with a smile.",
+            "None of the photos shows the person's upper teeth from before, large and sharp enough: those between the lips are modelled. Add"
+            " a larger photo with a smile.",
         )
         return ModelledMouth(at, mouth_colours(rgb, mesh), True, appearing)
-    strip = teeth_strip(persona.teeth, float(eye_distance(mesh[:, :2])))
     colours = mouth_colours(rgb, mesh, strip.usual() * teeth_gain(rgb, mesh, persona.teeth, strip))
-    if not strip.has_crowns:
-        return ModelledMouth(at, colours, True, appearing)
     return PhotoTeeth(at, rgb, mesh, persona.teeth, ModelledMouth(at, colours, False, appearing), faces, appearing)

@@ -32,7 +32,7 @@ from engine.render.surface import Surface, draw_surface, triangle_spread
 
 LIP_SOFTNESS, LEAST_SOFT_PIXELS = 0.012, 0.8
 """Eye distances, and pixels, over which the inside passes into the lips: their edges are round, and the mesh's have corners."""
-AMBIENT = 0.5
+AMBIENT = 0.75
 """Of the light on a surface, that it has wherever it faces."""
 DARKENING = 0.9
 """Eye distances behind the upper teeth at which a third of the light is left."""

@@ -12,7 +12,7 @@ from engine.face_animation.mouth.hidden_regions import LUMINANCE_WEIGHTS
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 from engine.persona.mouth.skin_colour import is_grey, skin_colour
 
-ENAMEL, DENTINE = np.array([204, 195, 178.0]), np.array([182, 165, 134.0])
+ENAMEL, DENTINE = np.array([216, 209, 197.0]), np.array([198, 185, 162.0])
 GUM, TONGUE = np.array([176, 96, 95.0]), np.array([196, 110, 108.0])
 LINING, THROAT = np.array([140, 60, 58.0]), np.array([50, 17, 17.0])
 """sRGB, of mouths whose skin has the luminance `USUAL_SKIN`."""
@@ -20,9 +20,11 @@ USUAL_SKIN = 165.0
 LIGHT_RANGE = (0.35, 1.25)
 LIPS_SHARE = 0.5
 """Of the person's lips in what is flesh."""
-SKIN_SHARE = 0.3
-"""Of the skin's hue in modelled teeth: half the light that falls on them comes from it."""
-LOWER_TEETH = 0.8
+SKIN_SHARE = 0.2
+"""Of the skin's hue in modelled teeth: some of the light that falls on them comes from it."""
+LEAST_LIGHT = 1.1
+"""Of a skin's luminance, that upper teeth have at least: darker ones look like no teeth."""
+LOWER_TEETH = 0.88
 """Of the upper teeth's light, that lower ones have."""
 DARK_FROM = 0.8
 """Of the bag's depth, from which on it is as dark as the throat."""
@@ -51,6 +53,7 @@ def mouth_colours(
     lips = _lips(rgb, mesh)
     flesh = {name: _blended(light * colour, lips) for name, colour in (("gum", GUM), ("tongue", TONGUE))}
     edge = light * ENAMEL * (skin / luminance) ** SKIN_SHARE if teeth is None else np.asarray(teeth, np.float64)
+    edge = edge * max(LEAST_LIGHT * luminance / max(float(edge @ LUMINANCE_WEIGHTS), 1.0), 1.0)
     root = edge * (DENTINE / ENAMEL)
     along, aside = np.linspace(0, 1, RAMP[0]), np.linspace(0, 1, RAMP[1])
     crowns = np.where(

@@ -36,9 +36,9 @@ def puppet_mouth(persona: Persona) -> PersonaMouth:
     if persona.teeth is None:
         return PersonaMouth(at, mouth_colours(average, mesh), None)
     strip = teeth_strip(persona.teeth, float(eye_distance(mesh[:, :2])))
+    if not strip.has_crowns:  # a band tells of no colour, either: it is as much of lips and shadow
+        return PersonaMouth(at, mouth_colours(average, mesh), None)
     colours = mouth_colours(average, mesh, strip.usual() * teeth_gain(average, mesh, persona.teeth, strip))
-    if not strip.has_crowns:
-        return PersonaMouth(at, colours, None)
     behind = ModelledMouth(at, colours, False)
     open_mouth = persona.mesh[None, :, :2]
     return PersonaMouth(at, colours, PhotoTeeth(at, average, mesh, persona.teeth, behind, open_mouth))
