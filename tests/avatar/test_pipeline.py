@@ -221,7 +221,10 @@ def test_the_report_tells_coverage_and_the_files_that_they_are_synthetic(made: M
 
 
 def contents(path: Path) -> dict[str, bytes]:
-    """What a file holds; of an archive, which tells when it was made, its members."""
+    """What a file holds; of a film its frames, which an encoder may write in more than one way; of an archive, which tells when it was
+    made, its members."""
+    if path.suffix == ".mp4":
+        return {path.name: np.stack(read_frames(path)).tobytes()}
     if path.suffix != ".usdz":
         return {path.name: path.read_bytes()}
     with zipfile.ZipFile(path) as archive:
