@@ -16,7 +16,7 @@ from scipy.ndimage import maximum_filter1d, minimum_filter1d, uniform_filter
 
 from engine.imaging.filling.inpaint import inpaint
 from engine.imaging.masks.mask_distance import dilate_mask
-from engine.imaging.masks.mask_pieces import pieces_touching
+from engine.imaging.masks.mask_pieces import pieces_by_area, pieces_touching
 from engine.imaging.resample import enlarged_mask, resized
 
 SIDE_FROM, SIDE_TO = 0.6, 0.94
@@ -29,15 +29,22 @@ BIN = 6.0
 """CIE Lab units of a bin of colours; those beside it are alike."""
 RARE, DOUBTFUL = 0.12, 0.3
 """Shares of the sides below which a colour is none of the cloth's, and below which it is not where it touches such."""
-PATTERNED = 0.6
-"""How often all sides may have a colour, beside how often the middle has it: from here on it is a pattern's."""
+PATTERNED, MOST_OF_PATTERN = 0.6, 0.3
+"""How often all sides may have a colour, beside how often the middle has it, before it is a pattern's; and the share of a piece in such
+colours from which all of it is: half a word would be worse than one."""
+ROUND = 0.75
+"""Share of the trunk's width that a piece has at some height, if it goes round, as a belt does."""
+LEAST = 0.004
+"""Share of the trunk's pixels that a feature has at least: what is smaller is a pattern's, or a shadow."""
+CLOSED = 7
+"""Pixels of the grid between parts of one feature, as letters of a word."""
 MOST = 0.6
 """Share of the middle that the front alone may have: if it is more, the sides tell nothing, as where they have no light."""
 SKIN = 0.05
 """Share of a face from which a colour is its skin's."""
 MOST_BARE = 0.5
 """Share of the sides that may be bare: else it is cloth in a skin's colour, or nobody wears any."""
-EDGE = 2
+EDGE = 3
 """Pixels of the grid around what is taken off, in which it is mixed with the cloth."""
 LIGHTNESSES, HUES = 18, 44
 """Bins of lightness, and of each hue."""
@@ -92,31 +99,44 @@ def front_features(
         return nothing
     across = _across(trunk, legs, head)
     bins = _bins(rgb[across.mask])
-    sides = across.place > SIDE_FROM
+    sides = np.abs(across.place) > SIDE_FROM
     skin = _share(_bins(rgb[face]))[tuple(bins.T)] > SKIN
     skin &= bool(skin[sides].mean() < MOST_BARE)
     bare = pieces_touching(across.drawn(skin), across.drawn(skin & sides))
-    share = np.where(bare[across.mask], 1, _share_beside(bins, skin, across))
-    middle = across.place <= SIDE_FROM
-    if (share[middle] < RARE).mean() > MOST:
+    cloth = sides & ~skin & (np.abs(across.place) < SIDE_TO)
+    if not cloth.any():
         return nothing
+    share = np.where(bare[across.mask], 1, _share_beside(bins, cloth, across))
+    if (share[~sides] < RARE).mean() > MOST:
+        return nothing
+    beside, between = (_share(bins[one])[tuple(bins.T)] for one in (cloth, ~sides))
+    pattern = across.drawn(beside > PATTERNED * between)
     usual = np.ones(trunk.shape, np.float32)
-    usual[across.mask] = np.where(across.place < SIDE_TO, share, 1)
+    usual[across.mask] = np.where(np.abs(across.place) < SIDE_TO, share, 1)
     usual = np.asarray(cv2.medianBlur(usual, 3))
-    rare = pieces_touching(usual < DOUBTFUL, (usual < RARE) & across.drawn(middle))
-    closed = cv2.morphologyEx(rare.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((5, 5), np.uint8)) > 0
-    features = dilate_mask(closed, EDGE) & trunk
+    rare = pieces_touching(usual < DOUBTFUL, (usual < RARE) & across.drawn(~sides))
+    features = np.zeros_like(trunk)
+    for piece in pieces_by_area(rare, LEAST * trunk.sum(), connectivity=8):
+        rows = np.bincount(across.row, piece[across.mask], across.height)
+        wide = rows > ROUND * np.bincount(across.row, minlength=across.height)
+        goes_round = wide[across.shoulders + 1 :].any()
+        if not goes_round and pattern[piece].mean() < MOST_OF_PATTERN:
+            features |= piece
+    closed = cv2.morphologyEx(features.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((CLOSED, CLOSED), np.uint8)) > 0
+    features = dilate_mask(without_holes(closed), EDGE) & trunk
     return FrontFeatures(features, across.mask & ~features & ~dilate_mask(across.drawn(skin), EDGE))
 
 
-def _share_beside(bins: NDArray[np.intp], skin: NDArray[np.bool_], across: _Across) -> NDArray[np.float32]:
-    """Which share of the sides at its height has each pixel's colour, (P,), bare `skin` (P,) left out; 1 where all sides together have
-    it nearly as often as the middle has."""
-    sides = (across.place > SIDE_FROM) & (across.place < SIDE_TO)
-    cloth = sides & ~skin
+def without_holes(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """A mask (h, w) with all that it encloses."""
+    border = np.zeros_like(mask)
+    border[[0, -1]] = border[:, [0, -1]] = True
+    return ~pieces_touching(~mask, border)
+
+
+def _share_beside(bins: NDArray[np.intp], cloth: NDArray[np.bool_], across: _Across) -> NDArray[np.float32]:
+    """Which share of the `cloth` (P,) of the sides at its height has each pixel's colour, (P,)."""
     share = np.ones(len(bins), np.float32)
-    if not cloth.any():
-        return share
     reach = max(2, round(BAND * across.rows))
     for first in range(0, across.height, reach):
         here = (across.row >= first) & (across.row < first + reach)
@@ -124,8 +144,6 @@ def _share_beside(bins: NDArray[np.intp], skin: NDArray[np.bool_], across: _Acro
         near = cloth & (np.abs(across.row - height) <= reach)
         if near.any():
             share[here] = _share(bins[near])[tuple(bins[here].T)]
-    beside, between = (_share(bins[one])[tuple(bins.T)] for one in (cloth, across.place <= SIDE_FROM))
-    share[beside > PATTERNED * between] = 1
     return share
 
 
@@ -151,7 +169,7 @@ def _share(bins: NDArray[np.intp]) -> NDArray[np.float32]:
 @dataclass(frozen=True)
 class _Across:
     """Of the P pixels of a trunk with the legs beside it, `mask` (h, w), in its order: `row` (P,) how far from the head's end they are along it,
-    whole pixels, and `place` (P,) how far from its middle across it, 0 to 1 at the outline. `height`: rows in all; `shoulders`: the
+    whole pixels, and `place` (P,) how far from its middle across it, -1 at one outline and 1 at the other. `height`: rows in all; `shoulders`: the
     row at which it is as wide as usual; `rows`: the person's height, pixels."""
 
     mask: NDArray[np.bool_]
@@ -187,7 +205,7 @@ def _across(trunk: NDArray[np.bool_], legs: NDArray[np.bool_], head: NDArray[np.
     np.maximum.at(right, row, aside[mask])
     left, right = minimum_filter1d(left, 3), maximum_filter1d(right, 3)
     width = np.maximum(right - left, 1)
-    place = np.abs(2 * (aside[mask] - left[row]) / width[row] - 1)
+    place = 2 * (aside[mask] - left[row]) / width[row] - 1
     wide = width > SHOULDERS * np.median(width)
     rows = (trunk | legs | head).any(1)
     return _Across(mask, row, place, height, int(np.argmax(wide)), int(rows.sum()))
