@@ -5,6 +5,8 @@ import type { TalkingHeadPage } from './pages';
 
 const RATE = 22050; // samples a second that it expects
 const QUIET = 48; // of 765: two pixels that differ by less look the same
+/** Pixels from the line through the eyes, up to which a pixel may be theirs. */
+const CLEAR = 2;
 
 const head = new TalkingHead(document.getElementById('avatar')!, {
   lipsyncModules: [], // visemes come with the audio
@@ -36,10 +38,11 @@ function pixel(joint: string): [number, number] {
   return [((1 + x) / 2) * canvas.width, ((1 - y) / 2) * canvas.height];
 }
 
-/** Whether a pixel is on the forehead's side of the line through both eyes: heads are held at an angle. */
+/** Whether a pixel is on the forehead's side of the line through both eyes, and clear of it: heads are held at an angle, and move. */
 function aboveEyes(): (x: number, y: number) => boolean {
   const [[leftX, leftY], [rightX, rightY]] = [pixel('LeftEye'), pixel('RightEye')];
-  return (x, y) => (leftX - rightX) * (y - rightY) < (leftY - rightY) * (x - rightX);
+  const margin = CLEAR * Math.hypot(leftX - rightX, leftY - rightY);
+  return (x, y) => (leftX - rightX) * (y - rightY) < (leftY - rightY) * (x - rightX) - margin;
 }
 
 function place(joint: string) {
