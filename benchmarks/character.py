@@ -30,10 +30,10 @@ from benchmarks.known_truth.written_character import Written, outline, read_writ
 from benchmarks.stretching import stretched
 from benchmarks.tables import machine, table
 from engine.character import KIND
-from engine.character.measures import picture_camera
+from engine.character.film.person import Person
 from engine.character.options import CharacterOptions
-from engine.character.person import Person
 from engine.character.pipeline import cut_all_out, find_figures, reconstruct, wake_up
+from engine.character.rig.measures import picture_camera
 from engine.motion.library import CLIPS
 from engine.render.character import draw_character, prepare_character
 from engine.run import Run

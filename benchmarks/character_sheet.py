@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from benchmarks.character_steps import Woken, wake
 from benchmarks.contact_sheet import Row, at_height, contact_sheet, write_sheet
 from benchmarks.tables import machine
-from engine.character.measures import measure, pose
-from engine.character.strokes import LABEL_COLOURS
+from engine.character.figure.strokes import LABEL_COLOURS
+from engine.character.rig.measures import measure, pose
 from engine.geometry.camera import Camera
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place

@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.shared_media import media
-from engine.character.figure import Choice, Figure, find_figure
-from engine.character.label_map import Labels
+from engine.character.figure.figure import Choice, Figure, find_figure
+from engine.character.figure.silhouette import Silhouette, cut_out
+from engine.character.fit.template_fit import FittedBody
 from engine.character.options import CharacterOptions
-from engine.character.rigging import Character
-from engine.character.silhouette import Silhouette, cut_out
+from engine.character.parts.label_map import Labels
+from engine.character.parts.unseen_limbs import with_limbs_hidden
+from engine.character.rig.rigging import Character
 from engine.character.stages import build_mesh, fit_template, label, make_character
-from engine.character.template_fit import FittedBody
-from engine.character.unseen_limbs import with_limbs_hidden
 from engine.media.limits import Limits
 
 BY_HAND: Mapping[str, Mapping[str, tuple[float, float]]] = {

@@ -34,15 +34,15 @@ from benchmarks.known_truth.surface_distance import align, compare, sample_outsi
 from benchmarks.shared_media import media
 from benchmarks.tables import machine, table
 from benchmarks.truth_sheet import write_truth_sheet
-from engine.character import layers
-from engine.character.figure import Choice, Figure, find_figure
-from engine.character.measures import pose
-from engine.character.part_surface import ALONG, Surface, Warp, filled, part_surface
-from engine.character.silhouette import Silhouette, cut_out
+from engine.character.figure.figure import Choice, Figure, find_figure
+from engine.character.figure.silhouette import Silhouette, cut_out
+from engine.character.fit.template_fit import FittedBody, load_human, pose_template
+from engine.character.fit.template_maps import SideMaps
+from engine.character.parts.unseen_limbs import with_limbs_hidden
+from engine.character.rig.measures import pose
 from engine.character.stages import build_mesh, fit_template, label, make_character
-from engine.character.template_fit import FittedBody, load_human, pose_template
-from engine.character.template_maps import SideMaps
-from engine.character.unseen_limbs import with_limbs_hidden
+from engine.character.surface import layers
+from engine.character.surface.part_surface import ALONG, Surface, Warp, filled, part_surface
 from engine.errors import InputError
 from engine.geometry.registration.rigid import fit_similarity
 from engine.geometry.skinning import bone_transforms

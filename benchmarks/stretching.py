@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.measures import pose
-from engine.character.rigging import Character
+from engine.character.rig.measures import pose
+from engine.character.rig.rigging import Character
 from engine.geometry.skinning import skin
 from engine.motion.kinematics import pose_transforms
 from engine.motion.library import built_in

@@ -25,7 +25,7 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
 
 def _prepare() -> None:
     from engine.character import pipeline  # noqa: F401 - importing it is half of the preparation
-    from engine.character.template_fit import load_human
+    from engine.character.fit.template_fit import load_human
 
     load_human()  # a job may not read the user's cache, in which it lies
 

@@ -9,17 +9,18 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.cast_shadow import ground_shadow
-from engine.character.figure import Choice, Figure, find_figure
-from engine.character.film import LONGEST_SIDE, cast_of, film, film_size
-from engine.character.findings import character_names, write_findings
-from engine.character.left_out import warn_of_silhouette
-from engine.character.lit import lit_picture
-from engine.character.measures import measure, picture_camera
-from engine.character.motions import motion_in_use
+from engine.character.figure.figure import Choice, Figure, find_figure
+from engine.character.figure.silhouette import Silhouette, cut_out
+from engine.character.film.cast_shadow import ground_shadow
+from engine.character.film.film import LONGEST_SIDE, cast_of, film, film_size
+from engine.character.film.findings import character_names, write_findings
+from engine.character.film.lit import lit_picture
+from engine.character.film.motions import motion_in_use
+from engine.character.film.person import Person
 from engine.character.options import CharacterOptions
-from engine.character.person import Person
-from engine.character.silhouette import Silhouette, cut_out
+from engine.character.parts.unseen_limbs import with_limbs_hidden
+from engine.character.rig.left_out import warn_of_silhouette
+from engine.character.rig.measures import measure, picture_camera
 from engine.character.stages import (
     Background,
     build_mesh,
@@ -29,7 +30,6 @@ from engine.character.stages import (
     label,
     make_character,
 )
-from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
 from engine.export.animated_gif import MAX_GIF_SIDE
 from engine.export.encoders import VideoTarget

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from engine.character.template_fit import load_human
+from engine.character.fit.template_fit import load_human
 from engine.geometry.camera import Camera
 from engine.geometry.skinning import bone_transforms, skin
 from engine.geometry.surface import vertex_normals

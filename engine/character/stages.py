@@ -11,33 +11,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
-from engine.character.cast_shadow import CastShadow, find_cast_shadow
-from engine.character.crossed_arms import without_hidden_hand
-from engine.character.crossed_labels import label_crossed
-from engine.character.doubts import doubt_labels, require_labels
-from engine.character.face_region import face_ellipse, face_turn, in_profile, within_oval
-from engine.character.face_warp import JAW, Face
-from engine.character.figure import Figure
-from engine.character.hands import turn_hands
-from engine.character.head import turn_head
-from engine.character.head_sides import with_round_sides
-from engine.character.hem import with_cloth
-from engine.character.label_map import LabelHints, Labels, label_parts
-from engine.character.labels import ARMS
-from engine.character.layers import build_layers
-from engine.character.limb_edges import border
-from engine.character.limb_texture import LimbSurfaces
-from engine.character.measures import picture_camera, pose
+from engine.character.figure.crossed_arms import without_hidden_hand
+from engine.character.figure.doubts import doubt_labels, require_labels
+from engine.character.figure.face_region import face_ellipse, face_turn, in_profile, within_oval
+from engine.character.figure.figure import Figure
+from engine.character.figure.silhouette import Silhouette
+from engine.character.figure.strokes import read_labels, relabel
+from engine.character.film.cast_shadow import CastShadow, find_cast_shadow
+from engine.character.fit.hands import turn_hands
+from engine.character.fit.head import turn_head
+from engine.character.fit.template_fit import FittedBody, fit_figure, load_human, pose_template
 from engine.character.options import LabelStroke
-from engine.character.relaxing import relaxed
-from engine.character.rigging import Character, bind
-from engine.character.sheets import ClosedMesh, close
-from engine.character.silhouette import Silhouette
-from engine.character.strokes import read_labels, relabel
-from engine.character.template_fit import FittedBody, fit_figure, load_human, pose_template
-from engine.character.texture import BackTexture, PictureOnGrid, atlas, paint_tiles
-from engine.character.turned_over import without_backs_in_view
-from engine.character.unfound_hands import unfound_hands
+from engine.character.parts.crossed_labels import label_crossed
+from engine.character.parts.hem import with_cloth
+from engine.character.parts.label_map import LabelHints, Labels, label_parts
+from engine.character.parts.labels import ARMS
+from engine.character.parts.limb_edges import border
+from engine.character.parts.unfound_hands import unfound_hands
+from engine.character.rig.measures import picture_camera, pose
+from engine.character.rig.relaxing import relaxed
+from engine.character.rig.rigging import Character, bind
+from engine.character.rig.turned_over import without_backs_in_view
+from engine.character.surface.face_warp import JAW, Face
+from engine.character.surface.layers import build_layers
+from engine.character.surface.sheets import ClosedMesh, close
+from engine.character.texture.head_sides import with_round_sides
+from engine.character.texture.limb_texture import LimbSurfaces
+from engine.character.texture.texture import BackTexture, PictureOnGrid, atlas, paint_tiles
 from engine.geometry.simplification.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.imaging.filling.background_plate import background_plate

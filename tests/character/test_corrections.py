@@ -12,18 +12,18 @@ import pytest
 from pydantic import ValidationError
 
 from engine.body.parts import BODY_PARTS
-from engine.character.figure import Choice, Figure, find_figure
-from engine.character.label_map import Labels
-from engine.character.limb_texture import LimbSurfaces
+from engine.character.figure.figure import Choice, Figure, find_figure
+from engine.character.figure.posture import check_posture
+from engine.character.figure.silhouette import Silhouette, cut_out
+from engine.character.figure.strokes import LABEL_COLOURS, read_labels, read_mask, repaint_mask
+from engine.character.fit.template_fit import fit_figure, load_human, pose_template
 from engine.character.options import CharacterOptions, LabelStroke, MaskStroke
+from engine.character.parts.label_map import Labels
 from engine.character.pipeline import cut_all_out, find_figures, wake_up
-from engine.character.posture import check_posture
 from engine.character.sample import sample_picture
-from engine.character.silhouette import Silhouette, cut_out
 from engine.character.stages import fit_template, label
-from engine.character.strokes import LABEL_COLOURS, read_labels, read_mask, repaint_mask
-from engine.character.template_fit import fit_figure, load_human, pose_template
-from engine.character.texture import PictureOnGrid, paint_tiles
+from engine.character.texture.limb_texture import LimbSurfaces
+from engine.character.texture.texture import PictureOnGrid, paint_tiles
 from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits

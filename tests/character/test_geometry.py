@@ -12,19 +12,19 @@ from scipy.spatial.transform import Rotation
 from engine.body.body_space import load_body_space
 from engine.body.fitting.body_fitting import Fit
 from engine.body.parts import BODY_PARTS
-from engine.character.labels import (
+from engine.character.figure.picture_space import PictureCamera
+from engine.character.fit.template_fit import FittedBody
+from engine.character.fit.template_maps import side_maps
+from engine.character.parts.labels import (
     hair_beside_arms,
     refined_labels,
     rough_labels,
     without_specks,
 )
-from engine.character.occlusion import completed
-from engine.character.part_surface import Surface, part_surface, warp_part
-from engine.character.picture_space import PictureCamera
-from engine.character.rigging import KEPT_VOLUME, LEAST_VOLUME, at_rest, bind
-from engine.character.sheets import Layer, close
-from engine.character.template_fit import FittedBody
-from engine.character.template_maps import side_maps
+from engine.character.parts.occlusion import completed
+from engine.character.rig.rigging import KEPT_VOLUME, LEAST_VOLUME, at_rest, bind
+from engine.character.surface.part_surface import Surface, part_surface, warp_part
+from engine.character.surface.sheets import Layer, close
 from engine.geometry.camera import Camera
 from engine.geometry.skinning import skin
 from engine.geometry.welding import is_closed

@@ -14,7 +14,7 @@ import pytest
 from missing import missing
 
 from benchmarks.known_truth.written_character import outline, read_written
-from engine.character.measures import border_edges
+from engine.character.rig.measures import border_edges
 from engine.character.sample import sample_picture
 from engine.errors import InputError
 from engine.geometry.camera import Camera

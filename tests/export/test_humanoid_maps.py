@@ -8,7 +8,7 @@ import pytest
 
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
-from engine.character.template_fit import load_human
+from engine.character.fit.template_fit import load_human
 
 SIDES = ("Left", "Right")
 

@@ -337,7 +337,10 @@ def test_a_persona_of_pictures_in_memory_plays_again_from_its_file(tmp_path: Pat
     assert first.path.name == "animation.mp4" and probe_video(first.path).frames == 2
     again = galatea.make_persona(first.artifacts["persona.npz"], poster("happy-strong"), tmp_path / "again", **options)
     assert again.path.name == "still.png"
-    assert {one.code for one in again.warnings} == {"driver_rest_estimated", "no_teeth_shown"}  # the photos smile closed
+    assert {one.code for one in again.warnings} == {
+        "driver_rest_estimated",
+        "no_teeth_shown",
+    }  # the photos smile closed
     kept = galatea.make_persona(str(first.artifacts["persona.npz"]), None, tmp_path / "kept")
     assert kept.path.name == "persona.npz"
 

@@ -1,0 +1,59 @@
+"""Hair that a raised arm passes before: the head's, though the arm is nearer and may cut it in two."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.parts import BODY_PARTS
+from engine.character.parts.labels import ARMS, SPECK
+from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, ColourMixture, log_likelihood_ratio
+from engine.imaging.masks.mask_distance import dilate_mask
+from engine.imaging.masks.mask_pieces import pieces_touching, without_small_pieces
+
+OUTLINE = 0.008
+"""How far around the template's outline an arm's may be, as a share of the height."""
+CLEARLY = 3.0
+"""By how much likelier hair must be where the template has its arm (logarithms of probabilities)."""
+ACROSS = 0.05
+"""How wide an arm is that passes before hair, as a share of the height."""
+HAIRY, NOT_HAIR = 98.0, 0.4
+"""Percent of hair whose colours say what may be hair; share of an arm that may not be, at least, to be told from hair."""
+SOFT = 2.0
+"""Pixels over which likelihoods are averaged."""
+
+
+def hair_behind_arms(
+    rgb: NDArray[np.uint8], labels: NDArray[np.integer], template: NDArray[np.integer], sure: NDArray[np.integer]
+) -> NDArray[np.intp]:
+    """Labels (H, W) in which the hair that a raised arm passes before is the head's: pieces above the chin that are not `sure`
+    (H, W) to be the arm, have the colours of hair rather than of the arm, and would hang together with the head if the arm
+    were not before it. `template` (H, W): the projected template's labels."""
+    found = labels.astype(np.intp).copy()
+    head = BODY_PARTS.index("head")
+    hair = (labels == head) & (template != head)
+    if hair.sum() < MIN_SAMPLES or not (template == head).any():
+        return found
+    chin = int(np.flatnonzero((template == head).any(1))[-1])
+    colours = rgb.astype(np.float64)
+    of_hair = ColourMixture.fit(colours[hair])
+    hairy = float(np.percentile(of_hair.negative_log_likelihood(colours[hair]), HAIRY))
+    for arm in ARMS:
+        inner = (labels == arm) & ~_grown_by_share(template != arm, OUTLINE)
+        bare = inner.copy()
+        bare[inner] = of_hair.negative_log_likelihood(colours[inner]) > hairy
+        doubtful = (labels == arm) & (sure != arm)
+        doubtful[chin:] = False
+        if bare.sum() < max(MIN_SAMPLES, NOT_HAIR * inner.sum()) or doubtful.sum() < SPECK:
+            continue
+        likelier = log_likelihood_ratio(colours, doubtful, of_hair, ColourMixture.fit(colours[bare]), SOFT)
+        clear = np.where(_grown_by_share(template == arm, OUTLINE), CLEARLY, 0)
+        given = doubtful & (likelier > clear)
+        near = _grown_by_share(labels == head, ACROSS)
+        found[pieces_touching(without_small_pieces(given, SPECK), near)] = head
+    return found
+
+
+def _grown_by_share(mask: NDArray[np.bool_], share: float) -> NDArray[np.bool_]:
+    """A mask (H, W) grown by a share of its height."""
+    return dilate_mask(mask, max(1, round(share * mask.shape[0])))

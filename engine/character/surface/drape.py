@@ -1,0 +1,68 @@
+"""A skirt or the tails of a coat hang as a bell does, also towards the viewer and away.
+
+Beyond the paper, whose depth comes from the template's normals: two legs under a sheet, which from the side is as thin as
+the legs and drawn in at the hem.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
+
+from engine.character.parts.free_cloth import FreeCloth
+from engine.character.surface.part_surface import Surface
+from engine.character.surface.sheets import Layer
+from engine.imaging.masks.mask_distance import dilate_mask
+
+STEEPEST = 0.7
+"""By how much half of the depth may grow with a step down."""
+BOXY = 2.2
+"""Exponent of the cross-section, a superellipse: of 2 it would be an ellipse."""
+
+OPEN = 3.0
+"""How far cloth is open from beneath, in units of that over which it changes along the body."""
+
+
+def drape(body: Layer, cloth: FreeCloth) -> Layer:
+    """The body with its free cloth about as deep as it is wide."""
+    middle, half, share = (
+        np.array([getattr(ring, name) for ring in cloth.rings], np.float64) for name in ("middle", "half", "share")
+    )
+    middle, half, share = (
+        gaussian_filter1d(one, cloth.even, mode="nearest") for one in (middle, _hanging(half, STEEPEST), share)
+    )
+    if cloth.hangs:  # around both legs it is round, however close
+        share = np.maximum(share, cloth.begins(cloth.above))
+    share = share * cloth.begins()
+    depths = body.front.depth.copy(), body.back.depth.copy()
+    for k, row, columns in cloth.rows():
+        height = half[k] * (1 - np.abs(cloth.rings[k].across(columns)) ** BOXY) ** (1 / BOXY)
+        for depth, towards in zip(depths, (1, -1), strict=True):
+            own = depth[row, columns]
+            depth[row, columns] = own + share[k] * (middle[k] + towards * height - own)
+    front, back = (Surface(depth, side.weights) for depth, side in zip(depths, (body.front, body.back), strict=True))
+    return replace(body, front=front, back=back, hem=_hem(body.mask, cloth) if cloth.hangs else None)
+
+
+def _hem(mask: NDArray[np.bool_], cloth: FreeCloth) -> NDArray[np.float32]:
+    """How far cloth is open from beneath at its hem, pixels; 0 elsewhere (h, w)."""
+    first = cloth.rings[-1].row
+    if cloth.legs is not None and cloth.parted:
+        first = min(first, int(np.flatnonzero((cloth.legs >= 0).any(1))[0]) - 1)
+    hem = mask & cloth.worn & dilate_mask(~mask, 1)
+    hem[:first] = False
+    up, within = np.zeros(mask.shape, np.float32), hem
+    for step in range(1, round(OPEN * cloth.even) + 1):
+        within = within & np.roll(mask, step, 0)
+        up += within
+    return up
+
+
+def _hanging(half: NDArray[np.float64], steepest: float) -> NDArray[np.float64]:
+    """Depths (n,) that do not shrink downwards, for cloth hangs, nor grow by more than `steepest` from row to row."""
+    hung = np.maximum.accumulate(half)
+    rows = np.arange(len(hung))
+    return np.asarray(np.minimum.accumulate(hung - steepest * rows) + steepest * rows)
