@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.mouth.modelled.modelled_mouth import ModelledMouth
+from engine.face_animation.mouth.modelled.mouth_colours import mouth_colours
+from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.target_face import TargetFace
 from engine.perception.expression.features import frontalise
 from engine.perception.landmarks import eye_distance
-from engine.persona.mouth.modelled_mouth import ModelledMouth
-from engine.persona.mouth.mouth_colours import mouth_colours
 from engine.persona.mouth.photo_teeth import PhotoTeeth, appearing_opening, teeth_gain
-from engine.persona.mouth.resting_mouth import resting_mouth
 from engine.persona.mouth.teeth_strip import teeth_strip
 from engine.persona.persona import Persona
 from engine.run import Run

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.mouth.modelled.skin_colour import is_grey
 from engine.perception.landmarks import FACE_OVAL
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.collection.photo_face import PhotoFace
 from engine.persona.composite.portrait_choice import portrait_photo
-from engine.persona.mouth.skin_colour import is_grey
 from engine.persona.mouth.teeth_choice import teeth_photo
 from engine.persona.persona import Persona
 

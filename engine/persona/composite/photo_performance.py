@@ -13,6 +13,7 @@ from engine.errors import InputError
 from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.animation import FaceAnimation, Parts, RegisteredDriver, RiggedTarget
 from engine.face_animation.driver_tracking.neutral import choose_neutral_frame, warn_if_never_at_rest
+from engine.face_animation.mouth.modelled.skin_colour import is_grey
 from engine.face_animation.stages import analyse_driver, follow_driver, prepare_target
 from engine.face_animation.target_face import TargetFace
 from engine.perception.face_track.track import FaceTrack
@@ -21,7 +22,6 @@ from engine.persona.composite.framing import framed
 from engine.persona.composite.photo_film import act, photo_frames
 from engine.persona.composite.portrait_choice import WHOLE_HEAD_SHARE, head_share
 from engine.persona.composite.retouching import retouching_of
-from engine.persona.mouth.skin_colour import is_grey
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona
 from engine.persona.texture.expression_weights import SMOOTHING_FRAMES

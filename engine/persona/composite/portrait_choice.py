@@ -7,11 +7,11 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.mouth.modelled.skin_colour import is_grey
 from engine.perception.landmarks import eye_opening, mouth_opening
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.collection.photo_face import PhotoFace
 from engine.persona.composite.framing import head_box
-from engine.persona.mouth.skin_colour import is_grey
 
 LARGE_EYE_DISTANCE = 140.0
 """Pixels from which on a face is as large as any picture asks for."""

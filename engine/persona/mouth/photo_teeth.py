@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.mouth.hidden_regions import LUMINANCE_WEIGHTS, box_around, soft_polygon
+from engine.face_animation.mouth.modelled.modelled_mouth import LEAST_SOFT_PIXELS, LIP_SOFTNESS, shown_share
+from engine.face_animation.mouth.modelled.mouth_light import in_mouth
+from engine.face_animation.mouth.modelled.resting_mouth import CORNERS, FULL_OPENING, UPPER_MIDDLE, RestingMouth
+from engine.face_animation.mouth.modelled.skin_colour import is_grey, skin_colour
+from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, eye_distance, mouth_opening
 from engine.persona.collection.face_photo import FacePhoto
-from engine.persona.mouth.modelled_mouth import LEAST_SOFT_PIXELS, LIP_SOFTNESS, shown_share
-from engine.persona.mouth.mouth_light import in_mouth
-from engine.persona.mouth.resting_mouth import CORNERS, FULL_OPENING, UPPER_MIDDLE, RestingMouth
-from engine.persona.mouth.skin_colour import is_grey, skin_colour
-from engine.persona.mouth.skull import skull_camera
 from engine.persona.mouth.teeth_strip import ARCH, TeethStrip, teeth_strip
 
 APPEARING_OPENING = 0.03

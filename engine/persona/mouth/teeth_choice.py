@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.mouth.hidden_regions import LOWER_INNER_LIP, UPPER_INNER_LIP
+from engine.face_animation.mouth.modelled.skin_colour import is_grey
 from engine.perception.landmarks import eye_distance, mouth_opening
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.collection.photo_face import PhotoFace
-from engine.persona.mouth.skin_colour import is_grey
 
 MAX_YAW = 15.0
 """Degrees up to which a face shows both halves of its teeth."""

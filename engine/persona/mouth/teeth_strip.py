@@ -15,12 +15,12 @@ from engine.face_animation.mouth.hidden_regions import (
     UPPER_INNER_LIP,
     soft_polygon,
 )
+from engine.face_animation.mouth.modelled.resting_mouth import BEHIND_LIPS
+from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.imaging.resample import resized
 from engine.perception.expression.features import frontalise
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
 from engine.persona.collection.face_photo import FacePhoto
-from engine.persona.mouth.resting_mouth import BEHIND_LIPS
-from engine.persona.mouth.skull import skull_camera
 
 ARCH = 1.2
 """Eye distances by which teeth lie further back, for the square of one to the side."""

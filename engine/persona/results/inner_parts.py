@@ -9,12 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d, uniform_filter1d
 
-from engine.perception.landmarks import LIPS_INNER
-from engine.persona.eyes.eye_texture import eye_textures
-from engine.persona.eyes.eyeball import EYES, eyeball, lid_rim
-from engine.persona.mouth.jaw import CHIN
-from engine.persona.mouth.modelled_mouth import jaw_behind_lips
-from engine.persona.mouth.mouth_parts import (
+from engine.face_animation.mouth.modelled.jaw import CHIN
+from engine.face_animation.mouth.modelled.modelled_mouth import jaw_behind_lips
+from engine.face_animation.mouth.modelled.mouth_parts import (
     TONGUE_SHARE,
     bag_surface,
     modelled_teeth,
@@ -22,8 +19,11 @@ from engine.persona.mouth.mouth_parts import (
     tongue,
     tongue_put_out,
 )
+from engine.face_animation.mouth.modelled.skin_colour import skin_colour
+from engine.perception.landmarks import LIPS_INNER
+from engine.persona.eyes.eye_texture import eye_textures
+from engine.persona.eyes.eyeball import EYES, eyeball, lid_rim
 from engine.persona.mouth.persona_mouth import puppet_mouth
-from engine.persona.mouth.skin_colour import skin_colour
 from engine.persona.mouth.teeth_sheet import COLUMNS, teeth_sheet
 from engine.persona.puppet import Puppet
 from engine.persona.results.behind_skin import BehindSkin

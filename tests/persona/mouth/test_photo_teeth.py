@@ -6,13 +6,13 @@ import cv2
 import numpy as np
 import pytest
 
+from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
+from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.mouth.photo_teeth import PhotoTeeth, appearing_opening
-from engine.persona.mouth.resting_mouth import resting_mouth
-from engine.persona.mouth.skull import skull_camera
 from engine.persona.mouth.teeth_strip import teeth_strip
 
 SKIN = (190, 150, 130)

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from engine.body.face.face_points import PICTURE_TO_TEMPLATE
 from engine.body.subdivision import Subdivision, catmull_clark
 from engine.body.template import Template, load_template
+from engine.face_animation.mouth.modelled.resting_mouth import RestingMouth
 from engine.geometry.surface import triangulate
 from engine.perception.landmarks import LIPS_INNER
 from engine.performances.modelling.teeth import Arch, build_dentition
-from engine.persona.mouth.resting_mouth import RestingMouth
 
 EYE_DISTANCE = 0.063
 """Metres between the middles of the eyes: people's mean."""
@@ -44,7 +44,7 @@ class MouthPart:
     """A surface in the mouth, the jaw closed: of a head from the front, in eye distances, y down and z away.
 
     vertices : (V, 3) float64. triangles : (T, 3) int32, counter-clockwise from outside. uv : (V, 2) float32 on the part's ramp of colours
-    (`engine.persona.mouth.mouth_colours`).
+    (`engine.face_animation.mouth.modelled.mouth_colours`).
     """
 
     vertices: NDArray[np.float64]

@@ -9,13 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.mouth.hidden_regions import box_around, soft_polygon
-from engine.geometry.adjacency import edge_table
-from engine.geometry.surface import vertex_normals
-from engine.perception.landmarks import LIPS_INNER, eye_distance, mouth_opening
-from engine.persona.mouth.jaw import Jaw, held_between, jaw_of
-from engine.persona.mouth.mouth_colours import RAMP, MouthColours
-from engine.persona.mouth.mouth_light import in_mouth
-from engine.persona.mouth.mouth_parts import (
+from engine.face_animation.mouth.modelled.jaw import Jaw, held_between, jaw_of
+from engine.face_animation.mouth.modelled.mouth_colours import RAMP, MouthColours
+from engine.face_animation.mouth.modelled.mouth_light import in_mouth
+from engine.face_animation.mouth.modelled.mouth_parts import (
     OVERBITE,
     OVERJET,
     TONGUE_SHARE,
@@ -24,8 +21,11 @@ from engine.persona.mouth.mouth_parts import (
     mouth_bag,
     tongue,
 )
-from engine.persona.mouth.resting_mouth import RestingMouth
-from engine.persona.mouth.skull import skull_camera
+from engine.face_animation.mouth.modelled.resting_mouth import RestingMouth
+from engine.face_animation.mouth.modelled.skull import skull_camera
+from engine.geometry.adjacency import edge_table
+from engine.geometry.surface import vertex_normals
+from engine.perception.landmarks import LIPS_INNER, eye_distance, mouth_opening
 from engine.render.mipmap import build_mipmap
 from engine.render.scratch import Scratch
 from engine.render.surface import Surface, draw_surface, triangle_spread

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.mouth.hidden_regions import LUMINANCE_WEIGHTS
+from engine.face_animation.mouth.modelled.skin_colour import is_grey, skin_colour
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
-from engine.persona.mouth.skin_colour import is_grey, skin_colour
 
 ENAMEL, DENTINE = np.array([216, 209, 197.0]), np.array([198, 185, 162.0])
 GUM, TONGUE = np.array([176, 96, 95.0]), np.array([196, 110, 108.0])

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from engine.face_animation.mouth.modelled.jaw import CHIN, held_between, jaw_of
+from engine.face_animation.mouth.modelled.modelled_mouth import ModelledMouth
+from engine.face_animation.mouth.modelled.mouth_colours import mouth_colours
+from engine.face_animation.mouth.modelled.mouth_parts import modelled_teeth, mouth_bag
+from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
-from engine.persona.mouth.jaw import CHIN, held_between, jaw_of
-from engine.persona.mouth.modelled_mouth import ModelledMouth
-from engine.persona.mouth.mouth_colours import mouth_colours
-from engine.persona.mouth.mouth_parts import modelled_teeth, mouth_bag
-from engine.persona.mouth.resting_mouth import resting_mouth
 
 LOWER = [*LIPS_INNER[11:], *LIPS_OUTER[11:], *CHIN]
 EYES = 80.0
