@@ -168,6 +168,7 @@ def make_persona(
     out: Folder,
     *,
     driver_photos: Photos | None = None,
+    background_picture: File | None = None,
     progress: Follower | None = None,
     cache: Folder | None = None,
     mark_synthetic: bool = True,
@@ -182,6 +183,7 @@ def make_persona(
     driver : a video of a face, a picture of one, or the name of a built-in performance; None makes the persona alone.
     out : folder for the artifacts, made if it is not there. After an error it is as it was.
     driver_photos : photographs of the driver, which tell what the face is like at rest.
+    background_picture : a picture for the puppet to stand before.
     progress, cache, mark_synthetic : as of `animate`.
     options : those of the job kind `persona`, such as `composite="photo"`.
 
@@ -200,6 +202,8 @@ def make_persona(
             inputs["driver"] = video(str(driver)) if named else file(driver, "driver", held, names())
         if driver_photos is not None:
             inputs["driver_photos"] = photo_files(driver_photos, "driver_photos", held)
+        if background_picture is not None:
+            inputs["background_picture"] = file(background_picture, "background_picture", held)
         with _run(progress, cache, mark_synthetic, held) as run:
             made = deliver(persona.KIND, inputs, chosen, Path(out), run)
     main = next(name for name in ("animation.mp4", "still.png", "persona.npz") if name in {one.name for one in made})

@@ -86,6 +86,12 @@ KIND = Kind(
             many=True,
             personal=True,
         ),
+        Input(
+            "background_picture",
+            "image",
+            "A picture for the puppet to stand before, instead of a plain colour. It is made to cover the film.",
+            required=False,
+        ),
     ),
     options=PersonaOptions,
     work=_work,

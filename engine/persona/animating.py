@@ -20,6 +20,7 @@ from engine.media.sniff import IMAGE_TYPES, VIDEO_TYPES, is_still_webp, sniff
 from engine.media.video import read_video
 from engine.perception.expression.features import frontalise
 from engine.perception.face_track.track import FaceTrack
+from engine.persona.backdrop import backdrop
 from engine.persona.composite.photo_performance import perform_photo
 from engine.persona.film import beside, puppet_frames, size_beside
 from engine.persona.motion.driver_rest import rest_of_frames
@@ -31,10 +32,13 @@ from engine.persona.still import play_picture
 from engine.run import Run
 
 
-def with_composite(options: PersonaOptions, persona: Persona, run: Run) -> PersonaOptions:
-    """The options with what is seen of this `persona`, where they leave it open; warns `puppet_alone` where it cannot be a photograph."""
+def with_composite(options: PersonaOptions, persona: Persona, behind: bool, run: Run) -> PersonaOptions:
+    """The options with what is seen of this `persona`, where they leave it open: the puppet, if it is to stand before a picture that
+    is `behind` it; warns `puppet_alone` where it cannot be a photograph."""
     if options.composite != "auto":
         return options
+    if behind:
+        return options.model_copy(update={"composite": "none"})
     if persona.portrait is None:
         run.warn(
             "puppet_alone",
@@ -53,8 +57,13 @@ def animate_persona(
 ) -> dict[str, object]:
     """Let the puppet play `inputs["driver"]`, a video or a picture, whose face at rest `inputs["driver_photos"]` tell, if there are any;
     what the report says of it."""
-    driver, photos = inputs["driver"], inputs.get("driver_photos", ())
-    assert isinstance(driver, Path) and isinstance(photos, tuple)
+    driver, photos, behind = inputs["driver"], inputs.get("driver_photos", ()), inputs.get("background_picture")
+    assert isinstance(driver, Path) and isinstance(photos, tuple) and (behind is None or isinstance(behind, Path))
+    if behind is not None and options.composite == "photo":
+        run.warn(
+            "background_unused",
+            "A photo that acts keeps its own background: choose composite `none` or `side_by_side` to see the picture behind the puppet.",
+        )
     if options.composite == "photo" and not is_picture(driver):
         if photos:
             run.warn(
@@ -64,13 +73,20 @@ def animate_persona(
         return _film_photo(persona, driver, options, out, run)
     rest = run.stage("find_driver_at_rest", rest_of_photos, photos, run.limits, run.tick).face if photos else None
     if is_picture(driver):
-        return play_picture(persona, driver, rest, options, out, run)
-    return _play_video(persona, driver, rest, options, out, run)
+        return play_picture(persona, driver, rest, behind, options, out, run)
+    return _play_video(persona, driver, rest, behind, options, out, run)
 
 
 def _play_video(
-    persona: Persona, driver: Path, rest: NDArray[np.float64] | None, options: PersonaOptions, out: Path, run: Run
+    persona: Persona,
+    driver: Path,
+    rest: NDArray[np.float64] | None,
+    behind: Path | None,
+    options: PersonaOptions,
+    out: Path,
+    run: Run,
 ) -> dict[str, object]:
+    plate = backdrop(options.background, options.size, behind, run.limits)
     track = follow_driver(driver, options.fps, options.trim, options.driver_face_index, run).once()
     told: dict[str, object] = {"frames": len(track), "fps": track.fps, "driver_size": list(track.size)}
     if rest is None:
@@ -80,7 +96,7 @@ def _play_video(
     with run.timed("perform"):
         performance = perform(persona, track.meshes, rest, run.tick)
     with run.timed("animate"):
-        frames = puppet_frames(persona, performance, options.size, options.background)
+        frames = puppet_frames(persona, performance, plate)
         if options.composite == "none":
             _write_film(frames, track, driver, options, out, run)
         else:

@@ -22,19 +22,16 @@ TEXTURES_AT_ONCE = 16
 
 
 def puppet_frames(
-    persona: Persona, performance: Performance, size: tuple[int, int], background: tuple[int, int, int]
+    persona: Persona, performance: Performance, background: NDArray[np.uint8]
 ) -> Iterator[NDArray[np.uint8]]:
-    """(h, w, 3) frames of `size` (width, height): the puppet alone, moving as the driver's head does, and as large as lets all of it
-    be seen in every frame."""
-    width, height = size
-    plain = np.empty((height, width, 3), np.uint8)
-    plain[:] = background
+    """(h, w, 3) frames: the puppet alone before a `background` (h, w, 3), moving as the driver's head does, and as large as lets all of
+    it be seen in every frame."""
     puppet = Puppet(persona)
-    scale, shift = _framing(performance, size)
+    scale, shift = _framing(performance, (background.shape[1], background.shape[0]))
 
     def draw(number: int, texture: NDArray[np.uint8]) -> NDArray[np.uint8]:
         placing = performance.linear[number] * scale, performance.shift[number] * scale + shift
-        return puppet.draw(performance.faces[number], texture, placing, plain)
+        return puppet.draw(performance.faces[number], texture, placing, background)
 
     count = len(performance.faces)
     with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="film") as pool:

@@ -53,8 +53,8 @@ class PersonaOptions(BaseModel):
     )
     composite: Literal["auto", "none", "photo", "side_by_side"] = Field(
         "auto",
-        description="What is seen: the puppet alone on a plain background (none), the person as they are in one of the photos (photo), or the"
-        " puppet beside the driver (side_by_side). By itself (auto) a photo, where one shows half a head, else the puppet alone.",
+        description="What is seen: the puppet alone before a plain background or a picture (none), the person as they are in one of the photos (photo), or the"
+        " puppet beside the driver (side_by_side). By itself (auto) a photo, where one shows half a head and no `background_picture` is given, else the puppet alone.",
     )
     photo: FaceNumber | None = Field(
         None,
@@ -70,6 +70,6 @@ class PersonaOptions(BaseModel):
         description="Photos to leave in the light that all have in the mean, as `average_light_N.png`: faces by their numbers in `faces.json`.",
     )
     background: tuple[Channel, Channel, Channel] = Field(
-        (58, 60, 64), description="Red, green and blue of the plain background."
+        (58, 60, 64), description="Red, green and blue of the plain background, where no `background_picture` is given."
     )
     sound: bool = Field(False, description="Keep the driver's sound.")

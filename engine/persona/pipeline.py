@@ -67,7 +67,7 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
             for number, photo in relit.items():
                 write_still(out / f"average_light_{number}.png", in_average_light(persona, photo), run.mark_synthetic)
     if isinstance(driver, Path):
-        options = with_composite(options, persona, run)
+        options = with_composite(options, persona, "background_picture" in inputs, run)
         run.plan(_plan(inputs, options))
         if options.light != "own":
             persona, strength = in_light(persona, options.light)

@@ -12,6 +12,7 @@ from engine.export.still import write_still
 from engine.media.image import over_grey, read_image
 from engine.perception.expression.features import frontalise
 from engine.perception.faces import find_faces
+from engine.persona.backdrop import backdrop
 from engine.persona.collection.photo_face import as_looked_at
 from engine.persona.composite.photo_still import expression_of_photo
 from engine.persona.film import beside, puppet_frames
@@ -26,12 +27,13 @@ def play_picture(
     persona: Persona,
     picture: Path,
     rest: NDArray[np.float64] | None,
+    behind: Path | None,
     options: PersonaOptions,
     out: Path,
     run: Run,
 ) -> dict[str, object]:
     """Leave `still.png`, the puppet, or a photograph, with the expression of `picture`. `rest` (478, 3) is that face at rest, from the front, in eye
-    distances; None has it estimated. What the report says of it.
+    distances; None has it estimated. `behind` is a picture to stand before. What the report says of it.
 
     Raises
     ------
@@ -50,17 +52,22 @@ def play_picture(
     if options.composite == "photo":
         still = expression_of_photo(persona, rgb, mesh, rest, options, run)
     else:
-        still = _puppet(persona, rgb, perform(persona, mesh[None], rest), options)
+        plate = backdrop(options.background, options.size, behind, run.limits)
+        still = _puppet(persona, rgb, perform(persona, mesh[None], rest), plate, options)
     for name in ("still.png", "poster.jpg"):
         write_still(out / name, still, run.mark_synthetic)
     return {"driver_size": list(rgb.shape[1::-1])}
 
 
 def _puppet(
-    persona: Persona, rgb: NDArray[np.uint8], performance: Performance, options: PersonaOptions
+    persona: Persona,
+    rgb: NDArray[np.uint8],
+    performance: Performance,
+    plate: NDArray[np.uint8],
+    options: PersonaOptions,
 ) -> NDArray[np.uint8]:
-    """(h, w, 3) the puppet in the one frame of a `performance`, alone or beside the picture (H, W, 3)."""
-    frame = next(iter(puppet_frames(persona, performance, options.size, options.background)))
+    """(h, w, 3) the puppet in the one frame of a `performance`, alone or beside the picture (H, W, 3), before the `plate` (h, w, 3)."""
+    frame = next(iter(puppet_frames(persona, performance, plate)))
     return frame if options.composite == "none" else beside(rgb, frame, options.background)
 
 

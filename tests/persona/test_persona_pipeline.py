@@ -148,6 +148,18 @@ def test_a_picture_gives_its_expression(whole: Path, tmp_path: Path, composite: 
     assert openings[0] < 0.1 < openings[1] - 0.1, "shut, and open"
 
 
+def test_the_puppet_stands_before_a_picture_of_ones_own(whole: Path, tmp_path: Path) -> None:
+    sky = tmp_path / "sky.png"
+    write_image(sky, np.full((90, 160, 3), (90, 140, 220), np.uint8))
+    inputs = {"persona": whole / "out/persona.npz", "driver": whole / "photos/00.jpg", "background_picture": sky}
+    with Run() as run:
+        make_persona(inputs, OPTIONS.model_copy(update={"composite": "auto", "size": (150, 200)}), tmp_path, run)
+    still = read_image(tmp_path / "still.png").rgb
+    assert still.shape == (200, 150, 3)
+    assert np.abs(still[:8, :8].astype(int) - (90, 140, 220)).max() <= 3
+    assert np.abs(still[80:120, 60:90].astype(int) - (90, 140, 220)).mean() > 30, "before it is the puppet"
+
+
 def test_a_picture_without_a_face_is_refused(whole: Path, tmp_path: Path) -> None:
     write_image(tmp_path / "sky.png", np.full((200, 300, 3), (90, 140, 220), np.uint8))
     inputs = {"persona": whole / "out/persona.npz", "driver": tmp_path / "sky.png"}
@@ -226,7 +238,8 @@ def test_a_persona_whose_photographs_all_cut_the_head_cannot_act_as_one(whole: P
 def test_by_itself_the_person_is_seen_where_a_photograph_shows_a_head(whole: Path, tmp_path: Path) -> None:
     persona = read_persona(whole / "out/persona.npz")
     auto = OPTIONS.model_copy(update={"composite": "auto"})
-    for shown, expected in ((persona, "photo"), (replace(persona, portrait=None), "none")):
+    without = replace(persona, portrait=None)
+    for shown, behind, expected in ((persona, False, "photo"), (without, False, "none"), (persona, True, "none")):
         with Run() as run:
-            assert with_composite(auto, shown, run).composite == expected
-        assert [notice.code for notice in run.notices] == (["puppet_alone"] if expected == "none" else [])
+            assert with_composite(auto, shown, behind, run).composite == expected
+        assert [notice.code for notice in run.notices] == (["puppet_alone"] if shown is without else [])

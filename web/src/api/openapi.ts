@@ -1897,7 +1897,7 @@ export interface components {
              */
             driver_face_index?: number;
             /**
-             * @description What is seen: the puppet alone on a plain background (none), the person as they are in one of the photos (photo), or the puppet beside the driver (side_by_side). By itself (auto) a photo, where one shows half a head, else the puppet alone.
+             * @description What is seen: the puppet alone before a plain background or a picture (none), the person as they are in one of the photos (photo), or the puppet beside the driver (side_by_side). By itself (auto) a photo, where one shows half a head and no `background_picture` is given, else the puppet alone.
              * @default auto
              * @enum {string}
              */
@@ -1919,7 +1919,7 @@ export interface components {
              */
             average_light?: number[];
             /**
-             * @description Red, green and blue of the plain background.
+             * @description Red, green and blue of the plain background, where no `background_picture` is given.
              * @default [
              *       58,
              *       60,

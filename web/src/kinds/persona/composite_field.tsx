@@ -11,6 +11,9 @@ export const USUAL_COMPOSITE = 'auto';
 /** Those in which a photo acts, 'auto' where one can. */
 export const actsByPhoto = (composite: string): boolean => composite === 'photo' || composite === USUAL_COMPOSITE;
 
+/** Those in which the puppet is seen, alone or beside the performer. */
+export const isPuppet = (composite: string): boolean => !actsByPhoto(composite);
+
 /** In the order in which they are offered; what the service has besides comes last. */
 const known = Object.keys(words.composites);
 

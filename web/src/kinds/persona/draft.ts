@@ -14,6 +14,8 @@ export interface Draft {
   persona: Earlier | null;
   /** Photos of who performs. */
   performer: readonly Collected[];
+  /** A picture for the puppet to stand before. */
+  backdrop: File | null;
   /** Undefined: nobody has chosen yet. Null: none. */
   performance: Performance | null | undefined;
   agreed: boolean;
@@ -21,7 +23,7 @@ export interface Draft {
 }
 
 const EMPTY: Draft = {
-  ...{ from: 'photos', photos: [], others: 0, persona: null, performer: [] },
+  ...{ from: 'photos', photos: [], others: 0, persona: null, performer: [], backdrop: null },
   ...{ performance: undefined, agreed: false, options: {} },
 };
 

@@ -43,5 +43,5 @@ export const persona: Kind<PersonaOrder> = {
     opened: /^(animation\.mp4|still\.png|puppet\.glb|puppet_textures\.(jpg|json)|poster\.jpg)$/,
   },
   files: words.files,
-  endings: { photos: 'zip', persona: 'npz', driver: 'mp4', driver_photos: 'zip' },
+  endings: { photos: 'zip', persona: 'npz', driver: 'mp4', driver_photos: 'zip', background_picture: 'png' },
 };

@@ -3,10 +3,12 @@
 import { useId } from 'preact/hooks';
 import { useDescriptions } from '../../kind/offered';
 import { Checkbox } from '../../widgets/checkbox';
+import { FileButton } from '../../widgets/file_button';
 import { SelectField } from '../../widgets/select';
 import { OptionFields, type Options } from '../generic/fields';
 import { type Field, fieldsOf } from '../generic/schema';
 import { colourOf, hexOf } from './colour';
+import { isPuppet } from './composite_field';
 import { words as personaWords } from './words';
 
 const words = personaWords.studio;
@@ -18,10 +20,13 @@ const USUAL_BACKGROUND = [58, 60, 64] as const;
 interface Props {
   value: Options;
   mayHaveSound: boolean;
+  /** What the puppet stands before, instead of a plain colour; undefined where that is not asked. */
+  backdrop?: File | null;
+  onBackdrop?: (backdrop: File | null) => void;
   onChange: (options: Options) => void;
 }
 
-export function PersonaOptionFields({ value, mayHaveSound, onChange }: Props) {
+export function PersonaOptionFields({ value, mayHaveSound, backdrop, onBackdrop, onChange }: Props) {
   const id = useId();
   const description = useDescriptions()?.find(({ name }) => name === 'persona');
   const others = fieldsOf(description?.options_schema ?? {}).flatMap((field): Field[] => {
@@ -42,7 +47,7 @@ export function PersonaOptionFields({ value, mayHaveSound, onChange }: Props) {
         nameOf={(one) => words.videoSizes[one] ?? one}
         onChange={(one) => set('size', one === usualSize ? undefined : one.split('x').map(Number))}
       />
-      {value.composite !== 'photo' && value.composite !== 'auto' && (
+      {isPuppet(String(value.composite)) && (
         <div class="field">
           <label for={id}>{words.background}</label>
           <input
@@ -51,6 +56,16 @@ export function PersonaOptionFields({ value, mayHaveSound, onChange }: Props) {
             value={hexOf((value.background as readonly number[] | undefined) ?? USUAL_BACKGROUND)}
             onInput={({ currentTarget }) => set('background', colourOf(currentTarget.value))}
           />
+          {onBackdrop && (
+            <div class="actions">
+              <FileButton label={backdrop?.name ?? words.backdrop.choose} name={words.backdrop.name} accept="image/*" onFile={onBackdrop} />
+              {backdrop && (
+                <button type="button" class="button quiet" onClick={() => onBackdrop(null)}>
+                  {words.backdrop.without}
+                </button>
+              )}
+            </div>
+          )}
         </div>
       )}
       <OptionFields fields={others} value={value} onChange={onChange} />

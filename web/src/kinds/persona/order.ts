@@ -25,10 +25,12 @@ export interface PersonaOrder extends Order {
   performance: Performance | null;
   /** Photos of who performs. */
   performer: readonly Collected[];
+  /** What the puppet stands before, instead of a plain colour. */
+  backdrop?: File | null;
   options: object;
 }
 
-export const personaOrder = (given: Pick<PersonaOrder, 'source' | 'performance' | 'performer' | 'options'>): PersonaOrder => ({
+export const personaOrder = (given: Pick<PersonaOrder, 'source' | 'performance' | 'performer' | 'backdrop' | 'options'>): PersonaOrder => ({
   ...given,
   kind: 'persona',
   ...{ key: randomKey(), sent: {} },
@@ -49,12 +51,13 @@ export const namesOf = ({ source, performance }: PersonaOrder): OrderNames => ({
 });
 
 export async function request(order: PersonaOrder, upload: Upload): Promise<JobRequest> {
-  const { source, performance, performer, options } = order;
+  const { source, performance, performer, backdrop, options } = order;
   const inputs: JobRequest['inputs'] = {};
   if (source.by === 'persona') inputs.persona = source.id;
   else inputs.photos = await sentOneByOne(source.photos, 'photos', upload);
   if (performance) inputs.driver = performance.by === 'name' ? performance.name : await upload(performance.file, 'driver');
   if (performance && performer.length) inputs.driver_photos = await sentOneByOne(performer, 'driver_photos', upload);
+  if (performance && backdrop) inputs.background_picture = await upload(backdrop, 'background_picture');
   const names = namesOf(order);
   return { inputs, options, metadata: { picture: names.picture, ...(performance && { performance: names.performance }) } };
 }

@@ -21,7 +21,7 @@ import { EarlierPersonas } from './collection/earlier_personas';
 import { PerformerPhotos } from './collection/performer_photos';
 import { PhotosPanel } from './collection/photos_panel';
 import { useGiving } from './collection/use_giving';
-import { actsByPhoto, CompositeField, USUAL_COMPOSITE, useComposites } from './composite_field';
+import { actsByPhoto, CompositeField, isPuppet, USUAL_COMPOSITE, useComposites } from './composite_field';
 import { type Draft, usePersonaDraft } from './draft';
 import { PersonaOptionFields } from './option_fields';
 import { personaOrder, type Source } from './order';
@@ -77,7 +77,7 @@ export default function PersonaStudio({ kind }: StudioProps) {
         lead={words.lead}
         sending={sending}
         missing={keeping ? words.keepingFirst : missingIn(draft, refused)}
-        order={source && (() => personaOrder({ source, performance, performer: draft.performer, options }))}
+        order={source && (() => personaOrder({ source, performance, performer: draft.performer, backdrop: isPuppet(composite) ? draft.backdrop : null, options }))}
         label={draft.from === 'photos' ? words.start : words.startAgain}
       >
         <section class="panel wide" aria-labelledby="source-title">
@@ -151,6 +151,8 @@ export default function PersonaStudio({ kind }: StudioProps) {
                   <PersonaOptionFields
                     value={{ ...draft.options, composite }}
                     mayHaveSound={performance.by === 'file' && !still}
+                    backdrop={draft.backdrop}
+                    onBackdrop={(backdrop) => change({ backdrop })}
                     onChange={(options) => change({ options })}
                   />
                 </details>

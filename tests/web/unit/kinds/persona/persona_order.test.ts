@@ -16,13 +16,15 @@ describe('an order of a persona', () => {
       source: byPhotos('1.jpg', '2.jpg'),
       performance: { by: 'file', file: new File(['x'], 'a_talk.mp4') },
       performer: [photo('me.jpg')],
+      backdrop: new File(['x'], 'beach.png'),
       options: { sound: true },
     });
     const sent: string[] = [];
     const asked = await request(order, async (file, part, place) => `${sent.push(`${part} ${place?.number}/${place?.count} ${file.name}`)}`);
-    expect(sent).toEqual(['photos 1/2 1.jpg', 'photos 2/2 2.jpg', 'driver undefined/undefined a_talk.mp4', 'driver_photos 1/1 me.jpg']);
+    expect(sent).toEqual(['photos 1/2 1.jpg', 'photos 2/2 2.jpg', 'driver undefined/undefined a_talk.mp4', 'driver_photos 1/1 me.jpg',
+      'background_picture undefined/undefined beach.png']);
     expect(asked).toEqual({
-      inputs: { photos: ['1', '2'], driver: '3', driver_photos: ['4'] },
+      inputs: { photos: ['1', '2'], driver: '3', driver_photos: ['4'], background_picture: '5' },
       options: { sound: true },
       metadata: { picture: '2 photos', performance: 'A talk' },
     });

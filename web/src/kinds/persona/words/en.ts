@@ -49,6 +49,7 @@ const english = {
     persona: 'persona',
     driver: 'performance',
     driver_photos: 'photos of the performer',
+    background_picture: 'picture behind',
     keep: 'faces used',
     leave_out: 'faces left out',
     example: 'person meant',
@@ -68,7 +69,7 @@ const english = {
   },
 
   /** Files, by what they are to an order. */
-  files: { photos: 'photo', driver: 'the performance', driver_photos: 'photo of the performer' },
+  files: { photos: 'photo', driver: 'the performance', driver_photos: 'photo of the performer', background_picture: 'the picture behind' },
 
   studio: {
     title: 'Make a persona of photos',
@@ -142,6 +143,11 @@ const english = {
       side_by_side: 'The face beside the performer',
     } as Record<string, string>,
     background: 'Background',
+    backdrop: {
+      choose: 'Or a picture',
+      name: 'Choose a picture as the background',
+      without: 'Back to the plain colour',
+    },
     videoSize: 'Size of the video',
     videoSizes: {
       '600x800': 'Upright, 600 × 800',
