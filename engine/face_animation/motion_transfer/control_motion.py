@@ -55,6 +55,97 @@ class ControlMotion:
     look: NDArray[np.float32]
 
 
+@dataclass(frozen=True)
+class DriverFrames:
+    """Some of a driver's frames, N of them.
+
+    meshes : (N, 478, 3) pixels. periphery : (N, K, 2) pixels. trust : (N, K) in [0, 1]. All as in `FaceTrack`.
+    faces : (N, 478, 2) the meshes in the driver's crop.
+    """
+
+    meshes: NDArray[np.float32]
+    periphery: NDArray[np.float32]
+    trust: NDArray[np.float32]
+    faces: NDArray[np.float32]
+
+
+class MotionTransfer:
+    """Equation 1 for any frame of a driver, against the driver at rest; with a `proxy`, the head's part of it in 3D; corrected
+    by `residuals`. What holds for all frames is prepared once.
+
+    Parameters
+    ----------
+    rest : one frame, in which the driver shows what the target shows. target : (478, 3) mesh, pixels. proxy : None keeps to
+    the plane.
+    """
+
+    def __init__(
+        self,
+        rest: DriverFrames,
+        target: NDArray[np.float32],
+        control: ControlPoints,
+        proxy: HeadProxy | None,
+        options: ActingOptions,
+        residuals: LandmarkResiduals | None = None,
+    ):
+        self._rest, self._around, self._trust = rest.meshes[0], rest.periphery[0], rest.trust[0]
+        self._target, self._control, self._proxy, self._residuals = target, control, proxy, residuals
+        self._phi = align(self._rest, target)
+        self._unit = float(eye_distance(target[:, :2]))
+        self._maps = local_maps(self._phi, self._rest, target, float(eye_distance(self._rest[:, :2])))
+        self._follow = part_weights(options.follow)
+        self._rim = rim_distance(target, control.points[control.periphery]) / self._unit
+        self._strength = options.strength
+        self._head = options.strength if "head" in options.follow else 0.0
+        self._eyes = options.strength if "eyes" in options.follow else 0.0
+        self._correct = min(options.strength, 1.0) * self._follow
+
+    def __call__(self, frames: DriverFrames) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
+        """Of each frame the `offsets` (N, C, 2), the `depth` (N, C) and the `look` (N, 2, 2) of a `ControlMotion`."""
+        rest, target, control, proxy, phi = self._rest, self._target, self._control, self._proxy, self._phi
+        motion = split_motion(frames.meshes, rest)
+        expression, look = self._acted(motion)
+        around = self._carried_around(frames, motion)
+        if proxy is None:
+            moved = _in_plane(phi, motion, expression, around, target, control, self._head)
+        else:
+            moved = _in_space(phi, motion, expression, around, target, control, proxy, self._head)
+        offsets, depths = (np.stack(each) for each in zip(*moved, strict=True))
+        placed = control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE]
+        if self._residuals is not None:
+            placed += self._correct[:, None] * self._residuals.corrections(frames.faces, placed)
+        keep_inside(placed, target, control.usable[:MESH_SIZE])
+        offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
+        return offsets, depths, look
+
+    def _acted(self, motion: HeadMotion) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
+        """The expression on the target's upright face, (N, 478, 3) offsets, and where its irises look."""
+        rest, target = self._rest, self._target
+        expression = self._strength * self._follow[:, None] * carry_expression(self._maps, self._phi, motion.expression)
+        upright, acted = rest + motion.expression, target + expression
+        ratio = 1 + self._eyes * (lid_ratio(upright, rest) - 1)
+        keep_lips_off_skin(acted, target, philtrum_compression(upright, rest))
+        expression = constrain_lids_and_lips(acted, target, np.maximum(ratio, 0)) - target
+        look = self._eyes * gaze_offsets(upright, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
+        return expression, look.astype(np.float32)
+
+    def _carried_around(self, frames: DriverFrames, motion: HeadMotion) -> NDArray[np.floating]:
+        """(N, P, 2) what the driver's tracked points around the face say of the target's peripheral points, pixels."""
+        control, proxy = self._control, self._proxy
+        places = control.points[control.periphery]
+        if not frames.periphery.shape[1]:
+            return np.zeros((len(frames.meshes), len(places), 2), np.float32)
+        around = frames.periphery - self._around
+        if proxy is not None:
+            around = around - proxy_offsets(motion, self._around)
+        around = self._head * carry_periphery(
+            self._phi, self._around, around, frames.trust * self._trust, places, self._unit
+        )
+        if proxy is not None:
+            around = tracked_correction(around, proxy.share[control.periphery], self._rim, motion, self._unit)
+        return around
+
+
 def carry_motion(
     track: FaceTrack,
     neutral: int,
@@ -64,52 +155,18 @@ def carry_motion(
     options: ActingOptions,
     residuals: LandmarkResiduals | None = None,
 ) -> Iterator[ControlMotion]:
-    """Equation 1 for every frame; with a `proxy`, the head's part of it in 3D; corrected by a `residuals`.
+    """Equation 1 for every frame of a track, against its `neutral` one; the rest as `MotionTransfer` takes it."""
 
-    Parameters
-    ----------
-    neutral : the driver's neutral frame. target : (478, 3) mesh, pixels. proxy : None keeps to the plane.
-    """
-    rest = track.meshes[neutral]
-    phi = align(rest, target)
-    unit = float(eye_distance(target[:, :2]))
-    maps = local_maps(phi, rest, target, float(eye_distance(rest[:, :2])))
-    follow = part_weights(options.follow)
-    rim = rim_distance(target, control.points[control.periphery]) / unit
-    head = options.strength if "head" in options.follow else 0.0
-    eyes = options.strength if "eyes" in options.follow else 0.0
-    correct = min(options.strength, 1.0) * follow
+    def frames(start: int, stop: int) -> DriverFrames:
+        faces = np.stack([track.in_crop(frame) for frame in range(start, stop)])
+        some = slice(start, stop)
+        return DriverFrames(track.meshes[some], track.periphery[some], track.trust[some], faces)
+
+    transfer = MotionTransfer(frames(neutral, neutral + 1), target, control, proxy, options, residuals)
     for start in range(0, len(track), CHUNK_FRAMES):
-        some = slice(start, min(start + CHUNK_FRAMES, len(track)))
-        motion = split_motion(track.meshes[some], rest)
-        around = track.periphery[some] - track.periphery[neutral]
-        if proxy is not None:
-            around = around - proxy_offsets(motion, track.periphery[neutral])
-        trust = track.trust[some] * track.trust[neutral]
-        around = head * carry_periphery(
-            phi, track.periphery[neutral], around, trust, control.points[control.periphery], unit
-        )
-        if proxy is not None:
-            around = tracked_correction(around, proxy.share[control.periphery], rim, motion, unit)
-        expression = options.strength * follow[:, None] * carry_expression(maps, phi, motion.expression)
-        upright, acted = rest + motion.expression, target + expression
-        ratio = 1 + eyes * (lid_ratio(upright, rest) - 1)
-        keep_lips_off_skin(acted, target, philtrum_compression(upright, rest))
-        expression = constrain_lids_and_lips(acted, target, np.maximum(ratio, 0)) - target
-        look = eyes * gaze_offsets(upright, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
-        if proxy is None:
-            frames = _in_plane(phi, motion, expression, around, target, control, head)
-        else:
-            frames = _in_space(phi, motion, expression, around, target, control, proxy, head)
-        offsets, depths = (np.stack(each) for each in zip(*frames, strict=True))
-        placed = control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE]
-        if residuals is not None:
-            faces = np.stack([track.in_crop(frame) for frame in range(some.start, some.stop)])
-            placed += correct[:, None] * residuals.corrections(faces, placed)
-        keep_inside(placed, target, control.usable[:MESH_SIZE])
-        offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
-        for k in range(len(offsets)):
-            yield ControlMotion(start + k, offsets[k], depths[k], look[k].astype(np.float32))
+        carried = transfer(frames(start, min(start + CHUNK_FRAMES, len(track))))
+        for k, (offsets, depth, look) in enumerate(zip(*carried, strict=True)):
+            yield ControlMotion(start + k, offsets, depth, look)
 
 
 def _in_plane(
