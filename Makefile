@@ -74,8 +74,9 @@ bench: tools  ## the figures of docs/figures.md
 picture: setup  ## the README's picture
 	@$(BIN)/python -m scripts.picture
 
-pictures: setup  ## the pictures of docs/method.md
+pictures: setup  ## the pictures of docs/method.md and docs/personas.md
 	@$(BIN)/python -m scripts.method_pictures
+	@$(BIN)/python -m scripts.persona_picture
 
 samples: tools  ## the pictures and clips of the start pages, in web/public/samples/
 	@$(BIN)/python -m scripts.samples
