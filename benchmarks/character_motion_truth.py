@@ -38,8 +38,8 @@ from benchmarks.scan_studio.scanned_people import RIGGED
 from benchmarks.shared_media import media
 from benchmarks.tables import machine, mean_row, table
 from engine.body.parts import BODY_PARTS, vertex_parts
+from engine.character.fit.rest_skeleton import rest_skeleton
 from engine.character.fit.template_fit import load_human
-from engine.character.rig.rigging import rest_skeleton
 from engine.character.texture.texture import BackTexture
 from engine.errors import InputError
 from engine.geometry.camera import Camera

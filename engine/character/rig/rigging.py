@@ -7,17 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from engine.body.body_space import BodySpace
 from engine.character.figure.picture_space import PictureCamera
+from engine.character.fit.rest_skeleton import PicturedJoints, pictured_joints
 from engine.character.fit.template_fit import FittedBody
 from engine.character.surface.sheets import ClosedMesh
 from engine.character.surface.soles import with_soles
-from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
-from engine.motion.kinematics import pose_transforms
 
 LEAST_VOLUME, KEPT_VOLUME = 0.35, 0.6
 """What blending turns may leave of a volume. Where it leaves less halfway between a vertex's two strongest joints, as in a
@@ -55,14 +53,8 @@ def bind(
     eye = np.array([0.0, -seen[:, 1].min(), camera.distance])
     posed = seen + eye
     bones = mesh.bones.astype(np.intp)
-    fit = fitted.fit
-    rest = rest_skeleton(fitted, space)
-    own = np.where(fitted.kept[:, None, None], np.eye(3), fit.rotations.astype(np.float64))
-    turns = Rotation.from_matrix(own).as_quat()
-    root = fit.root_translation + eye
-    transforms = pose_transforms(rest, turns[None].astype(np.float32), root[None].astype(np.float32))[0].astype(
-        np.float64
-    )
+    joints = pictured_joints(fitted, space).seen_from(eye)
+    transforms = joints.transforms()
     vertices, weights, blended = at_rest(posed, bones, mesh.weights, transforms)
 
     def covered(which: NDArray[np.intp], places: NDArray[np.float64]) -> NDArray[np.bool_]:
@@ -71,14 +63,23 @@ def bind(
         inside = (x >= 0) & (y >= 0) & (x < mask.shape[1]) & (y < mask.shape[0])
         return inside & mask[np.where(inside, y, 0), np.where(inside, x, 0)]
 
-    vertices = with_soles(vertices, mesh.triangles, _feet(mesh, rest.names), ~mesh.front & ~mesh.rim, covered)
+    vertices = with_soles(vertices, mesh.triangles, _feet(mesh, joints.rest.names), ~mesh.front & ~mesh.rim, covered)
     lift = np.array([0.0, -vertices[:, 1].min(), 0.0])
-    skeleton = Skeleton(rest.names, rest.parents, (rest.heads + lift).astype(np.float32))
     bound = SkinnedMesh(
-        skeleton, (vertices + lift).astype(np.float32), mesh.triangles, uv, bones.astype(np.uint8), weights, texture
+        joints.lifted(lift),
+        (vertices + lift).astype(np.float32),
+        mesh.triangles,
+        uv,
+        bones.astype(np.uint8),
+        weights,
+        texture,
     )
-    pictured = Clip("pictured", 30.0, turns[None].astype(np.float32), root[None].astype(np.float32))
-    return Character(bound, pictured, eye)
+    return Character(bound, pictured_clip(joints), eye)
+
+
+def pictured_clip(joints: PicturedJoints) -> Clip:
+    """How somebody stands in their picture."""
+    return Clip("pictured", 30.0, joints.turns[None], joints.root[None])
 
 
 def at_rest(
@@ -131,12 +132,3 @@ def _feet(mesh: ClosedMesh, names: Sequence[str]) -> NDArray[np.intp]:
         own = [k for k, joint in enumerate(names) if joint.startswith((f"{name}Foot", f"{name}Toe"))]
         foot[(mesh.weights * np.isin(mesh.bones, own)).sum(1) > 0.5] = side
     return foot
-
-
-def rest_skeleton(fitted: FittedBody, space: BodySpace) -> Skeleton:
-    """The skeleton in T-pose, but for the joints that are kept as they are in the picture."""
-    straight = space.skeleton(fitted.fit.coefficients)
-    turns = Rotation.from_matrix(np.where(fitted.kept[:, None, None], fitted.fit.rotations, np.eye(3))).as_quat()
-    transforms = pose_transforms(straight, turns[None].astype(np.float32), straight.heads[None, 0])[0]
-    heads = np.einsum("jab,jb->ja", transforms[:, :3, :3], straight.heads) + transforms[:, :3, 3]
-    return Skeleton(straight.names, straight.parents, heads.astype(np.float32))

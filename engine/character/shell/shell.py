@@ -11,11 +11,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.character.figure.face_region import in_profile
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
 from engine.character.parts.label_map import Labels
+from engine.character.shell.at_rest import shell_at_rest
+from engine.character.shell.displacement import KnownPoints, displace
+from engine.character.shell.outlines import part_outlines
 from engine.character.shell.template_mesh import TemplateMesh, template_mesh
+from engine.character.shell.thickness import thickened
+from engine.perception.landmarks import fiducials
+
+JAW = 17
+"""The first of the 68 fiducials are the jaw's line: where it is seen depends on the view, and so they are no points of the face."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +46,22 @@ class Shell:
 
 def make_shell(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Shell:
     """The shell of a person: `figure` and `silhouette` as they were found, the `fitted` template, and the `labels` of its parts."""
-    mesh = template_mesh()
-    posed = pose_template(fitted, silhouette.camera(fitted.picture_camera()), load_human())
-    template = posed.vertices[mesh.ids]
-    return Shell(mesh, template, template, posed.rest[mesh.ids].astype(np.float64))
+    mesh, human = template_mesh(), load_human()
+    camera = silhouette.camera(fitted.picture_camera())
+    posed = pose_template(fitted, camera, human)
+    template, straight = posed.vertices[mesh.ids], posed.rest[mesh.ids]
+    displaced = displace(mesh, template, part_outlines(labels.layered), face_points(figure, silhouette, mesh))
+    pictured = thickened(mesh, template, displaced)
+    return Shell(mesh, template, pictured, shell_at_rest(mesh, straight, template, pictured, camera, fitted))
+
+
+def face_points(figure: Figure, silhouette: Silhouette, mesh: TemplateMesh) -> KnownPoints:
+    """The fiducials within the face, and where they are seen on the grid; none of a face that is not seen, or in profile, where the
+    network makes up the half that is not seen."""
+    if figure.face is None or in_profile(figure):
+        return KnownPoints(np.zeros(0, np.intp), np.zeros((0, 2)))
+    seen = fiducials(figure.face[:, :2])[JAW:].astype(np.float64)
+    places = seen @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
+    vertices = mesh.renamed(load_human().face[JAW:])
+    there = vertices >= 0
+    return KnownPoints(vertices[there], places[there])

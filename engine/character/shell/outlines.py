@@ -1,0 +1,102 @@
+"""Where the borders of the parts are in the picture: what a shell's rims are drawn to.
+
+The outline of the whole person is not enough: a trunk beside a hanging arm, and a leg beside the other one, have no border there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.parts import BODY_PARTS
+from engine.character.parts.free_cloth import FreeCloth
+from engine.character.parts.label_map import Labels
+from engine.character.parts.labels import ARMS, LEGS
+
+TRUNK, HEAD = BODY_PARTS.index("torso"), BODY_PARTS.index("head")
+LEAST = 60
+"""Pixels of a part whose border is looked at."""
+SHORT = 30
+"""Pixels of a border that is worth following."""
+SMOOTH = 2.5
+"""Pixels over which a border's direction is smoothed."""
+BESIDE = 3.0
+"""Pixels beyond a border at which is looked what is beside it."""
+HALF_A_PIXEL = 0.6
+"""How far beyond the centres of a part's outermost pixels its border is."""
+UNDER = 2.0
+"""Pixels by which parts go on under one another, so that no gap opens between them."""
+LIMB_BEFORE, LEG_BESIDE, TRUNK_BESIDE = 0.5, 0.4, 0.4
+"""How much the border of an arm before others counts, of a leg beside the other, and of what an arm hides, where the person's
+own outline counts 1."""
+
+
+@dataclass(frozen=True)
+class Outlines:
+    """Points of the parts' borders on the grid.
+
+    points : (M, 2) float64, pixels.
+    normals : (M, 2) float64, unit, away from the part.
+    part : (M,) int, index of `BODY_PARTS`.
+    weight : (M,) float64, how much a point counts.
+    hidden : (M,) bool, where the part may as well reach further, beneath what is before it.
+    """
+
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    part: NDArray[np.intp]
+    weight: NDArray[np.float64]
+    hidden: NDArray[np.bool_]
+
+
+def part_outlines(labels: Labels) -> Outlines:
+    """The borders of all parts of `labels`. Of cloth that hangs free the body says nothing, and has none there."""
+    map_ = labels.labels.astype(np.intp)
+    height, width = map_.shape
+    loose = np.zeros(map_.shape, np.uint8) if labels.cloth is None else hanging(labels.cloth, map_).astype(np.uint8)
+    free = cv2.dilate(loose, np.ones((5, 5), np.uint8)) == 0
+    found = []
+    for part in range(len(BODY_PARTS)):
+        own = map_ == part
+        if own.sum() < LEAST:
+            continue
+        points, normals = border_points(own)
+        x, y = np.rint(points + BESIDE * normals).astype(int).T
+        beside = map_[np.clip(y, 0, height - 1), np.clip(x, 0, width - 1)]
+        weight, hidden = np.where(beside < 0, 1.0, 0.0), np.zeros(len(points), np.bool_)
+        if part in ARMS:
+            weight[np.isin(beside, (TRUNK, HEAD, *LEGS))] = LIMB_BEFORE
+        else:
+            if part in LEGS:
+                weight[np.isin(beside, LEGS) & (beside != part)] = LEG_BESIDE
+            if part != HEAD:
+                hidden = np.isin(beside, ARMS)
+                weight[hidden] = TRUNK_BESIDE
+        x, y = points.astype(int).T
+        kept = (weight > 0) & free[y, x] & (np.arange(len(points)) % 2 == 0)
+        points = points + np.where(weight < 1, UNDER, HALF_A_PIXEL)[:, None] * normals
+        found.append((points[kept], normals[kept], np.full(kept.sum(), part), weight[kept], hidden[kept]))
+    points, normals, parts, weights, hidden = (np.concatenate(values) for values in zip(*found, strict=True))
+    return Outlines(points, normals, parts, weights, hidden)
+
+
+def border_points(mask: NDArray[np.bool_]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Pixels (N, 2) of the contours of a mask (h, w), those of its holes too, and their outward normals (N, 2)."""
+    contours, _ = cv2.findContours(mask.astype(np.uint8), cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
+    points = np.concatenate([np.zeros((0, 2), np.intp)] + [one[:, 0] for one in contours if len(one) >= SHORT])
+    soft = cv2.GaussianBlur(mask.astype(np.float32), (0, 0), SMOOTH)
+    slopes = [cv2.Sobel(soft, cv2.CV_32F, dx, 1 - dx)[points[:, 1], points[:, 0]] for dx in (1, 0)]
+    away = -np.stack(slopes, 1).astype(np.float64)
+    return points.astype(np.float64), away / np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1e-6)
+
+
+def hanging(cloth: FreeCloth, labels: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """The pixels (h, w) of a skirt, or of a coat's tails: cloth that hangs and follows neither trunk nor legs."""
+    area = np.zeros(labels.shape, np.bool_)
+    if cloth.hangs:
+        for _, row, columns in cloth.rows():
+            area[row, columns] = True
+    return np.asarray(area & cloth.worn & ~np.isin(labels, (*ARMS, HEAD)))
