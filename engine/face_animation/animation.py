@@ -23,7 +23,8 @@ from engine.face_animation.eyes.eyes_and_lids import EyesAndLids
 from engine.face_animation.motion_transfer.control_motion import ControlMotion, carry_motion
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
-from engine.face_animation.mouth.mouth_interior import DriverMouth, MouthInterior
+from engine.face_animation.mouth.mouth_interior import MouthInterior
+from engine.face_animation.mouth.target_mouth import target_mouth
 from engine.face_animation.rig import Rig
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.layers import Layers
@@ -96,7 +97,7 @@ class FaceAnimation:
     target, driver : who acts, and what is acted out.
     options : how the target follows the driver.
     parts : what of the face is animated.
-    mouth : what is seen between the lips; by default the driver's mouth.
+    mouth : what is seen between the lips; by default the one that the target is given (`target_mouth`).
     keep_alpha : whether the frames of a cut-out target stay transparent.
     """
 
@@ -117,7 +118,7 @@ class FaceAnimation:
         self._plate = layers.plate
         self._keep_alpha = layers.transparent and keep_alpha
         self._eyes = EyesAndLids(face) if parts.eyes else None
-        self._mouth = (mouth or DriverMouth(face, track, neutral)) if parts.hidden else None
+        self._mouth = (mouth or target_mouth(face)) if parts.hidden else None
         self._landing = target.rig.details.origin(track.in_crop(neutral))
         moves = set(options.follow) - {"head"}
         self._creases = min(options.strength, 1.0) if parts.details and moves else 0.0

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.driver_tracking.unseen_blinks import eye_contrast, shut_by_contrast
-from engine.face_animation.mouth.teeth import MIN_TEETH_OPENING
+from engine.face_animation.mouth.lip_contours import MIN_TEETH_OPENING
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE

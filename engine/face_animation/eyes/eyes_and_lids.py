@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes.eyes import draw_eye, lid_closing_share, prepare_eyes
+from engine.face_animation.eyes.eyeball import prepare_eyes
+from engine.face_animation.eyes.eyes import draw_eye, lid_closing_share
 from engine.face_animation.eyes.lid_skin import draw_lid, lid_skins
 from engine.face_animation.target_face import TargetFace
 

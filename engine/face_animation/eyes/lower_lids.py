@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes.eyes import EYE_VERTICES
+from engine.face_animation.eyes.eyeball import EYE_VERTICES
 from engine.imaging.masks.colour_segmentation import grab_cut
 
 EYE_PIXELS = 48

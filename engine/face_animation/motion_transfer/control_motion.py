@@ -18,7 +18,12 @@ from engine.face_animation.motion_transfer.expression_transfer import carry_expr
 from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_motion, turn_angles
 from engine.face_animation.motion_transfer.head_proxy import HeadProxy, build_head_proxy, move_head
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
-from engine.face_animation.motion_transfer.lids_and_lips import constrain_lids_and_lips, lid_ratio
+from engine.face_animation.motion_transfer.lids_and_lips import (
+    close_lips,
+    constrain_lids_and_lips,
+    lid_ratio,
+    lips_met_share,
+)
 from engine.face_animation.mouth.lips_and_skin import keep_lips_off_skin, philtrum_compression
 from engine.geometry.registration.rigid import Similarity
 from engine.perception.face_track.track import FaceTrack
@@ -98,6 +103,7 @@ class MotionTransfer:
         self._strength = options.strength
         self._head = options.strength if "head" in options.follow else 0.0
         self._eyes = options.strength if "eyes" in options.follow else 0.0
+        self._mouth = min(options.strength, 1.0) if "mouth" in options.follow else 0.0
         self._correct = min(options.strength, 1.0) * self._follow
 
     def __call__(self, frames: DriverFrames) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
@@ -124,6 +130,7 @@ class MotionTransfer:
         expression = self._strength * self._follow[:, None] * carry_expression(self._maps, self._phi, motion.expression)
         upright, acted = rest + motion.expression, target + expression
         ratio = 1 + self._eyes * (lid_ratio(upright, rest) - 1)
+        close_lips(acted, self._mouth * lips_met_share(upright, rest))
         keep_lips_off_skin(acted, target, philtrum_compression(upright, rest))
         expression = constrain_lids_and_lips(acted, target, np.maximum(ratio, 0)) - target
         look = self._eyes * gaze_offsets(upright, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]

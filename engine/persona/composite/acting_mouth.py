@@ -9,11 +9,11 @@ from engine.face_animation.mouth.modelled.modelled_mouth import ModelledMouth
 from engine.face_animation.mouth.modelled.mouth_colours import mouth_colours
 from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
 from engine.face_animation.mouth.mouth_interior import MouthInterior
+from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth, appearing_opening, teeth_gain
+from engine.face_animation.mouth.pictured.teeth_strip import teeth_strip
 from engine.face_animation.target_face import TargetFace
 from engine.perception.expression.features import frontalise
 from engine.perception.landmarks import eye_distance
-from engine.persona.mouth.photo_teeth import PhotoTeeth, appearing_opening, teeth_gain
-from engine.persona.mouth.teeth_strip import teeth_strip
 from engine.persona.persona import Persona
 from engine.run import Run
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.mouth.modelled.skin_colour import is_grey
+from engine.face_animation.skin_colour import is_grey
 from engine.perception.landmarks import FACE_OVAL
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.collection.photo_face import PhotoFace

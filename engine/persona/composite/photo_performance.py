@@ -13,7 +13,7 @@ from engine.errors import InputError
 from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.animation import FaceAnimation, Parts, RegisteredDriver, RiggedTarget
 from engine.face_animation.driver_tracking.neutral import choose_neutral_frame, warn_if_never_at_rest
-from engine.face_animation.mouth.modelled.skin_colour import is_grey
+from engine.face_animation.skin_colour import is_grey
 from engine.face_animation.stages import analyse_driver, follow_driver, prepare_target
 from engine.face_animation.target_face import TargetFace
 from engine.perception.face_track.track import FaceTrack

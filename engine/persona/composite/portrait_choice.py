@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.mouth.modelled.skin_colour import is_grey
+from engine.face_animation.skin_colour import is_grey
 from engine.perception.landmarks import eye_opening, mouth_opening
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.collection.photo_face import PhotoFace

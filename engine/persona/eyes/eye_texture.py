@@ -6,10 +6,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes.eyes import EYE_VERTICES, prepare_eyes
-from engine.face_animation.eyes.eyes import Eyeball as EyeLayer
-from engine.face_animation.mouth.hidden_regions import LUMINANCE_WEIGHTS
-from engine.face_animation.mouth.modelled.skin_colour import skin_colour
+from engine.face_animation.eyes.eyeball import EYE_VERTICES, prepare_eyes
+from engine.face_animation.eyes.eyeball import Eyeball as EyeLayer
+from engine.face_animation.mouth.lip_contours import LUMINANCE_WEIGHTS
+from engine.face_animation.skin_colour import skin_colour
 from engine.persona.eyes.eyeball import CAP
 from engine.persona.persona import Persona
 

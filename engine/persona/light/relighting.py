@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.mouth.hidden_regions import box_around
+from engine.face_animation.mouth.lip_contours import box_around
 from engine.imaging.filling.nearest import nearest_values
 from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.face_tessellation import face_triangles, opening_triangles

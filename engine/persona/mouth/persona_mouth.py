@@ -8,9 +8,9 @@ from engine.face_animation.mouth.modelled.modelled_mouth import ModelledMouth
 from engine.face_animation.mouth.modelled.mouth_colours import MouthColours, mouth_colours
 from engine.face_animation.mouth.modelled.resting_mouth import RestingMouth, resting_mouth
 from engine.face_animation.mouth.mouth_interior import MouthInterior
+from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth, teeth_gain
+from engine.face_animation.mouth.pictured.teeth_strip import teeth_strip
 from engine.perception.landmarks import eye_distance
-from engine.persona.mouth.photo_teeth import PhotoTeeth, teeth_gain
-from engine.persona.mouth.teeth_strip import teeth_strip
 from engine.persona.persona import Persona
 
 

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.persona.mouth.photo_teeth import PhotoTeeth
-from engine.persona.mouth.teeth_strip import ARCH
+from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth
+from engine.face_animation.mouth.pictured.teeth_strip import ARCH
 
 HALF_WIDTH, ABOVE, BELOW = 0.45, 0.3, 0.04
 """Eye distances from the middle of the edge of the teeth."""

@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.mouth.hidden_regions import soft_polygon
+from engine.face_animation.mouth.lip_contours import soft_polygon
 from engine.perception.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.light.relighting import over_photo, regenerated, relit

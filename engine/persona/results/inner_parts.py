@@ -19,7 +19,7 @@ from engine.face_animation.mouth.modelled.mouth_parts import (
     tongue,
     tongue_put_out,
 )
-from engine.face_animation.mouth.modelled.skin_colour import skin_colour
+from engine.face_animation.skin_colour import skin_colour
 from engine.perception.landmarks import LIPS_INNER
 from engine.persona.eyes.eye_texture import eye_textures
 from engine.persona.eyes.eyeball import EYES, eyeball, lid_rim

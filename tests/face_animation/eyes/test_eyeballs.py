@@ -9,10 +9,11 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from made_face import BROWN, SKIN, painted, placed, shut
+from made_face import BROWN, SKIN, WHITE, painted, placed, shut
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes.eyes import MIN_EYE_WIDTH, draw_eye, gaze_offsets, prepare_eyes
+from engine.face_animation.eyes.eyeball import MIN_EYE_WIDTH, prepare_eyes
+from engine.face_animation.eyes.eyes import draw_eye, gaze_offsets, held_look
 from engine.face_animation.motion_transfer.lids_and_lips import LID_PAIRS
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
@@ -152,6 +153,54 @@ def test_what_lids_hide_of_the_iris_is_completed(mesh: NDArray) -> None:
             x, y = round(float(centre[0])), round(float(centre[1] + dy * radius))
             if cv2.pointPolygonTest(opening, (float(x), float(y)), True) > 2:
                 assert np.linalg.norm(wide[y, x].astype(float) - BROWN) < 40
+
+
+def test_a_white_between_dark_lashes_is_white_all_over(mesh: NDArray) -> None:
+    """What is lash or shadow along the lids does not become the white behind them."""
+    rgb = painted(mesh, SIZE)
+    for contour in CONTOURS:
+        cv2.polylines(rgb, [mesh[list(contour), :2].round().astype(np.int32)], True, (40, 25, 20), 5)
+    narrow = shut(mesh, 0.7)
+    wide = drawn(rgb, narrow, mesh, np.array([0.1, 0.0]))
+    for side in (0, 1):
+        opening = np.zeros(rgb.shape[:2], np.uint8)
+        cv2.fillPoly(opening, [mesh[list(CONTOURS[side]), :2].round().astype(np.int32)], 1)
+        centre = mesh[IRISES[side][0], :2] + 0.1 * (mesh[CONTOURS[side][8], :2] - mesh[CONTOURS[side][0], :2])
+        radius = float(np.linalg.norm(mesh[list(IRISES[side][1:]), :2] - mesh[IRISES[side][0], :2], axis=1).mean())
+        cv2.circle(opening, centre.round().astype(int).tolist(), round(1.4 * radius), 0, -1)
+        white = wide[cv2.erode(opening, np.ones((3, 3))) > 0].astype(float)
+        assert len(white) > 30
+        assert (white.min(axis=1) > 0.5 * np.array(WHITE).mean()).mean() > 0.95
+        assert np.ptp(white / white.mean(axis=1, keepdims=True), axis=1).max() < 0.35, "and of no colour of its own"
+
+
+def test_a_catch_light_stays_nearly_where_it_was(mesh: NDArray) -> None:
+    rgb = painted(mesh, SIZE)
+    centre = mesh[RIGHT_IRIS[0], :2]
+    light = (centre + np.array([-2, -3])).round().astype(int)
+    cv2.circle(rgb, light.tolist(), 2, (255, 255, 255), -1)
+    eye = prepare_eyes(rgb, mesh)[0]
+    assert eye is not None
+    look = np.array([0.1, 0.0])
+    out = rgb.copy()
+    draw_eye(out, eye, mesh, 0, look)
+    iris = np.zeros(rgb.shape[:2], np.uint8)
+    moved = centre + look[0] * (mesh[133, :2] - mesh[33, :2])
+    cv2.circle(iris, moved.round().astype(int).tolist(), 8, 1, -1)
+    bright = (out.min(axis=2) > 180) & (iris > 0)
+    found = np.argwhere(bright)[:, ::-1].mean(axis=0)
+    gone, iris_way = np.linalg.norm(found - light), np.linalg.norm(moved - centre)
+    assert gone < 0.6 * iris_way
+
+
+def test_an_iris_stays_within_its_eye_however_far_it_is_told_to_look(picture: NDArray, mesh: NDArray) -> None:
+    eye = prepare_eyes(picture, mesh)[0]
+    assert eye is not None
+    looks = [held_look(eye, np.array([far, 0.0]))[0] for far in np.linspace(-0.6, 0.6, 25)]
+    assert (np.diff(looks) > 0).all(), "further is further"
+    assert held_look(eye, REST)[0] == pytest.approx(0)
+    assert abs(eye.centre[0] + looks[-1]) < 0.5 - 0.8 * eye.radius
+    assert held_look(eye, np.array([0.05, 0.0]))[0] == pytest.approx(0.05, abs=0.005), "a usual look is as it is"
 
 
 def test_small_and_shut_eyes_of_a_picture_have_no_layer(mesh: NDArray) -> None:

@@ -8,7 +8,8 @@ import pytest
 from made_face import SKIN, painted, placed, shut
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes.eyes import lid_closing_share, prepare_eyes
+from engine.face_animation.eyes.eyeball import prepare_eyes
+from engine.face_animation.eyes.eyes import lid_closing_share
 from engine.face_animation.eyes.lid_skin import (
     BELOW_BROW_VERTICES,
     EDGE_SHADE_SHARE,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from engine.body.face.face_capture import MAX_GAZE_TRAVEL
-from engine.face_animation.eyes.eyes import prepare_eyes
+from engine.face_animation.eyes.eyeball import prepare_eyes
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
 from engine.persona.eyes.eye_texture import SIZE, texture_of

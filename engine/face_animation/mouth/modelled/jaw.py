@@ -14,10 +14,12 @@ MAX_ANGLE = 0.9
 """Radians: farther than jaws open, since faces are carried over to others whose chins are shorter."""
 ROUNDS = 3
 """Of Newton's."""
+LOWER_LIP = 14
+"""The middle of the inner one."""
 
 
 class Jaw(NamedTuple):
-    """angle : radians by which it is open. aside : by which the chin is moved along x. hinge : (2,) y and z of its axis."""
+    """angle : radians by which it is open. aside : by which it is moved along x, as chin and lower lip tell. hinge : (2,) y and z of its axis."""
 
     angle: float
     aside: float
@@ -37,7 +39,9 @@ def jaw_of(face: NDArray[np.floating], shut: NDArray[np.floating]) -> Jaw:
     own."""
     hinge = shut[list(HINGE), 1:].mean(axis=0)
     chin, now = shut[list(CHIN)].mean(axis=0), np.asarray(face, np.float64)[list(CHIN), :2].mean(axis=0)
-    return Jaw(_angle(chin, float(now[1]), hinge), float(now[0] - chin[0]), np.asarray(hinge, np.float64))
+    lip = float(face[LOWER_LIP, 0] - shut[LOWER_LIP, 0])
+    aside = (float(now[0] - chin[0]) + lip) / 2
+    return Jaw(_angle(chin, float(now[1]), hinge), aside, np.asarray(hinge, np.float64))
 
 
 def held_between(jaw: Jaw, point: NDArray[np.floating], heights: tuple[float, float]) -> Jaw:

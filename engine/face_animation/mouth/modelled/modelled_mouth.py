@@ -8,10 +8,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.mouth.hidden_regions import box_around, soft_polygon
+from engine.face_animation.mouth.lip_contours import box_around, soft_polygon
 from engine.face_animation.mouth.modelled.jaw import Jaw, held_between, jaw_of
 from engine.face_animation.mouth.modelled.mouth_colours import RAMP, MouthColours
-from engine.face_animation.mouth.modelled.mouth_light import in_mouth
+from engine.face_animation.mouth.modelled.mouth_light import mouth_light
 from engine.face_animation.mouth.modelled.mouth_parts import (
     OVERBITE,
     OVERJET,
@@ -34,20 +34,30 @@ LIP_SOFTNESS, LEAST_SOFT_PIXELS = 0.012, 0.8
 """Eye distances, and pixels, over which the inside passes into the lips: their edges are round, and the mesh's have corners."""
 AMBIENT = 0.75
 """Of the light on a surface, that it has wherever it faces."""
-DARKENING = 0.9
-"""Eye distances behind the upper teeth at which a third of the light is left."""
-LOWER_MIDDLE, ABOVE_LIP, BELOW_LIP = 14, 0.07, 0.03
+DARKENING, ROW_DARKENING = 0.9, 0.45
+"""Eye distances behind the upper teeth at which a third of the light is left, on the tongue and on teeth: cheeks are beside these."""
+UPPER_LIP_MIDDLE = 13
+LOWER_MIDDLE, ABOVE_LIP, BELOW_LIP = 14, 0.03, 0.03
 """The middle of the lower inner lip, and eye distances above and below it between which lower teeth end: where a face opens its mouth farther or
 less far than its chin tells, they go along, and neither stand in the middle of a mouth nor leave it empty."""
 DEEPER = 2.5
 """The bag than in the model: a tongue lies in it wherever the jaw is."""
 FLATTENED = 0.45
-"""Of depths behind the upper teeth, where the mouth is drawn: how far a head is bent forward or back is known to some degrees only, and in true
-depth these decide whether a tongue is seen at all."""
-APPEARING = 0.06
+"""Of depths behind the upper teeth, by which things are seen higher or lower: how far a head is bent forward or back is known to some degrees
+only, and in true depth these decide whether a tongue is seen at all. To the sides they count wholly: rows of teeth turn with the lips."""
+MOST_CROWN = 0.17
+"""Eye distances of the upper row that are seen below the middle of the upper lip, at most: where a lip is drawn up farther than its person's
+would be, the row goes along, and no more of its gum is bared."""
+APPEARING = 0.03
 """By how much a mouth opens while its inside appears."""
 DISTANCE = 4096.0
 """Pixels from the eye: so far off that nearer parts are no larger."""
+FRAME = np.concatenate([np.zeros((1, 3)), np.eye(3)])
+"""What a part's places follow from, since each part moves as a whole: the origin, and a step along each axis."""
+SAMPLES = 2
+"""To a pixel, along each axis, where outlines run: the inside is softened by the lips around it."""
+CLOSED = 0.01
+"""Opening of a mouth of which nothing is seen."""
 
 
 class ModelledMouth:
@@ -62,6 +72,7 @@ class ModelledMouth:
         upper_end = sum(len(part.vertices) for part, _ in rows)
         self._ends = [upper_end, upper_end + len(jaw[0][0].vertices)]
         self._vertices = np.concatenate([part.vertices for part, _ in parts])
+        self._light = np.concatenate([part.light for part, _ in parts])
         self._textures = [*(ramp for _, ramp in parts), colours.bag]
         bag, bag_uv = bag_surface()
         uvs = [*(part.uv for part, _ in parts), bag_uv]
@@ -78,15 +89,15 @@ class ModelledMouth:
         inner = face[list(LIPS_INNER), :2].astype(np.float32)
         box = box_around(inner, frame.shape[:2])
         share = shown_share(face, self._appearing)
-        if box is None or share == 0 or cv2.contourArea(inner) < 1:
+        if box is None or share == 0 or float(mouth_opening(face)) < CLOSED or cv2.contourArea(inner) < 1:
             return
         x0, y0, x1, y1 = box
         shape, corner = (y1 - y0, x1 - x0), np.array([x0, y0], np.float32)
         points = self.places(face) - (x0, y0, 0)
         inside = np.zeros((*shape, 3), np.uint8)
         inside[:] = self._textures[-1][0, -1]
-        draw_surface(inside, False, self._surface, points.astype(np.float32), Scratch(), shade=self._shade)
-        lit = inside * in_mouth(face, corner, shape).light()[..., None]
+        draw_surface(inside, False, self._surface, points.astype(np.float32), Scratch(), SAMPLES, self._shade)
+        lit = inside * mouth_light(face, corner, shape)[..., None]
         sigma = max(LEAST_SOFT_PIXELS, LIP_SOFTNESS * float(eye_distance(face)))
         mask = cv2.GaussianBlur(soft_polygon(inner - corner, shape), (0, 0), sigma)[..., None]
         part = frame[y0:y1, x0:x1]
@@ -101,14 +112,20 @@ class ModelledMouth:
         front = (np.asarray(face, np.float64) - shift - depths[:, None] * matrix[:, 2]) @ np.linalg.inv(matrix[:, :2]).T
         jaw = jaw_behind_lips(self._at, front)
         lips = np.column_stack([front, depths])[list(LIPS_INNER)]
-        upper, lower, flesh = np.split(self._vertices, self._ends)
         tongue_jaw = jaw._replace(angle=TONGUE_SHARE * jaw.angle)
-        places = np.concatenate([upper, jaw.moved(lower), tongue_jaw.moved(flesh), mouth_bag(lips, DEEPER)])
-        places[:, 2] = self._at.depth + FLATTENED * (places[:, 2] - self._at.depth)
-        points = places @ camera.T
-        points[:, :2] += shift
-        points[:, 2] += DISTANCE
-        return np.asarray(points, np.float64)
+        raised = min(float(front[UPPER_LIP_MIDDLE, 1]) + MOST_CROWN - self._at.edge, 0.0)
+        bag = mouth_bag(lips, DEEPER)
+        moved = np.concatenate([FRAME + np.array([0, raised, 0]), jaw.moved(FRAME), tongue_jaw.moved(FRAME), bag])
+        behind = moved[:, 2:] - self._at.depth
+        at_rest = np.concatenate([FRAME, FRAME, FRAME, bag])[:, 2:] - self._at.depth  # as deep as the lips are known
+        aside = (camera[:2, 2] @ camera[:2, 0]) / scale**2 * camera[:2, 0]  # how depth is seen along the face's width
+        places = moved @ camera.T
+        places[:, :2] += shift - behind * camera[:2, 2] + FLATTENED * behind * (camera[:2, 2] - aside) + at_rest * aside
+        places[:, 2] += DISTANCE
+        parts = np.split(self._vertices, self._ends)
+        frames = places[: len(parts) * len(FRAME)].reshape(len(parts), *FRAME.shape)
+        seen = [part @ (four[1:] - four[0]) + four[0] for part, four in zip(parts, frames, strict=True)]
+        return np.concatenate([*seen, places[-len(bag) :]])
 
     @cached_property
     def _surface(self) -> Surface:
@@ -123,8 +140,10 @@ class ModelledMouth:
         vertices = np.concatenate([self._vertices, np.zeros((self._bag_vertices, 3))])
         normals = vertex_normals(vertices, self._triangles)
         facing = AMBIENT + (1 - AMBIENT) * np.clip(-normals[:, 2], 0, 1)
-        deep = np.exp(-np.maximum(vertices[:, 2] - self._at.depth, 0) / DARKENING)
+        reach = np.where(np.arange(len(vertices)) < self._ends[1], ROW_DARKENING, DARKENING)
+        deep = np.exp(-np.maximum(vertices[:, 2] - self._at.depth, 0) / reach)
         shade = facing * deep
+        shade[: len(self._light)] *= self._light
         shade[len(self._vertices) :] = 1  # its ramp has its light
         return np.asarray(shade, np.float32)
 

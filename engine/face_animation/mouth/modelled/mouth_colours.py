@@ -8,8 +8,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.mouth.hidden_regions import LUMINANCE_WEIGHTS
-from engine.face_animation.mouth.modelled.skin_colour import is_grey, skin_colour
+from engine.face_animation.mouth.lip_contours import LUMINANCE_WEIGHTS
+from engine.face_animation.skin_colour import is_grey, skin_colour
+from engine.face_animation.whites import white_tint
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 
 ENAMEL, DENTINE = np.array([216, 209, 197.0]), np.array([198, 185, 162.0])
@@ -20,11 +21,11 @@ USUAL_SKIN = 165.0
 LIGHT_RANGE = (0.35, 1.25)
 LIPS_SHARE = 0.5
 """Of the person's lips in what is flesh."""
-SKIN_SHARE = 0.2
-"""Of the skin's hue in modelled teeth: some of the light that falls on them comes from it."""
+TONGUE_LIT = 0.3
+"""Of the tongue's length from its tip, that is in the light."""
 LEAST_LIGHT = 1.1
 """Of a skin's luminance, that upper teeth have at least: darker ones look like no teeth."""
-LOWER_TEETH = 0.88
+LOWER_TEETH = 0.75
 """Of the upper teeth's light, that lower ones have."""
 DARK_FROM = 0.8
 """Of the bag's depth, from which on it is as dark as the throat."""
@@ -51,8 +52,11 @@ def mouth_colours(
     luminance = max(float(skin @ LUMINANCE_WEIGHTS), 1.0)
     light = float(np.clip(luminance / USUAL_SKIN, *LIGHT_RANGE))
     lips = _lips(rgb, mesh)
-    flesh = {name: _blended(light * colour, lips) for name, colour in (("gum", GUM), ("tongue", TONGUE))}
-    edge = light * ENAMEL * (skin / luminance) ** SKIN_SHARE if teeth is None else np.asarray(teeth, np.float64)
+    flesh = {
+        name: _blended(light * colour, lips)
+        for name, colour in (("gum", GUM), ("tongue", TONGUE), ("lining", LINING), ("throat", THROAT))
+    }
+    edge = light * ENAMEL * white_tint(rgb, mesh) if teeth is None else _of_a_tooth(teeth, rgb, mesh)
     edge = edge * max(LEAST_LIGHT * luminance / max(float(edge @ LUMINANCE_WEIGHTS), 1.0), 1.0)
     root = edge * (DENTINE / ENAMEL)
     along, aside = np.linspace(0, 1, RAMP[0]), np.linspace(0, 1, RAMP[1])
@@ -61,14 +65,23 @@ def mouth_colours(
     )
     shades = 0.9 + 0.2 * aside
     upper = shades[:, None, None] * crowns
-    back = _ramp(along)[:, None]
-    flat = flesh["tongue"] + back * (light * THROAT - flesh["tongue"])
+    back = _ramp((along - TONGUE_LIT) / (1 - TONGUE_LIT))[:, None]
+    flat = flesh["tongue"] + back * (flesh["throat"] - flesh["tongue"])
     furrow = 1 - 0.18 * np.exp(-0.5 * (aside / 0.1) ** 2)
-    bag = light * (LINING + np.clip(along / DARK_FROM, 0, 1)[:, None] ** 0.7 * (THROAT - LINING))
+    deep = np.clip(along / DARK_FROM, 0, 1)[:, None] ** 0.7
+    bag = flesh["lining"] + deep * (flesh["throat"] - flesh["lining"])
     ramps = [upper, LOWER_TEETH * upper, furrow[:, None, None] * flat, np.broadcast_to(bag, (RAMP[1], RAMP[0], 3))]
     if is_grey(rgb, mesh):
         ramps = [np.repeat((ramp @ LUMINANCE_WEIGHTS)[..., None], 3, axis=-1) for ramp in ramps]
     return MouthColours(*(np.clip(np.rint(ramp), 0, 255).astype(np.uint8) for ramp in ramps))
+
+
+def _of_a_tooth(teeth: NDArray[np.floating], rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:
+    """What `teeth` (3,) look like, their hue held between none and an enamel's in the picture's light: neither blue nor violet, and no more yellow
+    than that."""
+    luminance = max(float(teeth @ LUMINANCE_WEIGHTS), 1.0)
+    most = ENAMEL / float(ENAMEL @ LUMINANCE_WEIGHTS) * white_tint(rgb, mesh)
+    return np.asarray(luminance * np.clip(teeth / luminance, np.minimum(most, 1), np.maximum(most, 1)), np.float64)
 
 
 def _blended(colour: NDArray[np.float64], lips: NDArray[np.float64]) -> NDArray[np.float64]:

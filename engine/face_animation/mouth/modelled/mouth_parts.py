@@ -17,7 +17,7 @@ from engine.body.template import Template, load_template
 from engine.face_animation.mouth.modelled.resting_mouth import RestingMouth
 from engine.geometry.surface import triangulate
 from engine.perception.landmarks import LIPS_INNER
-from engine.performances.modelling.teeth import Arch, build_dentition
+from engine.performances.modelling.teeth import LOWER_CROWNS, UPPER_CROWNS, Arch, build_dentition
 
 EYE_DISTANCE = 0.063
 """Metres between the middles of the eyes: people's mean."""
@@ -37,6 +37,10 @@ BOTTOM = 0.05
 """Eye distances behind the last ring at which the bag ends."""
 SHADES = (0.9, 1.1)
 """Of single crowns, the darkest and the lightest."""
+BACKING_DEPTH, BACKING_SHARES, BACKING_LIGHT = 0.0022, (-0.2, 0.93), 0.75
+"""Metres behind the front of the arch, and shares of its crowns' heights, from and up to which there is the wall that closes the gaps between
+them, and its share of their light: without it the dark of the throat stands between teeth as lines."""
+BACKING_COLUMNS = 48
 
 
 @dataclass(frozen=True)
@@ -44,28 +48,53 @@ class MouthPart:
     """A surface in the mouth, the jaw closed: of a head from the front, in eye distances, y down and z away.
 
     vertices : (V, 3) float64. triangles : (T, 3) int32, counter-clockwise from outside. uv : (V, 2) float32 on the part's ramp of colours
-    (`engine.face_animation.mouth.modelled.mouth_colours`).
+    (`engine.face_animation.mouth.modelled.mouth_colours`). light : (V,) float32, what is left of the light where others stand before it.
     """
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.int32]
     uv: NDArray[np.float32]
+    light: NDArray[np.float32]
 
 
 def modelled_teeth(at: RestingMouth, upper: bool) -> MouthPart:
-    """A row of teeth and its gum: u from the gum to the crowns' edges, v the crowns' own shades."""
-    row = build_dentition(Arch(gum=0.0, front=0.0, up=-1 if upper else 1), DETAIL, seed=3 if upper else 4)
-    places = _in_eye_distances(row.vertices)
-    crowns = row.enamel > 0.5
-    edge, front = places[crowns, 1].max() if upper else places[crowns, 1].min(), places[:, 2].min()
+    """A row of teeth, its gum, and the wall behind them: u from the gum to the crowns' edges, v the crowns' own shades."""
+    arch = Arch(gum=0.0, front=0.0, up=-1 if upper else 1)
+    row = build_dentition(arch, DETAIL, seed=3 if upper else 4)
+    wall, wall_triangles = _backing(arch)
+    places = _in_eye_distances(np.concatenate([row.vertices, wall]))
+    enamel = np.concatenate([row.enamel, np.full(len(wall), 0.5)])
+    light = np.concatenate([np.ones(len(row.vertices)), np.full(len(wall), BACKING_LIGHT)]).astype(np.float32)
+    crowns = enamel[: len(row.vertices)] > 0.5
+    heights = places[: len(crowns)][crowns, 1]
+    edge, front = heights.max() if upper else heights.min(), places[:, 2].min()
     shift = (at.middle, at.edge, at.depth) if upper else (at.middle, at.edge - OVERBITE, at.depth + OVERJET)
-    shade = (row.shade - SHADES[0]) / (SHADES[1] - SHADES[0])
-    uv = np.column_stack([(row.enamel + 1) / 2, shade]).clip(0, 1).astype(np.float32)
+    shade = (np.concatenate([row.shade, np.ones(len(wall))]) - SHADES[0]) / (SHADES[1] - SHADES[0])
+    uv = np.column_stack([(enamel + 1) / 2, shade]).clip(0, 1).astype(np.float32)
     away = np.abs(places - (0, edge, front))
-    kept = ((away[:, 1] < (UPPER_GUM if upper else LOWER_GUM)) & (away[:, 2] < ROW_DEPTH))[row.triangles].all(axis=1)
-    known, triangles = np.unique(row.triangles[kept], return_inverse=True)
+    triangles = np.concatenate([row.triangles, wall_triangles + len(row.vertices)])
+    kept = ((away[:, 1] < (UPPER_GUM if upper else LOWER_GUM)) & (away[:, 2] < ROW_DEPTH))[triangles].all(axis=1)
+    known, triangles = np.unique(triangles[kept], return_inverse=True)
     placed = places[known] - (0, edge, front) + shift
-    return MouthPart(placed, triangles.reshape(-1, 3).astype(np.int32), uv[known])
+    return MouthPart(placed, triangles.reshape(-1, 3).astype(np.int32), uv[known], light[known])
+
+
+def _backing(arch: Arch) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Vertices (V, 3), metres, and triangles of the wall behind the crowns of an arch."""
+    widths, tall = np.array(UPPER_CROWNS if arch.up < 0 else LOWER_CROWNS).T / 1000
+    ends = 0.985 * np.cumsum(widths)
+    length = np.linspace(-ends[-1], ends[-1], BACKING_COLUMNS)
+    place, outward = arch.place(length)
+    ground = place - BACKING_DEPTH * outward / np.linalg.norm(outward, axis=1, keepdims=True)
+    crown = np.interp(np.abs(length), ends - widths / 2, tall)
+    rows = [
+        np.column_stack([ground[:, 0], arch.gum + arch.up * share * crown, ground[:, 1]]) for share in BACKING_SHARES
+    ]
+    first = np.arange(BACKING_COLUMNS - 1)
+    below, after = first + BACKING_COLUMNS, first + 1
+    pairs = [(first, below, after), (after, below, below + 1)]
+    triangles = np.concatenate([np.stack(three if arch.up < 0 else three[::-1], axis=1) for three in pairs])
+    return np.concatenate(rows), triangles.astype(np.int32)
 
 
 def tongue(at: RestingMouth) -> MouthPart:
@@ -79,7 +108,8 @@ def tongue(at: RestingMouth) -> MouthPart:
     depth = (places[:, 2] - places[:, 2].min()) / np.ptp(places[:, 2])
     aside = np.abs(places[:, 0]) / np.abs(places[:, 0]).max()
     shift = np.array([at.middle, at.edge - OVERBITE, at.depth + OVERJET])
-    return MouthPart(places + shift, triangulate(finer.quads), np.column_stack([depth, aside]).astype(np.float32))
+    uv = np.column_stack([depth, aside]).astype(np.float32)
+    return MouthPart(places + shift, triangulate(finer.quads), uv, np.ones(len(uv), np.float32))
 
 
 def tongue_put_out() -> NDArray[np.float64]:

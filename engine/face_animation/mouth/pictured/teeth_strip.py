@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter1d
 
-from engine.face_animation.mouth.hidden_regions import (
+from engine.face_animation.mouth.lip_contours import (
     LOWER_INNER_LIP,
     LUMINANCE_WEIGHTS,
     UPPER_INNER_LIP,
@@ -17,10 +17,10 @@ from engine.face_animation.mouth.hidden_regions import (
 )
 from engine.face_animation.mouth.modelled.resting_mouth import BEHIND_LIPS
 from engine.face_animation.mouth.modelled.skull import skull_camera
+from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
 from engine.imaging.resample import resized
 from engine.perception.expression.features import frontalise
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
-from engine.persona.collection.face_photo import FacePhoto
 
 ARCH = 1.2
 """Eye distances by which teeth lie further back, for the square of one to the side."""
@@ -129,7 +129,7 @@ class TeethStrip:
         return np.asarray(lit.mean(axis=0), np.float64)
 
 
-def teeth_strip(photo: FacePhoto, wanted: float) -> TeethStrip:
+def teeth_strip(photo: PicturedFace, wanted: float) -> TeethStrip:
     """That of a photograph, shrunk where its face is larger than one of an eye distance of `wanted` pixels asks for."""
     front = frontalise(photo.mesh[None])[0]
     unit = float(eye_distance(photo.mesh[:, :2]))
@@ -158,7 +158,7 @@ def teeth_strip(photo: FacePhoto, wanted: float) -> TeethStrip:
     )
 
 
-def _edge(photo: FacePhoto) -> float:
+def _edge(photo: PicturedFace) -> float:
     """The share of the way from lip to lip where the upper teeth end, in the middle of the mouth."""
     upper, lower = (photo.mesh[list(lip[3:8]), :2] for lip in (UPPER_INNER_LIP, LOWER_INNER_LIP))
     down = (np.arange(ROWS) + 0.5)[:, None, None] / ROWS

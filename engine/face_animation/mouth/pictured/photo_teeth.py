@@ -11,16 +11,16 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.mouth.hidden_regions import LUMINANCE_WEIGHTS, box_around, soft_polygon
+from engine.face_animation.mouth.lip_contours import LUMINANCE_WEIGHTS, box_around, soft_polygon
 from engine.face_animation.mouth.modelled.modelled_mouth import LEAST_SOFT_PIXELS, LIP_SOFTNESS, shown_share
-from engine.face_animation.mouth.modelled.mouth_light import in_mouth
+from engine.face_animation.mouth.modelled.mouth_light import mouth_light
 from engine.face_animation.mouth.modelled.resting_mouth import CORNERS, FULL_OPENING, UPPER_MIDDLE, RestingMouth
-from engine.face_animation.mouth.modelled.skin_colour import is_grey, skin_colour
 from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.face_animation.mouth.mouth_interior import MouthInterior
+from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
+from engine.face_animation.mouth.pictured.teeth_strip import ARCH, TeethStrip, teeth_strip
+from engine.face_animation.skin_colour import is_grey, skin_colour
 from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, eye_distance, mouth_opening
-from engine.persona.collection.face_photo import FacePhoto
-from engine.persona.mouth.teeth_strip import ARCH, TeethStrip, teeth_strip
 
 APPEARING_OPENING = 0.03
 """Of the mouth, from which on the inside appears."""
@@ -52,7 +52,7 @@ class PhotoTeeth:
         at: RestingMouth,
         rgb: NDArray[np.uint8],
         mesh: NDArray[np.floating],
-        photo: FacePhoto,
+        photo: PicturedFace,
         behind: MouthInterior,
         faces: NDArray[np.floating],
         appearing: float = 0.0,
@@ -87,7 +87,7 @@ class PhotoTeeth:
         """(h, w, 4) the teeth's colours in the target's light, and their shares, in a part of `shape` (h, w) of the picture of a `face`
         (478, 2) whose first pixel is at `corner` (2,)."""
         layer = self.upper_teeth(self.places(face, corner, shape))
-        layer[..., :3] = self.lit(layer[..., :3]) * in_mouth(face, corner, shape).light()[..., None]
+        layer[..., :3] = self.lit(layer[..., :3]) * mouth_light(face, corner, shape)[..., None]
         return layer
 
     def lit(self, colours: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -103,14 +103,17 @@ class PhotoTeeth:
         """(h, w, 2) where on the arch of the teeth each pixel is, as the target's skull has it from the front, in eye distances from
         the middle of where the upper teeth end."""
         matrix, shift = skull_camera(self.at.front, face)
-        rows, columns = np.mgrid[: shape[0], : shape[1]].astype(np.float64)
-        seen = np.stack([columns, rows], axis=-1) + corner - shift
         back = np.linalg.inv(matrix[:, :2]).T
-        depth = np.full(shape, self.at.depth)
-        for _ in range(ARCH_ROUNDS):  # the arch goes back to both sides
-            front = (seen - depth[..., None] * matrix[:, 2]) @ back - (self.at.middle, self.at.edge)
-            depth = self.at.depth + ARCH * front[..., 0] ** 2
-        return np.asarray(front, np.float64)
+        rows, columns = np.ogrid[: shape[0], : shape[1]]
+        across, down = columns + (corner[0] - shift[0]), rows + (corner[1] - shift[1])
+        further = matrix[:, 2] @ back  # by how much a place is moved for each eye distance that it is further back
+        x0 = across * back[0, 0] + down * back[1, 0] - self.at.depth * further[0] - self.at.middle
+        y0 = across * back[0, 1] + down * back[1, 1] - self.at.depth * further[1] - self.at.edge
+        x = x0
+        for _ in range(ARCH_ROUNDS - 1):  # the arch goes back to both sides
+            x = x0 - ARCH * further[0] * x**2
+        arch = ARCH * x**2
+        return np.stack([x0 - arch * further[0], y0 - arch * further[1]], axis=-1)
 
     def upper_teeth(self, places: NDArray[np.floating]) -> NDArray[np.float32]:
         """(h, w, 4) colours as in the photograph, and shares, at `places` as those of the same name."""
@@ -142,7 +145,7 @@ def appearing_opening(mesh: NDArray[np.floating]) -> float:
 
 
 def teeth_gain(
-    rgb: NDArray[np.uint8], mesh: NDArray[np.floating], photo: FacePhoto, strip: TeethStrip
+    rgb: NDArray[np.uint8], mesh: NDArray[np.floating], photo: PicturedFace, strip: TeethStrip
 ) -> NDArray[np.float32]:
     """(3,) by which the colours of the `strip` of a photograph's teeth are brought into the light of a picture `rgb` (H, W, 3) of the same
     face at `mesh` (478, 3)."""
@@ -150,7 +153,7 @@ def teeth_gain(
     return np.asarray(gain * _held(strip.brightest(gain), rgb, mesh), np.float32)
 
 
-def _gain(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], photo: FacePhoto) -> NDArray[np.float32]:
+def _gain(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], photo: PicturedFace) -> NDArray[np.float32]:
     """(3,) all of the difference in brightness between the two skins, and half of that in colour, which is complexion and paint, too; none
     of it green."""
     ratio = skin_colour(rgb, mesh) / np.maximum(skin_colour(photo.rgb, photo.mesh), 1)

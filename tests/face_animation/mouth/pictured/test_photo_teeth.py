@@ -8,12 +8,12 @@ import pytest
 
 from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
 from engine.face_animation.mouth.modelled.skull import skull_camera
+from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth, appearing_opening
+from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
+from engine.face_animation.mouth.pictured.teeth_strip import teeth_strip
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES
-from engine.persona.collection.face_photo import FacePhoto
-from engine.persona.mouth.photo_teeth import PhotoTeeth, appearing_opening
-from engine.persona.mouth.teeth_strip import teeth_strip
 
 SKIN = (190, 150, 130)
 CAVITY = np.array([50.0, 20.0, 20.0])
@@ -58,7 +58,7 @@ def mouth() -> PhotoTeeth:
     at = resting_mouth(frontalise(rest[None])[0], frontalise(rest[None])[0])
     faces = np.array([face(0.2)[:, :2], rest[:, :2]])
     return PhotoTeeth(
-        at, picture(rest), rest, FacePhoto(picture(smile), smile, 0), Dark(), faces, appearing_opening(rest)
+        at, picture(rest), rest, PicturedFace(picture(smile), smile), Dark(), faces, appearing_opening(rest)
     )
 
 
@@ -115,5 +115,5 @@ def test_a_white_band_shows_no_crowns() -> None:
     striped = picture(smile)
     band = striped.copy()
     band[(striped == (150, 135, 120)).all(axis=-1)] = (225, 215, 200)
-    crowns = [teeth_strip(FacePhoto(rgb, smile, 0), 80.0).crowns() for rgb in (striped, band)]
+    crowns = [teeth_strip(PicturedFace(rgb, smile), 80.0).crowns() for rgb in (striped, band)]
     assert crowns[1] < 0.04 < 0.1 < crowns[0]

@@ -1,0 +1,210 @@
+"""The eyeball as a layer of its own: a white in the target's tone, the iris completed to its disk, the catch-light in it.
+
+What a picture shows of the white is a few pixels between lashes, shadow and iris: continued behind the lids they become a
+white of lash colour with the smear of the old iris. So the white is modelled: of the tint that whites have in the picture
+(`whites`), as light as this eye's are beside the skin below it, and as shaded by its lid as the picture shows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.whites import LUMINANCE_WEIGHTS, eye_whites, white_tint
+from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
+
+EYE_VERTICES = ((RIGHT_EYE, RIGHT_IRIS, 33, 133), (LEFT_EYE, LEFT_IRIS, 263, 362))
+BELOW_EYE = ((117, 118, 119, 120, 100, 101), (346, 347, 348, 349, 329, 330))
+"""Vertices of the cheek below each eye."""
+LAYER_MARGIN_EYE_WIDTHS = 0.5
+"""Around the opening, in eye widths: how far the eyeball's layer reaches behind the lids."""
+LASH_LINE_EYE_WIDTHS = 0.05
+"""Width of the line of lashes on a lid that closes, in eye widths."""
+MIN_EYE_WIDTH = 14.0
+"""Pixels; smaller eyes move with the face's warp alone."""
+WHITE_RANGE = (0.8, 1.5)
+"""Of the light of the cheek below, between which the white's is."""
+USUAL_WHITE = 1.0
+"""The same, where the picture shows none."""
+HUE_RANGE = (0.0, 0.6)
+"""Of the skin's hue, that there is in the white of an eye."""
+SHADED_DEPTH, OPEN_DEPTH = 0.07, 0.14
+"""Eye widths below the upper lid up to which it shades the white, and from which on it does not."""
+MAX_LID_SHADE = 0.45
+RINGS = 12
+"""Of an iris, between which its colours are told apart."""
+SPURIOUS, SPARED = 24.0, 60.0
+"""Grey levels from the usual of its ring, from which on a place of the iris is lash, lid or light, and at which it is wholly."""
+GLINT_RADII = 0.8
+"""Within which a place that is so much lighter is the catch-light's."""
+
+
+@dataclass(frozen=True)
+class Eyeball:
+    """One eye's layer at rest, (h, w) pixels of the picture.
+
+    white : (h, w, 3) float32, the eyeball without its iris.
+    iris : (h, w, 3) float32, the iris and the pupil.
+    iris_alpha : (h, w) float32 in [0, 1].
+    glint : (h, w, 4) float32, the catch-light, and in [0, 1] where it is.
+    corner : (2,) float32, where the layer's upper left pixel lies in the picture (x, y).
+    ends : (2, 2) float32, the corners of the eye in the picture (x, y).
+    width : pixels between them.
+    opening : area between the lids, in squares of the width.
+    lashes : (3,) float32, the colour of the upper lid's edge.
+    lid_shade : share of the light that the upper lid keeps from the white at its edge.
+    centre : (2,) float64, where the iris is, from the middle between the corners, in eye widths along and across.
+    radius : of the iris, in eye widths.
+    """
+
+    white: NDArray[np.float32]
+    iris: NDArray[np.float32]
+    iris_alpha: NDArray[np.float32]
+    glint: NDArray[np.float32]
+    corner: NDArray[np.float32]
+    ends: NDArray[np.float32]
+    width: float
+    opening: float
+    lashes: NDArray[np.float32]
+    lid_shade: float
+    centre: NDArray[np.float64]
+    radius: float
+
+
+def prepare_eyes(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> tuple[Eyeball | None, Eyeball | None]:
+    """The two eyeballs of a target, right eye first; None where an eye is too small or shut in the picture."""
+    return _prepare(rgb, mesh, 0), _prepare(rgb, mesh, 1)
+
+
+def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> Eyeball | None:
+    contour, iris, outer, inner = EYE_VERTICES[side]
+    ends = mesh[[outer, inner], :2].astype(np.float32)
+    width = float(np.linalg.norm(ends[1] - ends[0]))
+    opening = mesh[list(contour), :2].astype(np.float32)
+    area = float(cv2.contourArea(opening))
+    low = np.floor(opening.min(axis=0) - LAYER_MARGIN_EYE_WIDTHS * width).astype(int)
+    high = np.ceil(opening.max(axis=0) + LAYER_MARGIN_EYE_WIDTHS * width).astype(int)
+    low, high = np.maximum(low, 0), np.minimum(high, (rgb.shape[1], rgb.shape[0]))
+    if width < MIN_EYE_WIDTH or area < 0.08 * width**2 or (high - low).min() < 8:
+        return None
+    patch = rgb[low[1] : high[1], low[0] : high[0]].astype(np.float32)
+    centre = mesh[iris[0], :2] - low
+    radius = float(np.linalg.norm(mesh[list(iris[1:]), :2] - mesh[iris[0], :2], axis=1).mean())
+    ys, xs = np.mgrid[: patch.shape[0], : patch.shape[1]].astype(np.float32)
+    distance = np.hypot(xs - centre[0], ys - centre[1])
+    seen = _fill(opening - low, patch.shape[:2])
+    if width > 30:
+        seen = np.asarray(cv2.erode(seen, np.ones((3, 3), np.uint8)), np.uint8)
+    inside_iris = distance < 1.12 * radius
+    beside = (seen > 0) & ~inside_iris
+    if beside.sum() < 6:
+        return None
+    tone = _white(rgb, mesh, side)
+    disk, glint = _complete_iris(patch, (seen > 0) & inside_iris, distance, radius)
+    alpha = np.clip((1.08 * radius - distance) / max(0.2 * radius, 1.0) + 0.5, 0, 1)
+    along = (ends[1] - ends[0]).astype(np.float64) / width
+    off = mesh[iris[0], :2] - ends.mean(axis=0)
+    return Eyeball(
+        np.broadcast_to(tone, patch.shape).astype(np.float32),
+        disk,
+        alpha.astype(np.float32),
+        glint,
+        low.astype(np.float32),
+        ends,
+        width,
+        area / width**2,
+        _lashes(rgb, opening),
+        _lid_shade(patch, beside, below_lid(opening - low, patch.shape[:2])),
+        np.array([off @ along, off @ (-along[1], along[0])]) / width,
+        radius / width,
+    )
+
+
+def below_lid(opening: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
+    """(h, w) how far below the upper lid of an `opening` (16, 2), pixels of a part of `shape`, its pixels are, in eye widths."""
+    across = (opening[8] - opening[0]).astype(np.float64)
+    width = max(float(np.linalg.norm(across)), 1.0)
+    right = across / width * (np.sign(across[0]) or 1.0)
+    down = np.array([-right[1], right[0]])
+    lid = opening[:9] @ np.column_stack([right, down])
+    lid = lid[np.argsort(lid[:, 0])]
+    ys, xs = np.mgrid[: shape[0], : shape[1]]
+    places, heights = xs * right[0] + ys * right[1], xs * down[0] + ys * down[1]
+    return np.asarray((heights - np.interp(places, lid[:, 0], lid[:, 1])) / width, np.float32)
+
+
+def _white(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float64]:
+    """(3,) the colour of an eye's white: as light beside its cheek as that eye's is which shows it better."""
+    shares = []
+    for one in range(2):
+        whites = eye_whites(rgb, mesh, one)
+        if len(whites):
+            shares.append(float((whites @ LUMINANCE_WEIGHTS).mean()) / _cheek(rgb, mesh, one))
+    light = float(np.clip(max(shares, default=USUAL_WHITE), *WHITE_RANGE))
+    return np.minimum(_cheek(rgb, mesh, side) * light * white_tint(rgb, mesh, HUE_RANGE), 255.0)
+
+
+def _cheek(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> float:
+    """The luminance of the skin below an eye."""
+    area = np.zeros(rgb.shape[:2], np.uint8)
+    cv2.fillConvexPoly(area, cv2.convexHull(np.rint(mesh[list(BELOW_EYE[side]), :2]).astype(np.int32)), 1)
+    return max(float(np.array(cv2.mean(rgb, area)[:3]) @ LUMINANCE_WEIGHTS), 1.0)
+
+
+def _lid_shade(patch: NDArray[np.float32], beside: NDArray[np.bool_], depth: NDArray[np.float32]) -> float:
+    """How much darker the white of a `patch` (h, w, 3) is at the upper lid than below: drawn eyes have no shade there."""
+    light = patch @ LUMINANCE_WEIGHTS.astype(np.float32)
+    near, far = light[beside & (depth < SHADED_DEPTH)], light[beside & (depth > OPEN_DEPTH)]
+    if len(near) < 3 or len(far) < 3:
+        return MAX_LID_SHADE / 2
+    return float(np.clip(1 - np.median(near) / max(float(np.median(far)), 1.0), 0, MAX_LID_SHADE))
+
+
+def _lashes(rgb: NDArray[np.uint8], opening: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The darker half of the colours along the upper lid's edge, their mean (3,): there, or as far outside of it as lashes
+    are wide, for a drawn eye may end beyond the mesh's."""
+    middle, width = (opening[0] + opening[8]) / 2, np.linalg.norm(opening[8] - opening[0])
+    away = opening[1:8] - middle
+    outside = opening[1:8] + LASH_LINE_EYE_WIDTHS * width * away / np.maximum(
+        np.linalg.norm(away, axis=1, keepdims=True), 1
+    )
+    edge = np.clip(np.round([opening[1:8], outside]).astype(int), 0, (rgb.shape[1] - 1, rgb.shape[0] - 1))
+    colours = rgb[edge[..., 1], edge[..., 0]].astype(np.float32)
+    darker = colours.sum(axis=-1).argmin(axis=0)
+    colours = colours[darker, np.arange(7)]
+    return np.asarray(colours[np.argsort(colours.sum(axis=1))[:4]].mean(axis=0), np.float32)
+
+
+def _fill(points: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.uint8]:
+    mask = np.zeros(shape, np.uint8)
+    cv2.fillPoly(mask, [np.round(points).astype(np.int32)], 1)
+    return mask
+
+
+def _complete_iris(
+    patch: NDArray[np.float32], known: NDArray[np.bool_], distance: NDArray[np.float32], radius: float
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """The iris (h, w, 3) as a full disk, and the catch-light (h, w, 4) in it. What lids hide, and what is lash, shadow or light, takes
+    the median colour at its distance from the pupil."""
+    rings = np.minimum((distance / max(radius, 1) * RINGS).astype(int), RINGS + 3)
+    filled, medians = [], []
+    for ring in range(RINGS + 4):
+        colours = patch[known & (rings == ring)]
+        if len(colours):
+            filled.append(ring)
+            medians.append(np.median(colours, axis=0))
+    if not filled:
+        return patch.copy(), np.zeros((*distance.shape, 4), np.float32)
+    at = np.clip(distance / max(radius, 1) * RINGS - 0.5, 0, RINGS + 3)
+    values = np.asarray(medians, np.float32)
+    modelled = np.stack([np.interp(at, filled, values[:, k]) for k in range(3)], axis=-1).astype(np.float32)
+    off = (patch - modelled) @ LUMINANCE_WEIGHTS.astype(np.float32)
+    own = np.clip((SPARED - np.abs(off)) / (SPARED - SPURIOUS), 0, 1)
+    edge = np.minimum(cv2.distanceTransform(known.astype(np.uint8), cv2.DIST_L2, 3) / 2, 1)
+    disk = modelled + cv2.GaussianBlur(own * edge, (0, 0), 0.6)[..., None] * (patch - modelled)
+    lit = np.clip((off - SPURIOUS) / (SPARED - SPURIOUS), 0, 1) * (known & (distance < GLINT_RADII * radius))
+    alpha = cv2.GaussianBlur(lit.astype(np.float32), (0, 0), 0.6)
+    return np.asarray(disk, np.float32), np.dstack([patch, alpha]).astype(np.float32)

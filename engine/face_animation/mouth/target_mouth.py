@@ -1,0 +1,40 @@
+"""The one inside of the mouth that a target has through a whole clip: modelled, in its own light and palette, behind the upper
+teeth that its picture shows.
+
+Section 5 pastes the driver's. A driver that laughs is blurred, turned and in another light: its teeth come as a violet or
+flesh-coloured plug, and come and go from frame to frame. What is modelled stays the same, wherever jaw and lips go.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.mouth.lip_contours import MIN_TEETH_OPENING
+from engine.face_animation.mouth.modelled.modelled_mouth import ModelledMouth
+from engine.face_animation.mouth.modelled.mouth_colours import mouth_colours
+from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
+from engine.face_animation.mouth.mouth_interior import MouthInterior
+from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth, appearing_opening, teeth_gain
+from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
+from engine.face_animation.mouth.pictured.teeth_strip import teeth_strip
+from engine.face_animation.target_face import TargetFace
+from engine.perception.expression.features import frontalise
+from engine.perception.head_pose import canonical_face
+from engine.perception.landmarks import eye_distance, mouth_opening
+
+
+def target_mouth(target: TargetFace) -> MouthInterior:
+    """The inside of a target's mouth. Where its picture shows crowns of upper teeth, these are it; where it shows anything else, its
+    own is seen until the mouth opens further than in the picture."""
+    rgb, mesh = target.rgb, target.mesh
+    general = frontalise(canonical_face()[None].astype(np.float64))[0]
+    at = resting_mouth(frontalise(mesh[None])[0], general)
+    if float(mouth_opening(mesh)) > MIN_TEETH_OPENING:
+        photo = PicturedFace(rgb, mesh)
+        strip = teeth_strip(photo, float(eye_distance(mesh[:, :2])))
+        if strip.has_crowns:
+            colours = mouth_colours(rgb, mesh, strip.usual() * teeth_gain(rgb, mesh, photo, strip))
+            none: NDArray[np.float32] = np.zeros((0, *mesh[:, :2].shape), np.float32)  # as large as in the picture
+            return PhotoTeeth(at, rgb, mesh, photo, ModelledMouth(at, colours, False), none)
+    return ModelledMouth(at, mouth_colours(rgb, mesh), True, appearing_opening(mesh))

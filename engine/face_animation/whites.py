@@ -1,0 +1,61 @@
+"""What is white in a picture's light and palette: the tint of teeth and of the whites of eyes.
+
+Both are found on few pixels, among lashes, reflections and the noise of a JPEG. So what is measured decides one number only:
+how much of the skin's own hue there is in what is white, from hardly any in a photograph to most of it under a brown
+varnish. Violet, green or blue whites cannot come of it.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.skin_colour import skin_colour
+from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
+
+LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114])
+USUAL_SHARE, SHARE_RANGE = 0.25, (0.15, 0.45)
+"""Of the skin's hue in what is white, where no eye shows it, and between which it is."""
+WHITE_PERCENTILE = 60
+"""Of the light beside an iris, from which on it is the white's: lids shade the rest."""
+IRIS_MARGIN = 1.2
+"""Radii of the iris within which nothing is white."""
+MIN_PIXELS = 12
+
+
+def white_tint(
+    rgb: NDArray[np.uint8], mesh: NDArray[np.floating], shares: tuple[float, float] = SHARE_RANGE
+) -> NDArray[np.float64]:
+    """(3,) the colour of what is white, at luminance 1, in a picture (H, W, 3) of a face at `mesh` (478, 2 or 3), with the skin's hue
+    between two `shares`."""
+    skin = np.maximum(skin_colour(rgb, mesh), 1.0)
+    hue = np.log(skin / float(skin @ LUMINANCE_WEIGHTS))
+    whites = np.concatenate([eye_whites(rgb, mesh, side) for side in range(2)])
+    share = USUAL_SHARE
+    if len(whites) >= MIN_PIXELS and float(hue @ hue) > 1e-4:
+        white = np.maximum(whites.mean(axis=0), 1.0)
+        share = float(np.log(white / float(white @ LUMINANCE_WEIGHTS)) @ hue) / float(hue @ hue)
+    tint = np.exp(float(np.clip(share, *shares)) * hue)
+    return np.asarray(tint / float(tint @ LUMINANCE_WEIGHTS), np.float64)
+
+
+def eye_whites(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float64]:
+    """(P, 3) the lighter colours within the lids and beside the iris of an eye, 0 the right one, of a face at `mesh` (478, 2 or
+    3); few or none where it is small or shut."""
+    contour, iris = ((RIGHT_EYE, RIGHT_IRIS), (LEFT_EYE, LEFT_IRIS))[side]
+    low = np.maximum(np.floor(mesh[list(contour), :2].min(axis=0)).astype(int) - 1, 0)
+    high = np.minimum(np.ceil(mesh[list(contour), :2].max(axis=0)).astype(int) + 2, rgb.shape[1::-1])
+    if (high - low).min() < 2:
+        return np.zeros((0, 3))
+    mask = np.zeros((high - low)[::-1], np.uint8)
+    cv2.fillPoly(mask, [np.rint(mesh[list(contour), :2] - low).astype(np.int32)], 1)
+    centre = mesh[iris[0], :2]
+    radius = float(np.linalg.norm(mesh[list(iris[1:]), :2] - centre, axis=1).mean())
+    mask = np.asarray(cv2.erode(mask, np.ones((3, 3), np.uint8)))
+    cv2.circle(mask, np.rint(centre - low).astype(int).tolist(), max(round(IRIS_MARGIN * radius), 1), 0, -1)
+    colours = rgb[low[1] : high[1], low[0] : high[0]][mask > 0].astype(np.float64)
+    if not len(colours):
+        return colours.reshape(0, 3)
+    light = colours @ LUMINANCE_WEIGHTS
+    return np.asarray(colours[light >= np.percentile(light, WHITE_PERCENTILE)], np.float64)

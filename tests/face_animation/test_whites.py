@@ -1,0 +1,50 @@
+"""The tint of what is white: as an eye shows it, but always between grey and the skin's hue."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from made_face import BROWN, SKIN, WHITE, painted, placed, shut
+from numpy.typing import NDArray
+
+from engine.face_animation.whites import LUMINANCE_WEIGHTS, SHARE_RANGE, eye_whites, white_tint
+
+SIZE = (360, 320)
+
+
+@pytest.fixture(scope="module")
+def mesh() -> NDArray[np.float32]:
+    return shut(placed(120, (180, 140)), 1.6)
+
+
+def hue_share(tint: NDArray, skin: NDArray) -> float:
+    """How much of the skin's hue is in a tint, if it is of that hue at all."""
+    hue = np.log(skin / float(skin @ LUMINANCE_WEIGHTS))
+    share = float(np.log(tint) @ hue / (hue @ hue))
+    expected = np.exp(share * hue)
+    np.testing.assert_allclose(tint, expected / float(expected @ LUMINANCE_WEIGHTS), atol=3e-3)
+    return share
+
+
+def test_the_whites_of_eyes_are_found_beside_their_irises(mesh: NDArray) -> None:
+    for side in range(2):
+        found = eye_whites(painted(mesh, SIZE), mesh, side)
+        assert len(found) > 20
+        assert np.abs(found - WHITE).max() < 30 < np.linalg.norm(np.array(WHITE) - BROWN)
+
+
+@pytest.mark.parametrize("cast", [(1.0, 1.0, 1.0), (0.6, 0.6, 1.0), (1.0, 0.75, 0.4), (0.6, 1.0, 0.6)])
+def test_the_tint_is_between_grey_and_the_skin_whatever_the_eyes_show(mesh: NDArray, cast: tuple) -> None:
+    rgb = painted(mesh, SIZE)
+    white = np.abs(rgb.astype(int) - WHITE).max(axis=2) < 12
+    rgb[white] = np.array(WHITE) * cast
+    share = hue_share(white_tint(rgb, mesh), np.array(SKIN, float))
+    assert SHARE_RANGE[0] - 0.05 <= share <= SHARE_RANGE[1] + 0.05
+
+
+def test_a_varnish_over_all_tints_whites_more_than_clean_light(mesh: NDArray) -> None:
+    rgb = painted(mesh, SIZE)
+    white = np.abs(rgb.astype(int) - WHITE).max(axis=2) < 12
+    warm = rgb.copy()
+    warm[white] = np.array(WHITE) * (1.0, 0.85, 0.65)
+    assert white_tint(warm, mesh)[2] < white_tint(rgb, mesh)[2] - 0.03
