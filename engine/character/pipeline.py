@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.character.drawing.flat_character import close_drawing
 from engine.character.figure.figure import Choice, Figure, find_figure
 from engine.character.figure.silhouette import Silhouette, cut_out
 from engine.character.film.cast_shadow import ground_shadow
@@ -26,9 +27,12 @@ from engine.character.stages import (
     build_mesh,
     fewer_triangles,
     fill_background,
+    fit_drawn,
     fit_template,
     label,
+    label_drawn,
     make_character,
+    make_drawn,
 )
 from engine.errors import InputError
 from engine.export.animated_gif import MAX_GIF_SIDE
@@ -193,6 +197,8 @@ def reconstruct(
     figure: Figure, silhouette: Silhouette, label_map: Path | None, options: CharacterOptions, run: Run
 ) -> Person:
     """From the mask to the character."""
+    if figure.drawn:
+        return reconstruct_drawing(figure, silhouette, label_map, options, run)
     fitted = run.stage("fit_template", fit_template, figure, silhouette)
     given = (label_map, options.label_strokes, run.limits, run.warn)
     labels = run.stage("label_parts", label, figure, silhouette, fitted, *given)
@@ -207,6 +213,18 @@ def reconstruct(
         make_character,
         *(figure, silhouette, fitted, labels, mesh, options.triangles, options.back_texture),
     )
+    return Person(figure, silhouette, fitted, labels, character)
+
+
+def reconstruct_drawing(
+    figure: Figure, silhouette: Silhouette, label_map: Path | None, options: CharacterOptions, run: Run
+) -> Person:
+    """From the mask of a drawing to the character: a flat cut-out in its own proportions."""
+    fitted = run.stage("fit_template", fit_drawn, figure, silhouette)
+    given = (label_map, options.label_strokes, run.limits)
+    labels = run.stage("label_parts", label_drawn, figure, silhouette, *given)
+    mesh = run.stage("build_mesh", close_drawing, figure, silhouette, labels)
+    character = run.stage("make_character", make_drawn, figure, silhouette, fitted, mesh, options.triangles)
     return Person(figure, silhouette, fitted, labels, character)
 
 

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
+from engine.character.drawing.flat_character import bind_drawing, label_drawing
+from engine.character.drawing.flat_pose import fit_drawing
 from engine.character.figure.crossed_arms import without_hidden_hand
 from engine.character.figure.doubts import doubt_labels, require_labels
 from engine.character.figure.face_region import face_ellipse, face_turn, in_profile, within_oval
@@ -78,15 +80,7 @@ def label(
     """
     human = load_human()
     posed = pose_template(fitted, silhouette.camera(fitted.picture_camera()), human)
-    height, width = figure.rgb.shape[:2]
-    given = None
-    if file is not None:
-        read = read_labels(file, [figure.original, (width, height)], limits)
-        read = np.asarray(cv2.resize(read, (width, height), interpolation=cv2.INTER_NEAREST_EXACT), np.int8)
-        size = (silhouette.mask.shape[1], silhouette.mask.shape[0])
-        given = np.asarray(cv2.warpAffine(read.astype(np.int16), silhouette.to_grid, size, flags=cv2.INTER_NEAREST,
-                                          borderValue=(-1,)), np.int8)  # fmt: skip
-        require_labels(given, silhouette.mask)
+    given = None if file is None else given_labels(file, figure, silhouette, limits)
     hints = LabelHints(
         given,
         hand_labels(without_hidden_hand(figure, fitted.crossed).hands, silhouette.to_grid, silhouette.mask.shape),
@@ -97,11 +91,62 @@ def label(
     )
     labels = label_parts(
         *(silhouette.rgb, silhouette.mask, posed, human.rig, hints),
-        lambda found: relabel(found, strokes, figure.scale, silhouette.to_grid, (height, width)),
+        lambda found: _repainted(found, strokes, figure, silhouette),
     )
     if given is not None:
         doubt_labels(figure, labels.labels, silhouette.to_grid, warn)
     return with_cloth(labels, silhouette.rgb, posed, human.rig)
+
+
+def given_labels(file: Path, figure: Figure, silhouette: Silhouette, limits: Limits) -> NDArray[np.int8]:
+    """A label map from a picture, on the grid (h, w).
+
+    Raises
+    ------
+    InputError : `labels_unreadable`, and what `read_labels` may raise.
+    """
+    height, width = figure.rgb.shape[:2]
+    read = read_labels(file, [figure.original, (width, height)], limits)
+    read = np.asarray(cv2.resize(read, (width, height), interpolation=cv2.INTER_NEAREST_EXACT), np.int8)
+    size = (silhouette.mask.shape[1], silhouette.mask.shape[0])
+    given = np.asarray(cv2.warpAffine(read.astype(np.int16), silhouette.to_grid, size, flags=cv2.INTER_NEAREST,
+                                      borderValue=(-1,)), np.int8)  # fmt: skip
+    require_labels(given, silhouette.mask)
+    return given
+
+
+def _repainted(
+    labels: NDArray[np.int8], strokes: tuple[LabelStroke, ...], figure: Figure, silhouette: Silhouette
+) -> NDArray[np.int8]:
+    height, width = figure.rgb.shape[:2]
+    return relabel(labels, strokes, figure.scale, silhouette.to_grid, (height, width))
+
+
+def label_drawn(
+    figure: Figure, silhouette: Silhouette, file: Path | None, strokes: tuple[LabelStroke, ...], limits: Limits
+) -> Labels:
+    """The label map of a drawing, as `label` has it of a person.
+
+    Raises
+    ------
+    InputError : what `given_labels` may raise.
+    """
+    given = None if file is None else given_labels(file, figure, silhouette, limits)
+    labels = label_drawing(figure, silhouette, given)
+    return replace(labels, labels=_repainted(labels.labels, strokes, figure, silhouette))
+
+
+def fit_drawn(figure: Figure, silhouette: Silhouette) -> FittedBody:
+    """The pose of a drawing, and the camera."""
+    return fit_drawing(figure, silhouette.alpha > 0.5)
+
+
+def make_drawn(
+    figure: Figure, silhouette: Silhouette, fitted: FittedBody, mesh: ClosedMesh, triangles: int
+) -> Character:
+    """A drawing's mesh bound in T-pose and brought down to a number of triangles."""
+    character = bind_drawing(figure, silhouette, fitted, mesh)
+    return replace(character, mesh=fewer_triangles(character, triangles))
 
 
 def hand_labels(

@@ -37,18 +37,28 @@ def figure_on_plain_ground(
     if (belief > 0.9).sum() > MIN_CERTAIN_SHARE * (belief > 0.3).sum():
         return None
     size = size_within(rgb.shape, WORKING_SIZE)
-    small = resized(np.ascontiguousarray(rgb), size).astype(np.float32)
-    rough = resized(belief, size)
-    strokes = _strokes(small)
-    if _border(strokes).mean() > MAX_BORDER_SHARE or np.median(_border(small)) < MIN_PAPER_GREY_LEVEL:
-        return None
-    figure = _enclosed(strokes)
+    figure = _on_paper(resized(np.ascontiguousarray(rgb), size).astype(np.float32))
     if figure is None:
         return None
+    rough = resized(belief, size)
     meant = rough > 0.3 if known is None else (rough > 0.3) | resized(known.astype(np.uint8), size, False).astype(bool)
     if not meant[figure].any():
         return None
     return np.clip(resized(figure.astype(np.float32), (rgb.shape[1], rgb.shape[0])), 0, 1)
+
+
+def figure_on_paper(rgb: NDArray[np.uint8]) -> NDArray[np.bool_] | None:
+    """The largest thing (H, W) that lines enclose on plain paper, whoever or whatever it is; None without paper or lines."""
+    figure = _on_paper(resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE)).astype(np.float32))
+    return None if figure is None else resized(figure.astype(np.float32), (rgb.shape[1], rgb.shape[0])) > 0.5
+
+
+def _on_paper(small: NDArray[np.float32]) -> NDArray[np.bool_] | None:
+    """The same at the size at which strokes are looked for."""
+    strokes = _strokes(small)
+    if _border(strokes).mean() > MAX_BORDER_SHARE or np.median(_border(small)) < MIN_PAPER_GREY_LEVEL:
+        return None
+    return _enclosed(strokes)
 
 
 def _border(image: NDArray) -> NDArray:

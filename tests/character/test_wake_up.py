@@ -258,21 +258,15 @@ def test_a_real_picture(media: Callable[[str], Path], tmp_path: Path) -> None:
     assert (len(border), crowded) == (0, 0)
 
 
-DRAWN = {
-    **{"RightShoulder": (200, 220), "RightElbow": (110, 260), "RightWrist": (50, 295), "RightHip": (200, 400)},
-    **{"RightKnee": (170, 465), "RightAnkle": (135, 540), "LeftShoulder": (320, 215), "LeftElbow": (390, 240)},
-    **{"LeftWrist": (440, 280), "LeftHip": (330, 395), "LeftKnee": (380, 460), "LeftAnkle": (410, 530)},
-}
-
-
-def test_a_childs_drawing_wakes_up_by_joints_placed_by_hand(media: Callable[[str], Path], tmp_path: Path) -> None:
+def test_a_childs_drawing_wakes_up_unaided_as_a_flat_cut_out(media: Callable[[str], Path], tmp_path: Path) -> None:
     drawing = media("fullbody/drawing_child_boy.png")
-    error = refused(tmp_path, drawing)
-    assert (error.code, error.correctable) == ("no_person", ("joints", "person_box"))
-    out = wake_up(drawing, tmp_path / "out", seconds=1, joints=DRAWN, **QUICK).folder
+    out = wake_up(drawing, tmp_path / "out", seconds=1, joints={"LeftElbow": (390, 240)}, **QUICK).folder
     report = json.loads((out / "report.json").read_text())
+    assert "figure_drawn" in [one["code"] for one in report["warnings"]]
     assert report["quality"]["silhouette_iou"] > 0.98
     assert report["quality"]["closed"] == 1
+    fitted = json.loads((out / "skeleton.json").read_text())["fitted"]
+    np.testing.assert_allclose(fitted["LeftForeArm"]["place"], [390, 240], atol=2)
 
 
 def test_of_several_each_stands_where_they_are_in_the_picture(tmp_path: Path) -> None:

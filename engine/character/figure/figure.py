@@ -19,7 +19,9 @@ from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits
 from engine.perception.body import BODY_LANDMARKS, Body
 from engine.perception.faces import find_faces
+from engine.perception.figure import figure_on_paper
 from engine.perception.hands import HAND_JOINTS, find_hands
+from engine.perception.outline_skeleton import outline_skeleton
 from engine.perception.people import covered_by, find_body_within, find_people, person_box
 
 LONGEST_SIDE = 1920
@@ -61,7 +63,8 @@ class Figure:
     `people` (N, 4) are the boxes of all who were found, of whom this is number `index`; `others` (H, W) is where the rest of
     them surely are. `face` (478, 3): the mesh of the face, as
     `engine.perception.faces.find_faces` gives it; None where none is seen. `hands`: the left and the right, each (21, 3) as
-    `engine.perception.hands.Hand` has its points, with their depth; None where it is not seen."""
+    `engine.perception.hands.Hand` has its points, with their depth; None where it is not seen.
+    `drawn`: nobody whom networks see, but a figure on plain paper, whose joints are its outline's."""
 
     rgb: NDArray[np.uint8]
     alpha: NDArray[np.float32] | None
@@ -75,6 +78,7 @@ class Figure:
     others: NDArray[np.bool_]
     face: NDArray[np.float32] | None
     hands: tuple[NDArray[np.float32] | None, NDArray[np.float32] | None]
+    drawn: bool = False
 
     @property
     def scale(self) -> NDArray[np.float64]:
@@ -107,7 +111,8 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
     body, index = _chosen(shown, people, choice, scale)
     if body is not None and index == len(people):  # found in a box alone
         people = [*people, body]
-    if body is None and not set(WHOLE_SKELETON) <= set(joints):
+    sketched = None if body is not None else _sketched(shown, choice, scale)
+    if body is None and sketched is None and not set(WHOLE_SKELETON) <= set(joints):
         raise InputError(
             "no_person",
             "No person was found in the picture: choose one that shows somebody whole, or place the joints by hand "
@@ -116,6 +121,12 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
         )
     points = np.zeros((len(BODY_LANDMARKS), 2), np.float32) if body is None else body.points.copy()
     confidence = np.zeros(len(BODY_LANDMARKS), np.float32) if body is None else body.confidence.copy()
+    if sketched is not None:
+        points, confidence = sketched.copy(), np.ones(len(BODY_LANDMARKS), np.float32)
+        warn(
+            "figure_drawn",
+            "The figure was found by its outline, as a drawing: it moves as a flat cut-out. If a joint is elsewhere, move it.",
+        )
     for name, place in joints.items():
         points[BODY_LANDMARKS.index(name)] = (np.array(place) + 0.5) * scale - 0.5
         confidence[BODY_LANDMARKS.index(name)] = 1
@@ -137,11 +148,14 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
         else _moved_along(body, points, tuple(joints)),
         spatial=body is not None,
         original=(width, height),
-        people=np.array([person_box(one, rgb.shape) for one in people], np.float32).reshape(-1, 4),
+        people=np.array([person_box(one, rgb.shape) for one in people], np.float32).reshape(-1, 4)
+        if sketched is None
+        else _box_around(sketched),
         index=index,
         others=_covered([one for one in people if one is not body and not _same(one, body)], rgb.shape),
         face=None if body is None else _face(shown, points),
         hands=hands,
+        drawn=sketched is not None,
     )
     legs = _check_whole(figure, partial, warn)
     check_posture(figure.points, figure.world if figure.spatial else None, legs, warn)
@@ -193,6 +207,24 @@ def _chosen(
             {"people": boxes},
         )
     return people[index], index
+
+
+def _sketched(rgb: NDArray[np.uint8], choice: Choice, scale: NDArray[np.float64]) -> NDArray[np.float32] | None:
+    """The landmarks (33, 2) of a figure on plain paper that has a person's outline, in the box if there is one."""
+    if choice.index not in (None, 0):
+        return None
+    height, width = rgb.shape[:2]
+    x, y, wide, high = (0, 0, width, height) if choice.box is None else np.array(choice.box) * np.tile(scale, 2)
+    left, top = max(0, int(x)), max(0, int(y))
+    part = rgb[top : int(np.ceil(y + high)), left : int(np.ceil(x + wide))]
+    outline = figure_on_paper(part) if min(part.shape[:2]) >= LEAST_HEIGHT else None
+    points = None if outline is None else outline_skeleton(outline)
+    return None if points is None else np.asarray(points + np.array([left, top]), np.float32)
+
+
+def _box_around(points: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The box (1, 4) of all points (N, 2)."""
+    return np.concatenate([points.min(0), np.ptp(points, axis=0)])[None].astype(np.float32)
 
 
 def _face(rgb: NDArray[np.uint8], points: NDArray[np.float32]) -> NDArray[np.float32] | None:
