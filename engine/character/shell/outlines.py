@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
+from engine.character.figure.silhouette import HEIGHT
 from engine.character.parts.free_cloth import FreeCloth
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARMS, LEGS
@@ -25,6 +26,8 @@ SMOOTH = 2.5
 """Pixels over which a border's direction is smoothed."""
 BESIDE = 3.0
 """Pixels beyond a border at which is looked what is beside it."""
+ABOVE_CROTCH = 0.075
+"""How far above the crotch, as a share of the person's height, cloth that hangs is no more the body's."""
 HALF_A_PIXEL = 0.6
 """How far beyond the centres of a part's outermost pixels its border is."""
 UNDER = 2.0
@@ -94,9 +97,12 @@ def border_points(mask: NDArray[np.bool_]) -> tuple[NDArray[np.float64], NDArray
 
 
 def hanging(cloth: FreeCloth, labels: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """The pixels (h, w) of a skirt, or of a coat's tails: cloth that hangs and follows neither trunk nor legs."""
+    """The pixels (h, w) of a skirt, or of a coat's tails, from a little above the crotch on: cloth that hangs and follows neither
+    trunk nor legs."""
     area = np.zeros(labels.shape, np.bool_)
     if cloth.hangs:
+        first = cloth.rings[min(cloth.above, len(cloth.rings) - 1)].row - ABOVE_CROTCH * HEIGHT
         for _, row, columns in cloth.rows():
-            area[row, columns] = True
+            if row >= first:
+                area[row, columns] = True
     return np.asarray(area & cloth.worn & ~np.isin(labels, (*ARMS, HEAD)))

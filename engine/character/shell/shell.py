@@ -14,13 +14,18 @@ from numpy.typing import NDArray
 from engine.character.figure.face_region import in_profile
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
-from engine.character.fit.template_fit import FittedBody, load_human, pose_template
+from engine.character.fit.template_fit import FittedBody, load_human
 from engine.character.parts.label_map import Labels
 from engine.character.shell.at_rest import shell_at_rest
 from engine.character.shell.displacement import KnownPoints, displace
+from engine.character.shell.extremities import barefoot, in_shoes
 from engine.character.shell.outlines import part_outlines
+from engine.character.shell.piece import Piece
+from engine.character.shell.props import props_of
+from engine.character.shell.skirt import skirt_of
 from engine.character.shell.template_mesh import TemplateMesh, template_mesh
 from engine.character.shell.thickness import thickened
+from engine.geometry.skinning import bone_transforms, skin
 from engine.perception.landmarks import fiducials
 
 JAW = 17
@@ -36,23 +41,40 @@ class Shell:
         the viewer), not displaced.
     pictured : (V, 3) float64, where they come to lie there.
     rest : (V, 3) float64, where they are in T-pose, metres, y up.
+    pieces : a skirt, and what is held or worn beside the body.
     """
 
     mesh: TemplateMesh
     template: NDArray[np.float64]
     pictured: NDArray[np.float64]
     rest: NDArray[np.float64]
+    pieces: tuple[Piece, ...] = ()
 
 
 def make_shell(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Shell:
     """The shell of a person: `figure` and `silhouette` as they were found, the `fitted` template, and the `labels` of its parts."""
     mesh, human = template_mesh(), load_human()
     camera = silhouette.camera(fitted.picture_camera())
-    posed = pose_template(fitted, camera, human)
-    template, straight = posed.vertices[mesh.ids], posed.rest[mesh.ids]
+    straight = human.space.vertices(fitted.fit.coefficients)[mesh.ids].astype(np.float64)
+    template = camera.to_picture(posed(mesh, straight, fitted))
+    if not barefoot(figure, silhouette, labels, template):
+        straight = in_shoes(straight)
+        template = camera.to_picture(posed(mesh, straight, fitted))
     displaced = displace(mesh, template, part_outlines(labels.layered), face_points(figure, silhouette, mesh))
     pictured = thickened(mesh, template, displaced)
-    return Shell(mesh, template, pictured, shell_at_rest(mesh, straight, template, pictured, camera, fitted))
+    rest = shell_at_rest(mesh, straight, template, pictured, camera, fitted)
+    skirt = skirt_of(mesh, pictured, labels)
+    pieces = [] if skirt is None else [skirt]
+    pieces += props_of(mesh, pictured, silhouette, pieces)
+    return Shell(mesh, template, pictured, rest, tuple(pieces))
+
+
+def posed(mesh: TemplateMesh, straight: NDArray[np.floating], fitted: FittedBody) -> NDArray[np.float32]:
+    """The mesh in T-pose, `straight` (V, 3), as the fit has it in the picture: (V, 3) metres, the camera at the origin."""
+    human, fit = load_human(), fitted.fit
+    heads = human.space.joints(fit.coefficients)
+    transforms = bone_transforms(human.rig.parents, heads, fit.rotations, fit.root_translation - heads[0])
+    return skin(straight, mesh.bones, mesh.weights, transforms)
 
 
 def face_points(figure: Figure, silhouette: Silhouette, mesh: TemplateMesh) -> KnownPoints:
