@@ -1,0 +1,175 @@
+"""What the picture says of points of the shell, and how far it is to be trusted.
+
+Two levels: what the picture shows is painted as it is; what other places are filled from must be surer. A texel at a limb's
+outline may be a little of the wall behind it, where it is seen; copied all round the limb it would be a stripe.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numba import prange
+from numpy.typing import NDArray
+
+from engine.body.parts import BODY_PARTS
+from engine.character.figure.silhouette import Silhouette
+from engine.character.parts.label_map import Labels
+from engine.character.parts.labels import ARMS
+from engine.character.shell.shell import Shell
+from engine.compiled import njit
+from engine.geometry.surface import vertex_normals
+from engine.imaging.filling.nearest import nearest_colours
+from engine.imaging.masks.mask_distance import distance_inside, distance_to
+from engine.render.rasteriser import depth_map
+
+FINER = 3
+"""Pixels of the depth buffer for each of the grid's."""
+BEHIND, JUMP = 3.0, 16.0
+"""Pixels of the grid by which a point may be behind what is nearest at its place, and behind what is nearest around it."""
+FACES, SURE_FACES = 0.08, 0.22
+"""Cosine to the viewer from which on a point is shown, and is a source."""
+WITHIN, SURE_WITHIN = 1.3, 2.2
+"""Pixels of the grid from the outline of the mask."""
+BESIDE_ARM, SURE_BESIDE_ARM, LEG_BESIDE_ARM = 2.0, 4.0, 7.0
+"""Pixels of the grid from an arm that passes before; a hand's shadow lies on the thigh."""
+OWN = 0.9
+"""Alpha from which a pixel's colour is the person's own."""
+AGREES = 0.1
+"""Share of the parts that may show a label, in what moves a point, from which on the label agrees with it."""
+
+MAY_SHOW = np.eye(len(BODY_PARTS), dtype=np.float32)
+"""Which labels (columns) a part (rows) may have: its own; cloth hangs from the trunk over legs and neck, and hair from the head."""
+for _part, _labels in {"head": ("torso",), "torso": ("head", "left_leg", "right_leg"), "left_leg": ("torso",), "right_leg": ("torso",)}.items():  # fmt: skip
+    MAY_SHOW[BODY_PARTS.index(_part), [BODY_PARTS.index(label) for label in _labels]] = 1
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """Of points (...): `colours` (..., 3) float32, the picture's there; `shown` (...) float32, from 0, not at all, to 1; `source`
+    (...) bool: whether other places may be filled with it."""
+
+    colours: NDArray[np.float32]
+    shown: NDArray[np.float32]
+    source: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Witness:
+    """What the picture can say of a shell.
+
+    attributes : (V, 10) float32 of the shell's vertices: place on the grid (3), cosine to the viewer, and parts (6).
+    labels : (h, w) int8 on the grid, -1 outside.
+    inside : (h, w) float32, pixels from the mask's outline.
+    from_arms : (2, h, w) float32, pixels from the left and the right arm.
+    nearest : (3, 3 h, 3 w) float32, depth towards the viewer: at each place, the largest close around it, and further around.
+    clean : (H, W, 3) uint8 the picture, its person's own colours continued beyond them.
+    to_picture : (2, 3) from the grid's pixels to the picture's.
+    """
+
+    attributes: NDArray[np.float32]
+    labels: NDArray[np.int8]
+    inside: NDArray[np.float32]
+    from_arms: NDArray[np.float32]
+    nearest: NDArray[np.float32]
+    clean: NDArray[np.uint8]
+    to_picture: NDArray[np.float64]
+
+    def of(self, attributes: NDArray[np.float32]) -> Evidence:
+        """What it says of points (..., 10), interpolated from its vertices' attributes."""
+        flat = np.ascontiguousarray(attributes.reshape(-1, attributes.shape[-1]))
+        colours, shown, source = _judged(
+            *(flat, self.labels, self.inside, self.from_arms, self.nearest, self.clean, self.to_picture, MAY_SHOW)
+        )
+        shape = attributes.shape[:-1]
+        return Evidence(colours.reshape(*shape, 3), shown.reshape(shape), source.reshape(shape))
+
+
+def witness(rgb: NDArray[np.uint8], silhouette: Silhouette, labels: Labels, shell: Shell) -> Witness:
+    """The picture (H, W, 3) as a witness of the shell."""
+    normals = vertex_normals(shell.pictured, shell.mesh.triangles)
+    towards = -normals[:, 2:]  # y is down, so that the triangles turn the other way
+    height, width = silhouette.mask.shape
+    screen = (shell.pictured + 0.5) * FINER - 0.5
+    screen[:, 2] = -shell.pictured[:, 2]
+    depth = depth_map(screen, shell.mesh.triangles, (height * FINER, width * FINER))
+    near = np.where(np.isfinite(depth), -depth, -1e4).astype(np.float32)
+    around = [np.asarray(cv2.dilate(near, np.ones((size, size), np.uint8)), np.float32) for size in (3, 15)]
+    inverse = cv2.invertAffineTransform(silhouette.to_grid)
+    own = silhouette.alpha > OWN
+    return Witness(
+        np.concatenate([shell.pictured, towards, shell.mesh.parts], 1).astype(np.float32),
+        labels.labels.astype(np.int8),
+        distance_inside(silhouette.mask),
+        np.stack([distance_to(labels.labels == arm) for arm in ARMS]),
+        np.stack([near, *around]),
+        nearest_colours(rgb, own) if own.any() else rgb,
+        np.asarray(inverse, np.float64),
+    )
+
+
+@njit(parallel=True, boundscheck=False, error_model="numpy")
+def _judged(
+    points: np.ndarray,
+    labels: np.ndarray,
+    inside: np.ndarray,
+    from_arms: np.ndarray,
+    nearest: np.ndarray,
+    clean: np.ndarray,
+    to_picture: np.ndarray,
+    may_show: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    count, (height, width), (rows, columns) = len(points), labels.shape, clean.shape[:2]
+    colours = np.zeros((count, 3), np.float32)
+    shown, source = np.zeros(count, np.float32), np.zeros(count, np.bool_)
+    for i in prange(count):
+        x, y, z, towards = points[i, 0], points[i, 1], points[i, 2], points[i, 3]
+        u = min(max(to_picture[0, 0] * x + to_picture[0, 2], 0.0), columns - 1.0)
+        v = min(max(to_picture[1, 1] * y + to_picture[1, 2], 0.0), rows - 1.0)
+        left, top = int(u), int(v)
+        right, bottom = min(left + 1, columns - 1), min(top + 1, rows - 1)
+        fu, fv = np.float32(u - left), np.float32(v - top)
+        for k in range(3):
+            upper = clean[top, left, k] * (1 - fu) + clean[top, right, k] * fu
+            lower = clean[bottom, left, k] * (1 - fu) + clean[bottom, right, k] * fu
+            colours[i, k] = upper * (1 - fv) + lower * fv
+        column, row = int(np.floor(x + 0.5)), int(np.floor(y + 0.5))
+        if towards <= FACES or column < 2 or row < 2 or column >= width - 2 or row >= height - 2:
+            continue
+        if inside[row, column] <= WITHIN:
+            continue
+        fine_column, fine_row = int((x + 0.5) * FINER), int((y + 0.5) * FINER)
+        if nearest[0, fine_row, fine_column] - z > BEHIND or nearest[1, fine_row, fine_column] - z > JUMP:
+            continue
+        agrees, surely = True, True
+        for dy in range(-2, 3):
+            for dx in range(-2, 3):
+                label = labels[row + dy, column + dx]
+                if label < 0:
+                    continue
+                if label == 0 and points[i, 4] < points[i, 5]:
+                    surely = False  # hair before a shoulder
+                likely = np.float32(0)
+                for part in range(may_show.shape[0]):
+                    likely += points[i, 4 + part] * may_show[part, label]
+                if likely <= AGREES:
+                    surely = False
+                    if max(abs(dx), abs(dy)) < 2:
+                        agrees = False
+        leg = points[i, 8] + points[i, 9]
+        for k in range(2):
+            if points[i, 6 + k] < 0.05:
+                away = from_arms[k, row, column]
+                agrees &= away >= BESIDE_ARM
+                surely &= away >= (LEG_BESIDE_ARM if leg > 0.02 else SURE_BESIDE_ARM)
+        if not agrees:
+            continue
+        shown[i] = min((towards - FACES) / (SURE_FACES - FACES), 1.0)
+        source[i] = (
+            surely
+            and towards > SURE_FACES
+            and inside[row, column] > SURE_WITHIN
+            and nearest[2, fine_row, fine_column] - z <= JUMP
+        )
+    return colours, shown, source

@@ -1,0 +1,185 @@
+"""The head's back: what surrounds the face, hair, a hat or skin, goes round as it does on other parts; the face does not.
+
+Where a head has a face is the same on all templates, so nothing has to be found but what is skin and what is not. What is
+not goes round at its own height, a hat above as a hat, hair below as hair; from the ears down, where the outline shows skin, what is
+above goes on to the nape.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.character.fit.template_fit import load_human
+from engine.character.shell.colours.round import SIDEWAYS, continued_rows, joined, row_middles, row_model, turned_rows
+from engine.character.shell.colours.unrolled import ANGLES, STEP, unrolled_parts
+from engine.character.shell.template_mesh import template_mesh
+
+BROWS, EYES, NOSE, CHIN = slice(17, 27), slice(36, 48), 30, 8
+"""Of the 68 points of a face."""
+FACE = 1.0
+"""Radians from its middle to where a face ends and temples and ears begin."""
+HAIRLINE = 0.25
+"""How far above the brows hair begins at the earliest, as a share of the way to the crown."""
+HAIR_BEGINS = {"nape": 2.5, "nose": 2.0, "eyes": 1.8, "brow": 1.4, "forehead": 1.0, "crown": 0.0}
+"""Radians from the face's middle beyond which hair is, by the height: in front of the nape is the neck, before it the ear."""
+APART = 14.0
+"""CIE Lab distance, lightness counting 0.7 and hues 1.5, from which hair can be told from skin."""
+NOT_SKIN = 25.0
+"""The same, from which a colour is no skin of this face."""
+FEW = 40
+"""Cells from which a colour is known."""
+LONG = 0.5
+"""Share of what is beside the cheeks that is hair, if hair is long, and goes down to the neck."""
+SOFT = 0.008
+"""Metres over which hair ends."""
+EAR_SOFT = 0.003
+"""The same of ears."""
+FLANK = 0.7
+"""Radians from the face's middle beyond which skin has the light of the ears."""
+NAPE = 0.35
+"""How far above the chin hair ends behind, as a share of the way to the nose."""
+NECK = 1.5
+"""Radians from the face's middle beyond which the neck goes round."""
+STRANDS = 0.6
+"""Share of the way from the hairline to the crown in which strands are looked at."""
+FINE, LOUD = 0.01, 25.0
+"""Metres over which what is fine about hair averages out; and sRGB levels beyond which it is no strand, but a badge or a comb."""
+CENTRE = 0.05
+"""How much the middle counts beside the sides: a crown is seen from before."""
+WEIGHT = np.array([0.7, 1.5, 1.5], np.float32)
+
+
+@dataclass(frozen=True)
+class HeadMap:
+    """Where on the unrolled head things are. `height` (A, 1): metres up on the mean body of each row; `angle` (1, `ANGLES`): radians from the
+    face's middle; `ears` (A, `ANGLES`); `levels`: heights by name."""
+
+    height: NDArray[np.float32]
+    angle: NDArray[np.float32]
+    ears: NDArray[np.bool_]
+    levels: dict[str, float]
+
+
+@cache
+def head_map() -> HeadMap:
+    """The head's, once for the process."""
+    mesh, human = template_mesh(), load_human()
+    part = unrolled_parts()[0]
+    face = mesh.renamed(human.face)
+    row = part.along
+    levels = {name: float(row[face[which]].mean()) for name, which in (("brow", BROWS), ("eyes", EYES))}
+    levels |= {name: float(row[face[which]]) for name, which in (("nose", NOSE), ("chin", CHIN))}
+    rows = len(part.raster.triangle)
+    levels |= {"crown": float(rows), "forehead": (levels["brow"] + rows) / 2}
+    levels["nape"] = levels["chin"] + NAPE * (levels["nose"] - levels["chin"])
+    angle = (np.arange(ANGLES) + 0.5) / ANGLES * 2 * np.pi - np.pi
+    around = np.asarray(mesh.ear[mesh.triangles[part.raster.triangle]].all(-1), np.uint8)
+    ears = np.asarray(cv2.erode(around, np.ones((7, 7), np.uint8)) > 0)
+    return HeadMap(
+        (np.arange(rows, dtype=np.float32) + 0.5)[:, None], np.abs(angle).astype(np.float32)[None], ears, levels
+    )
+
+
+def head_round(
+    colours: NDArray[np.float32], source: NDArray[np.bool_], facing: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """The colours (A, `ANGLES`, 3) of the unrolled head, as `round.coloured_round` has those of other parts."""
+    if not source.any():
+        return colours
+    head = head_map()
+    level = head.levels
+    hairline = level["brow"] + HAIRLINE * (level["crown"] - level["brow"])
+    on_face = (head.angle < FACE) & (head.height < hairline) & (head.height > level["chin"])
+    colours, known = _both_cheeks(colours, source, on_face)
+    lab = cv2.cvtColor(np.clip(colours, 0, 255) / np.float32(255), cv2.COLOR_RGB2LAB)
+    above, beside = head.height > level["nape"], ~on_face & ~head.ears
+    cheeks = known & (head.angle < 0.6) & (head.height < level["eyes"]) & (head.height > level["chin"])
+    top = source & beside & (head.height > hairline)
+    own = source & beside
+    ears = None
+    long = False
+    if cheeks.sum() > FEW and top.sum() > FEW:
+        skin, hair = np.median(lab[cheeks], 0), np.median(lab[top], 0)
+        from_skin, from_hair = (np.linalg.norm((lab - one) * WEIGHT, axis=-1) for one in (skin, hair))
+        if np.linalg.norm((skin - hair) * WEIGHT) > APART:
+            bare = (from_skin < from_hair) & (from_skin < NOT_SKIN)
+            own &= ~(bare & above)
+            sides = source & (head.angle > 0.9) & (head.height < level["nose"]) & (head.height > level["chin"])
+            long = bool(sides.sum() > FEW and (~bare)[sides].mean() > LONG)
+            flanks = source & bare & above & (head.angle > FLANK) & (head.height < level["brow"])
+            ears = np.median(colours[flanks if flanks.sum() > FEW else cheeks], 0)
+    if long:
+        above = np.ones_like(above)
+    begins = np.interp(head.height, *_limits(level, long)).astype(np.float32)
+    behind = _soft(np.where(above, (head.angle > begins) | (head.height > hairline), head.angle > NECK), SOFT)[
+        ..., None
+    ]
+    middles = row_middles(facing)
+    seen, near, high = (turned_rows(each, -middles) for each in (colours, np.maximum(facing, 0), own & above))
+    model = np.zeros_like(seen)
+    for rows, weight in (
+        (above[:, 0], high * near * (CENTRE + SIDEWAYS**2)),
+        (~above[:, 0], turned_rows(known & ~above, -middles) * near * SIDEWAYS**2),
+    ):
+        if rows.any() and weight.any():
+            model[rows] = row_model(seen, weight).colours[rows]
+    model += (
+        _strands(seen - model, high, int(hairline))
+        * turned_rows(np.broadcast_to(above, known.shape), -middles)[..., None]
+    )
+    surrounds = np.where(above, own, known)
+    model = joined(turned_rows(model, middles), colours, surrounds, surrounds.astype(np.float32))
+    filled = behind * model + (1 - behind) * continued_rows(colours, known.astype(np.float32))
+    if ears is not None and not long:
+        ear = _soft(head.ears, EAR_SOFT)[..., None]
+        filled = ear * ears + (1 - ear) * filled
+    return np.asarray(np.where(known[..., None], colours, filled), np.float32)
+
+
+def _strands(detail: NDArray[np.float32], hair: NDArray[np.bool_], hairline: int) -> NDArray[np.float32]:
+    """What is fine about the `hair` (A, `ANGLES`), `detail` (A, `ANGLES`, 3), laid behind: seen through, and below the hairline mirrored
+    there and back."""
+    whole = cv2.erode(hair.astype(np.uint8), np.ones((5, 5), np.uint8)).astype(np.float32)
+    share = np.maximum(cv2.GaussianBlur(whole, (0, 0), FINE / STEP), 1e-3)[..., None]
+    fine = detail - cv2.GaussianBlur(detail * whole[..., None], (0, 0), FINE / STEP) / share
+    fine = fine * (cv2.blur(whole, (5, 5)) / (1 + (np.linalg.norm(fine, axis=-1) / LOUD) ** 4))[..., None]
+    rows = np.arange(len(detail))
+    span = max(int(STRANDS * (len(detail) - hairline)), 1)
+    away = np.abs(rows - hairline) % (2 * span)
+    mirrored = np.where(rows < hairline, hairline + np.minimum(away, 2 * span - away), rows)
+    partner = (ANGLES // 2 - 1 - np.arange(ANGLES)) % ANGLES
+    return fine[np.minimum(mirrored, len(detail) - 1)[:, None], partner]
+
+
+def _both_cheeks(
+    colours: NDArray[np.float32], known: NDArray[np.bool_], on_face: NDArray[np.bool_]
+) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+    """A face that is seen from its side has on the other what it has on this one, in its own light."""
+    mirrored, there = colours[:, ::-1], known[:, ::-1]
+    lacks = there & ~known & on_face
+    both = there & known & on_face
+    if not lacks.any():
+        return colours, known
+    half = np.arange(ANGLES) < ANGLES // 2
+    lacking = half if (lacks & half).sum() > (lacks & ~half).sum() else ~half
+    near = both & lacking
+    gain = np.ones(3, np.float32)
+    if near.sum() > FEW:
+        gain = np.clip(np.median(colours[near], 0) / np.maximum(np.median(mirrored[near], 0), 4), 0.4, 2.5)
+    return np.where(lacks[..., None], mirrored * gain, colours).astype(np.float32), known | lacks
+
+
+def _limits(level: dict[str, float], long: bool) -> tuple[list[float], list[float]]:
+    names = sorted(HAIR_BEGINS, key=lambda name: level[name])
+    return [level[name] for name in names], [
+        min(HAIR_BEGINS[name], 1.3) if long else HAIR_BEGINS[name] for name in names
+    ]
+
+
+def _soft(mask: NDArray[np.bool_], metres: float) -> NDArray[np.float32]:
+    return np.asarray(cv2.GaussianBlur(mask.astype(np.float32), (0, 0), metres / STEP), np.float32)

@@ -1,0 +1,162 @@
+"""The shell's texture: the picture's own colours where it shows the shell, and what goes on round each part elsewhere."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import cv2
+import numpy as np
+from numba import prange
+from numpy.typing import NDArray
+
+from engine.character.figure.silhouette import Silhouette
+from engine.character.parts.label_map import Labels
+from engine.character.shell.colours.evidence import witness
+from engine.character.shell.colours.head_back import head_round
+from engine.character.shell.colours.round import BackTexture, coloured_round
+from engine.character.shell.colours.unrolled import ANGLES, unrolled_parts
+from engine.character.shell.shell import Shell
+from engine.character.shell.template_mesh import template_mesh
+from engine.compiled import njit
+from engine.imaging.filling.nearest import nearest_in
+from engine.render.attributes import interpolate
+from engine.render.rasteriser import Raster, rasterise
+
+SIZE = 2048
+"""Texels of the texture's sides."""
+SOFT = 6
+"""Texels over which what is shown goes over into what is filled in."""
+UNSURE = 0.02
+"""How much a part counts, where two meet, whose row has nothing to say."""
+STRIP = 256
+"""Rows of the texture that are judged at once."""
+
+
+@cache
+def texels() -> Raster:
+    """What of the template each texel shows, (`SIZE`, `SIZE`), once for the process; texels beside its chart show nothing."""
+    mesh = template_mesh()
+    flat = np.zeros((len(mesh.uv), 3), np.float32)
+    flat[:, :2] = mesh.uv * SIZE - 0.5
+    return rasterise(flat, mesh.uv_triangles, (SIZE, SIZE))
+
+
+def paint_shell(
+    rgb: NDArray[np.uint8],
+    silhouette: Silhouette,
+    labels: Labels,
+    shell: Shell,
+    back: BackTexture = "see_through",
+) -> NDArray[np.uint8]:
+    """The texture (`SIZE`, `SIZE`, 3) of a shell, in the template's own chart.
+
+    Parameters
+    ----------
+    rgb : (H, W, 3), the picture.
+    labels : what each pixel of the grid shows; what hangs over the legs is the trunk's (`Labels.layered`).
+    back : what is behind: the front seen through without what only fronts have, all of it, or what the sides of each row say.
+    """
+    told = witness(rgb, silhouette, labels, shell)
+    triangles = shell.mesh.triangles
+    rows, sure = [], []
+    for part in unrolled_parts():
+        points = interpolate(told.attributes, triangles, part.raster)
+        seen = told.of(points)
+        source, facing = seen.source & part.covered, points[..., 3]
+        if part.name == "head":
+            around, known = head_round(seen.colours, source, facing), np.ones(len(points), np.float32)
+        else:
+            around, known = coloured_round(seen.colours, source, facing, back, part.yoke)
+        rows.append(around)
+        sure.append(known)
+    firsts = np.cumsum([0, *(len(each) for each in rows)])
+    places = np.stack([np.stack([part.share, part.along, part.angle], 1) for part in unrolled_parts()], 1)
+    raster = texels()
+    shown = np.empty((SIZE, SIZE), np.float32)
+    painted = np.empty((SIZE, SIZE, 3), np.float32)
+    for first in range(0, SIZE, STRIP):
+        strip = slice(first, first + STRIP)
+        part_of_it = Raster(raster.triangle[strip], raster.barycentrics[strip], raster.depth[strip])
+        seen = told.of(interpolate(told.attributes, triangles, part_of_it))
+        shown[strip], painted[strip] = seen.shown, seen.colours
+    on = raster.triangle >= 0
+    soft = _softened(np.where(on, shown, 0))
+    _filled(painted, soft, raster.triangle, raster.barycentrics, triangles, places.astype(np.float32),
+            np.concatenate(rows), np.concatenate(sure), firsts)  # fmt: skip
+    out = np.clip(painted + 0.5, 0, 255).astype(np.uint8)
+    return _beyond_the_chart(out)
+
+
+def _softened(shown: NDArray[np.float32]) -> NDArray[np.float32]:
+    """How far texels show the picture, (S, S), falling softly to nothing at the border of what is shown."""
+    within = cv2.distanceTransform((shown > 0).astype(np.uint8), cv2.DIST_L2, 3)
+    return np.asarray(np.minimum(shown, np.clip(within / SOFT, 0, 1)), np.float32)
+
+
+@cache
+def _gutter() -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+    """Rows and columns of the texels beside the chart, and of those on it that are nearest to them."""
+    on = texels().triangle >= 0
+    y, x = np.nonzero(~on)
+    rows, columns = nearest_in(on)
+    return y, x, rows[y, x], columns[y, x]
+
+
+def _beyond_the_chart(texture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    y, x, rows, columns = _gutter()
+    texture[y, x] = texture[rows, columns]
+    return texture
+
+
+@njit(parallel=True, boundscheck=False, error_model="numpy")
+def _filled(
+    painted: np.ndarray,
+    shown: np.ndarray,
+    triangle: np.ndarray,
+    barycentrics: np.ndarray,
+    triangles: np.ndarray,
+    places: np.ndarray,
+    rows: np.ndarray,
+    sure: np.ndarray,
+    firsts: np.ndarray,
+) -> None:
+    """Mix into `painted` (S, S, 3) what the parts' `rows` (R, `ANGLES`, 3) say, where it is not `shown` (S, S). `places`
+    (V, P, 3): of each vertex on each part its share, row and angle; `sure` (R,); `firsts` (P + 1,): where each part's rows begin."""
+    turn = 2 * np.pi
+    for y in prange(painted.shape[0]):
+        for x in range(painted.shape[1]):
+            t, own = triangle[y, x], shown[y, x]
+            if t < 0 or own >= 1:
+                continue
+            a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+            wa, wb, wc = barycentrics[y, x, 0], barycentrics[y, x, 1], barycentrics[y, x, 2]
+            total, red, green, blue = np.float32(0), np.float32(0), np.float32(0), np.float32(0)
+            for part in range(places.shape[1]):
+                share = wa * places[a, part, 0] + wb * places[b, part, 0] + wc * places[c, part, 0]
+                if share <= 0.01:
+                    continue
+                along = wa * places[a, part, 1] + wb * places[b, part, 1] + wc * places[c, part, 1]
+                first = places[a, part, 2]
+                second = first + (places[b, part, 2] - first + np.pi) % turn - np.pi
+                third = first + (places[c, part, 2] - first + np.pi) % turn - np.pi
+                column = ((wa * first + wb * second + wc * third) / turn + 0.5) * ANGLES - 0.5
+                last = firsts[part + 1] - firsts[part] - 1
+                row = min(max(along - 0.5, 0.0), np.float64(last))
+                top, left = int(row), int(np.floor(column))
+                fv, fu = np.float32(row - top), np.float32(column - left)
+                bottom = firsts[part] + min(top + 1, last)
+                top += firsts[part]
+                right, left = (left + 1) % ANGLES, left % ANGLES
+                share *= np.float32(UNSURE) + (1 - fv) * sure[top] + fv * sure[bottom]
+                upper, lower = share * (1 - fv), share * fv
+                total += share
+                red += upper * ((1 - fu) * rows[top, left, 0] + fu * rows[top, right, 0])
+                red += lower * ((1 - fu) * rows[bottom, left, 0] + fu * rows[bottom, right, 0])
+                green += upper * ((1 - fu) * rows[top, left, 1] + fu * rows[top, right, 1])
+                green += lower * ((1 - fu) * rows[bottom, left, 1] + fu * rows[bottom, right, 1])
+                blue += upper * ((1 - fu) * rows[top, left, 2] + fu * rows[top, right, 2])
+                blue += lower * ((1 - fu) * rows[bottom, left, 2] + fu * rows[bottom, right, 2])
+            if total > 0:
+                painted[y, x, 0] = own * painted[y, x, 0] + (1 - own) * red / total
+                painted[y, x, 1] = own * painted[y, x, 1] + (1 - own) * green / total
+                painted[y, x, 2] = own * painted[y, x, 2] + (1 - own) * blue / total

@@ -1,0 +1,203 @@
+"""A part's colours all round, from what is seen of it: cloth goes round.
+
+Each row of an unrolled part is modelled by what its two sides say of it: a colour at its left, one at its right, and between them
+the way from one to the other. What lies behind is what lies before it, seen through, as far as it is of the model's
+kind, and the model itself elsewhere: a tie, a print, a zip or a collar is unlike the sides of its own rows, and stays in
+front; a stripe, a belt or a plaid is like them, and goes round. As the model is exact at both sides, the light of
+somebody lit from one side has no border behind.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.character.shell.colours.unrolled import ANGLES, STEP
+from engine.imaging.filling.pull_push import pull_push
+
+BackTexture = Literal["see_through", "mirror", "inpaint"]
+
+ROW = 0.005
+"""Metres along a part over which its sides are averaged: a hem is no softer than that."""
+KIND = 0.05
+"""Metres along a part over which it is judged how much its sides vary."""
+ASIDE = 0.5
+"""How far aside a part's sides begin for that, in half widths."""
+ALIKE = 8.0
+"""CIE Lab distance within which colours are of one kind wherever sides are plain."""
+HUES = np.array([0.7, 1.2, 1.2], np.float32)
+"""How much lightness counts in it, and hues: cloth is lighter where light falls on it."""
+VARIES = 2.5
+"""How many of its sides' deviations a colour may be off the model."""
+MIXED = 0.35
+"""Share of the kind in what is around a cell, below which it is not; of twice as much, it is."""
+EDGE = 0.008
+"""Metres around what is not of the kind, in which colours are mixed."""
+JOINED = 0.04
+"""Metres over which what is filled in comes to be as it is made, from where it meets what is seen."""
+ENOUGH = 6.0
+"""Cells, as well seen as can be, from which on a row's side is known; with fewer, the nearest row that is says the rest."""
+UNLIKE = 40.0
+"""sRGB levels from the mean of a side beyond which a colour counts little in it."""
+ROUNDS = 3
+"""Times by which a side's mean is freed from what is unlike it."""
+ACROSS = 0.15
+"""Metres along a part that are as far as its other side."""
+CROSSING = 0.03
+"""How much the other side of a row counts where this one is seen."""
+BEST = 0.8
+"""How far aside the sides are seen best, in half widths: the maximum of cos x sin^2 x."""
+
+ANGLE = ((np.arange(ANGLES) + 0.5) / ANGLES * 2 * np.pi - np.pi).astype(np.float32)
+SIDEWAYS = np.sin(ANGLE)
+
+
+@dataclass(frozen=True)
+class RowModel:
+    """What the sides of each row say of it: `colours` (A, `ANGLES`, 3), and how far from that they are themselves, `spread`
+    (A, `ANGLES`), CIE Lab; and how `sure` (A,) each row is of itself, 0 where only further ones say it."""
+
+    colours: NDArray[np.float32]
+    spread: NDArray[np.float32]
+    sure: NDArray[np.float32]
+
+
+def coloured_round(
+    colours: NDArray[np.floating],
+    source: NDArray[np.bool_],
+    facing: NDArray[np.floating],
+    back: BackTexture = "see_through",
+    yoke: int | None = None,
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """The colours (A, `ANGLES`, 3) of an unrolled part, sRGB levels: those of its `source` (A, `ANGLES`), and continued round it;
+    and how sure (A,) each row is of them, from 0 to 1.
+
+    `facing` (A, `ANGLES`): cosine to the viewer of each cell, negative behind. From the row `yoke` upwards a front has a neckline
+    and no back has one: there the rows below are mirrored. Where nothing is a source, nothing changes.
+    """
+    if not source.any():
+        return colours, np.zeros(len(colours), np.float32)
+    turns = row_middles(facing)
+    seen, known, near = (turned_rows(each, -turns) for each in (colours, source, facing))
+    model = row_model(seen, known * np.maximum(near, 0) * SIDEWAYS**2)  # sides, as far as they are well seen
+    kind = _of_the_kind(seen, model, known)
+    through = {"mirror": known.astype(np.float32), "inpaint": 0 * kind, "see_through": kind}[back]
+    rows, partner = (
+        np.arange(len(seen)),
+        (ANGLES // 2 - 1 - np.arange(ANGLES)) % ANGLES,
+    )  # as far aside, on the other half
+    if yoke is not None and back == "see_through":
+        rows = np.where(rows > yoke, np.maximum(2 * yoke - rows, 0), rows)
+    detail = (through[..., None] * (seen - model.colours))[rows[:, None], partner]
+    filled = joined(model.colours + detail, seen, known, known * kind)
+    return turned_rows(np.where(known[..., None], seen, filled), turns), model.sure
+
+
+def row_middles(facing: NDArray[np.floating]) -> NDArray[np.intp]:
+    """By how many columns (A,) from the middle one the place is away at which each row faces the viewer, smoothly along the part."""
+    towards = np.maximum(facing, 0) @ np.stack([np.cos(ANGLE), SIDEWAYS], 1)
+    smooth = _blurred(towards.astype(np.float32), KIND)
+    return np.rint(np.arctan2(smooth[:, 1], smooth[:, 0]) / (2 * np.pi) * ANGLES).astype(np.intp)
+
+
+def turned_rows(values: NDArray, by: NDArray[np.intp]) -> NDArray:
+    """Rows (A, `ANGLES`, ...) each turned by so many columns (A,)."""
+    columns = (np.arange(ANGLES)[None] - by[:, None]) % ANGLES
+    return values[np.arange(len(values))[:, None], columns]
+
+
+def row_model(seen: NDArray[np.floating], weight: NDArray[np.floating]) -> RowModel:
+    """What is `seen` (A, `ANGLES`, 3) of the sides of each row, the middle column facing the viewer; `weight` (A, `ANGLES`): how
+    well."""
+    sides = [_side(seen, weight * (side * SIDEWAYS > 0)) for side in (-1, 1)]
+    values, counts = (np.stack(each, 1) for each in zip(*sides, strict=True))  # (A, 2, 3 + 1), (A, 2)
+    known, other = counts[..., None], CROSSING * counts[:, ::-1, None]
+    values = (known * values + other * values[:, ::-1]) / np.maximum(known + other, 1e-6)
+    values = _nearest_rows(values, (known + other)[..., 0])
+    share = (np.clip(SIDEWAYS / BEST, -1, 1) * 0.5 + 0.5)[None, :, None]
+    between = np.asarray((1 - share) * values[:, :1] + share * values[:, 1:], np.float32)
+    sure = np.clip(counts.max(1) / ENOUGH, 0, 1).astype(np.float32)
+    return RowModel(between[..., :3], np.sqrt(np.maximum(between[..., 3], 0)), sure)
+
+
+def _side(seen: NDArray[np.floating], weight: NDArray[np.floating]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """One side's colour in each row and the square of what it varies by (A, 4), and how many cells say so (A,). What is unlike
+    the others counts little."""
+    trust = weight
+    for _ in range(ROUNDS):
+        count = _blurred(trust.sum(1), ROW)
+        mean = _blurred((trust[..., None] * seen).sum(1), ROW) / np.maximum(count, 1e-6)[:, None]
+        off = np.linalg.norm(seen - mean[:, None], axis=-1)
+        trust = weight / (1 + (off / UNLIKE) ** 2)
+    away = np.linalg.norm((_lab(seen) - _lab(mean[:, None])) * HUES, axis=-1)
+    trust = trust * (np.abs(SIDEWAYS) > ASIDE)
+    squares = _blurred((trust * away**2).sum(1), KIND) / np.maximum(_blurred(trust.sum(1), KIND), 1e-6)
+    return np.concatenate([mean, squares[:, None]], 1).astype(np.float32), _blurred(weight.sum(1), ROW)
+
+
+def _nearest_rows(values: NDArray[np.floating], count: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Values (A, 2, C) of a part's rows, those that few cells (A, 2) tell of as the nearest row has them that more do, of the same
+    side, or, `ACROSS` further off, of the other: no garment fades into the next."""
+    known = count >= min(ENOUGH, float(count.max()))
+    rows = np.arange(len(values))
+    places, away = np.zeros((2, len(values)), np.intp), np.full((2, len(values)), np.inf)
+    for side in (0, 1):
+        good = np.flatnonzero(known[:, side])
+        if len(good):
+            after = np.searchsorted(good, rows).clip(max=len(good) - 1)
+            pair = good[np.stack([np.maximum(after - 1, 0), after])]
+            nearer = np.abs(pair - rows).argmin(0)
+            places[side] = pair[nearer, rows]
+            away[side] = np.abs(places[side] - rows) * STEP
+    whole = np.empty_like(values)
+    for side in (0, 1):
+        own = away[side] <= away[1 - side] + ACROSS
+        whole[:, side] = np.where(own[:, None], values[places[side], side], values[places[1 - side], 1 - side])
+    return _blurred(whole, ROW / 2)
+
+
+def _of_the_kind(seen: NDArray[np.floating], model: RowModel, known: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """How far (A, `ANGLES`), from 0 to 1, cells are of the same kind as the sides of their rows."""
+    off = np.linalg.norm((_lab(seen) - _lab(model.colours)) * HUES, axis=-1)
+    kind = known / (1 + (off / np.hypot(ALIKE, VARIES * model.spread)) ** 4)
+    size = 2 * round(EDGE / STEP) + 1
+    wide = np.concatenate([kind, kind, kind], 1).astype(np.float32)
+    usual = np.asarray(cv2.medianBlur(wide, 5))
+    mostly = np.minimum(usual, np.clip((cv2.blur(usual, (size, size)) - MIXED) / MIXED, 0, 1))
+    calm = cv2.blur(cv2.erode(mostly, np.ones((size, size), np.uint8)), (size, size))
+    return np.asarray(calm[:, ANGLES : 2 * ANGLES], np.float32)
+
+
+def continued_rows(colours: NDArray[np.floating], weight: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Colours (A, `ANGLES`, C) continued smoothly from where they have a `weight` (A, `ANGLES`), across the ends of rows."""
+    quarter = ANGLES // 4
+    wide, there = (np.concatenate([each[:, -quarter:], each, each[:, :quarter]], 1) for each in (colours, weight))
+    return pull_push(wide, there)[:, quarter : quarter + ANGLES]
+
+
+def joined(
+    filled: NDArray[np.floating], seen: NDArray[np.floating], known: NDArray[np.bool_], trust: NDArray[np.floating]
+) -> NDArray[np.float32]:
+    """What is `filled` in, (A, `ANGLES`, 3), moved to what is `seen` where both meet, as far as that is of its kind: `trust`
+    (A, `ANGLES`)."""
+    moved = continued_rows(seen - filled, trust)
+    wide = np.concatenate([known, known, known], 1)
+    away = cv2.distanceTransform((~wide).astype(np.uint8), cv2.DIST_L2, 5)[:, ANGLES : 2 * ANGLES] * STEP
+    return np.asarray(filled + moved * np.exp(-away / JOINED)[..., None], np.float32)
+
+
+def _blurred(values: NDArray[np.floating], metres: float) -> NDArray[np.float32]:
+    """Values (A, ...) averaged along a part."""
+    flat = np.ascontiguousarray(values.reshape(len(values), -1), np.float32)
+    out = cv2.GaussianBlur(flat, (1, 0), 1, sigmaY=metres / STEP, borderType=cv2.BORDER_REFLECT)
+    return np.asarray(out, np.float32).reshape(values.shape)
+
+
+def _lab(rgb: NDArray[np.floating]) -> NDArray[np.float32]:
+    return np.asarray(
+        cv2.cvtColor(np.clip(rgb, 0, 255).astype(np.float32) / np.float32(255), cv2.COLOR_RGB2LAB), np.float32
+    )

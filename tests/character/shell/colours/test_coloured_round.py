@@ -1,0 +1,87 @@
+"""What goes round a part: of rolls of cloth whose back is known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from engine.character.shell.colours.round import ANGLE, SIDEWAYS, coloured_round
+from engine.character.shell.colours.unrolled import ANGLES
+
+ROWS = 160
+NAVY, RED, WHITE = np.array([20, 30, 60]), np.array([220, 30, 40]), np.array([235, 235, 230])
+FACING = np.broadcast_to(np.cos(ANGLE), (ROWS, ANGLES)).astype(np.float32)
+SOURCE = FACING > 0.22
+BEHIND = FACING < -0.3
+
+
+def roll(*bands: tuple[slice, NDArray[np.int_]], ground: NDArray[np.int_] = NAVY) -> NDArray[np.float32]:
+    cloth = np.empty((ROWS, ANGLES, 3), np.float32)
+    cloth[:] = ground
+    for rows, colour in bands:
+        cloth[rows] = colour
+    return cloth
+
+
+def painted(cloth: NDArray[np.float32], **more: object) -> NDArray[np.float32]:
+    nothing = np.full(3, 255, np.float32)
+    return coloured_round(np.where(SOURCE[..., None], cloth, nothing), SOURCE, FACING, **more)[0]  # type: ignore[arg-type]
+
+
+def test_stripes_go_round_and_what_is_seen_stays() -> None:
+    cloth = roll(*((slice(first, first + 10), WHITE) for first in range(5, ROWS, 20)))
+    found = painted(cloth)
+    assert (found[SOURCE] == cloth[SOURCE]).all()
+    within = np.ones(ROWS, np.bool_)
+    within[[row + k for row in range(5, ROWS, 10) for k in range(-4, 4) if row + k < ROWS]] = False  # borders are soft
+    assert np.abs(found - cloth)[within].max() < 12
+
+
+def test_a_tie_is_not_on_the_back_but_for_whoever_wants_the_front_mirrored() -> None:
+    cloth = roll()
+    tie = np.broadcast_to(np.abs(SIDEWAYS) < 0.15, SOURCE.shape) & (FACING > 0) & (np.arange(ROWS) > 40)[:, None]
+    cloth[tie] = RED
+    found = painted(cloth)
+    assert (np.abs(found[BEHIND] - NAVY).max(-1) > 6).mean() < 0.002  # but for its corners
+    assert (found[tie & SOURCE] == RED).all()
+    mirrored = painted(cloth, back="mirror")
+    assert (np.abs(mirrored - RED).max(-1) < 6)[BEHIND].sum() == pytest.approx(tie.sum(), rel=0.05)
+
+
+def test_checks_are_on_the_back_as_on_the_front_and_inpainted_ones_are_not() -> None:
+    checks = ((np.arange(ROWS)[:, None] // 8 + np.arange(ANGLES) // 8) % 2)[..., None]
+    cloth = (checks * WHITE + (1 - checks) * np.array([150, 150, 150])).astype(np.float32)
+    contrast = {back: painted(cloth, back=back)[BEHIND].std() for back in ("see_through", "inpaint")}
+    assert contrast["see_through"] > 0.8 * cloth.std() > 5 * contrast["inpaint"] - 20
+
+
+def test_light_from_one_side_has_no_border_behind() -> None:
+    light = (0.6 + 0.4 * SIDEWAYS)[None, :, None]
+    found = painted((light * np.array([180, 160, 140])).repeat(ROWS, 0).astype(np.float32))
+    row = found[ROWS // 2, :, 0]
+    assert np.abs(np.diff(row, append=row[:1])).max() < 6
+    assert np.abs(found[BEHIND] - (light * [180, 160, 140]).repeat(ROWS, 0)[BEHIND]).max() < 20
+
+
+def test_a_sleeve_ends_where_it_does_though_only_half_of_its_rows_are_seen() -> None:
+    cloth = roll((slice(0, 80), WHITE))
+    source = SOURCE & ((np.arange(ROWS) < 60) | (np.arange(ROWS) > 84))[:, None]
+    found, sure = coloured_round(cloth, source, FACING)
+    assert np.abs(found[:56] - WHITE).max() < 6 and np.abs(found[90:] - NAVY).max() < 6
+    assert sure[:50].min() == 1 and sure[70] == 0
+
+
+def test_nothing_seen_is_nothing_changed() -> None:
+    cloth = roll()
+    found, sure = coloured_round(cloth, np.zeros_like(SOURCE), FACING)
+    assert (found == cloth).all() and not sure.any()
+
+
+def test_whoever_is_turned_has_a_tie_seen_aside_not_on_the_back() -> None:
+    turned = ANGLES // 8
+    cloth = roll()
+    cloth[:, np.abs(SIDEWAYS * (np.cos(ANGLE) > 0) + 2 * (np.cos(ANGLE) <= 0)) < 0.1] = RED
+    facing, source = np.roll(FACING, turned, 1), np.roll(SOURCE, turned, 1)
+    found = coloured_round(cloth, source, facing)[0]
+    assert np.abs(found[np.roll(BEHIND, turned, 1)] - NAVY).max() < 8
