@@ -39,7 +39,7 @@ def pictures(shift: tuple[float, float] = (4.0, 2.0)) -> list[NDArray[np.uint8]]
     """The neutral crop with a shadow; the smiling one with the shadow moved and a crease that is new."""
     neutral = darkened(skin(), SHADOW, (4, 7), 0.45)
     acted = darkened(skin(), (SHADOW[0] + shift[0], SHADOW[1] + shift[1]), (4, 7), 0.45)
-    acted = darkened(acted, CREASE, (2, 14), 0.75)
+    acted = darkened(acted, CREASE, (2, 14), 0.45)
     return [np.clip(p, 0, 255).astype(np.uint8) for p in (neutral, acted)]
 
 
@@ -84,7 +84,7 @@ def test_the_footprint_moves_with_the_head(tmp_path: Path) -> None:
 
 def test_without_outliers_nothing_is_removed(tmp_path: Path) -> None:
     neutral = np.clip(skin(), 0, 255).astype(np.uint8)
-    acted = np.clip(darkened(skin(), CREASE, (2, 14), 0.75), 0, 255).astype(np.uint8)
+    acted = np.clip(darkened(skin(), CREASE, (2, 14), 0.45), 0, 255).astype(np.uint8)
     track = driver(tmp_path, [FACE, ACTED], [neutral, acted])
     images = RatioImages(track, 0, outliers=True)
     assert images.outliers is not None
