@@ -21,6 +21,7 @@ from engine.face_animation.animation import (
 from engine.face_animation.creases.fine_details import RatioImages, keep_ratio_images
 from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
+from engine.face_animation.driver_tracking.lid_speed import slow_lids
 from engine.face_animation.driver_tracking.neutral import choose_neutral_frame
 from engine.face_animation.rig import Rig, rig_target
 from engine.face_animation.target_face import TargetFace
@@ -76,4 +77,6 @@ def read_driver(path: Path, target: TargetFace, neutral: int | None) -> tuple[Fa
     """A clip as a driver for a target, its meshes on the skin."""
     track = track_driver(Excerpt(path))
     chosen = choose_neutral_frame(track, target.mesh, neutral).frame
-    return replace(track, meshes=register_track(track, chosen).meshes), chosen
+    meshes = register_track(track, chosen).meshes
+    slow_lids(meshes, chosen, track.fps)
+    return replace(track, meshes=meshes), chosen

@@ -14,6 +14,7 @@ from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.creases.fine_details import DetailRegion, RatioStrip, detail_region, keep_ratio_images
 from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
+from engine.face_animation.driver_tracking.lid_speed import slow_lids
 from engine.face_animation.driver_tracking.neutral import NeutralFrame
 from engine.face_animation.loop import close_loop
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
@@ -93,6 +94,7 @@ def analyse_driver(
     choice = neutral_of(track)
     neutral = choice.frame
     registered = run.stage("register_driver", register_track, track, neutral, run.tick, track.meshes, shared=True)
+    slow_lids(registered.meshes, neutral, track.fps)
     track = replace(track, meshes=registered.meshes)
     if loop:
         track = close_loop(track)

@@ -156,8 +156,11 @@ def flatness(rgb: NDArray[np.uint8], weight: NDArray[np.float32], unit: float) -
     from 0 to 1; `unit` is the eye distance in pixels."""
     scale = min(1.0, FLATNESS_EYE_DISTANCE_PIXELS / unit)
     grey = cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY).astype(np.float32)
-    grey, marks = (cv2.resize(one, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA) for one in (grey, weight))
-    mean, squares = (cv2.blur(one, (FLAT_WINDOW, FLAT_WINDOW)) for one in (grey, grey * grey))
+    small, marks = (
+        np.asarray(cv2.resize(one, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA), np.float32)
+        for one in (grey, weight)
+    )
+    mean, squares = (cv2.blur(one, (FLAT_WINDOW, FLAT_WINDOW)) for one in (small, small * small))
     flat = (squares - mean * mean < FLAT_GREY_LEVELS**2)[marks > 0.5]
     low, high = FLAT_SHARES
     return float(np.clip((flat.mean() - low) / (high - low), 0, 1)) if len(flat) else 0.0

@@ -74,8 +74,9 @@ class SkinInBoth:
         other = np.maximum(
             other, _ramp(np.abs(_chroma(np.asarray(aligned)) - self._chroma).max(axis=-1), SKIN_CHROMA, OTHER_CHROMA)
         )
-        other = cv2.dilate(other * self._face, _disk(BESIDE_EYE_DISTANCES))
-        sharp = float(_ramp(np.float32(_sharpness(light, self._face) / max(self._sharpness, 1e-3)), BLURRED, SHARP))
+        other = np.asarray(cv2.dilate(other * self._face, _disk(BESIDE_EYE_DISTANCES)), np.float32)
+        fine = _sharpness(light, self._face) / max(self._sharpness, 1e-3)
+        sharp = float(np.clip((fine - BLURRED) / (SHARP - BLURRED), 0, 1))
         keep = cv2.GaussianBlur(sharp * self._neutral * (1 - other), (0, 0), 0.5 * BESIDE_EYE_DISTANCES * UNIT)
         return np.asarray(cv2.resize(keep, crop.shape[1::-1], interpolation=cv2.INTER_LINEAR), np.float32)
 

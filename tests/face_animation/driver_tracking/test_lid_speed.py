@@ -1,0 +1,44 @@
+"""Blinks take the time that people's take, and are shut when they were."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from made_face import placed, shut
+
+from engine.face_animation.driver_tracking.lid_speed import FALLS_SECONDS, RISES_SECONDS, held_openness, slow_lids
+from engine.face_animation.motion_transfer.lids_and_lips import CLOSED_GAP_SHARE, lid_ratio
+
+
+@pytest.mark.parametrize("fps", [24.0, 30.0, 60.0])
+def test_a_blink_of_one_frame_falls_and_rises_as_a_lid_does(fps: float) -> None:
+    seen = np.ones((80, 1))
+    seen[40] = CLOSED_GAP_SHARE
+    held = held_openness(seen, fps)[:, 0]
+    assert held[40] == pytest.approx(CLOSED_GAP_SHARE)
+    moving = np.flatnonzero(held < 1 - 1e-9)
+    assert 40 - moving[0] == pytest.approx(FALLS_SECONDS * fps, abs=1)
+    assert moving[-1] - 40 == pytest.approx(RISES_SECONDS * fps, abs=1)
+    assert (np.diff(held[moving[0] : 41]) < 0).all()
+    assert (np.diff(held[40 : moving[-1]]) > 0).all()
+
+
+def test_what_is_slow_enough_stays_as_it_is() -> None:
+    slow = 1 - 0.4 * np.sin(np.linspace(0, np.pi, 60))[:, None] ** 2
+    np.testing.assert_allclose(held_openness(slow, 25.0), slow)
+    wide = np.where(np.arange(60) < 30, 1.4, 1.0)[:, None]
+    np.testing.assert_allclose(held_openness(wide, 25.0), wide, err_msg="eyes that were wide may narrow at once")
+
+
+def test_lids_of_meshes_go_down_earlier_and_up_later_and_nothing_else_moves() -> None:
+    face = placed(60)
+    meshes = np.repeat(face[None], 20, axis=0)
+    meshes[10] = shut(face, 0.2)
+    before = meshes.copy()
+    slow_lids(meshes, 0, 30.0)
+    open_by = lid_ratio(meshes, face)[:, 3]
+    assert open_by[10] == 0
+    assert (np.diff(open_by[7:11]) < 0).all()
+    assert (np.diff(open_by[10:15]) >= 0).all()
+    np.testing.assert_array_equal(open_by[:7], 1)
+    np.testing.assert_allclose(meshes[:, [1, 13, 14, 152, 145, 374]], before[:, [1, 13, 14, 152, 145, 374]])
