@@ -17,7 +17,7 @@ Landmarks = Annotated[tuple[tuple[Coordinate, Coordinate], ...], Field(fail_fast
 States = Annotated[tuple[Annotated[str, Field(max_length=100)], ...], Field(fail_fast=True, max_length=100)]
 
 
-def _named(follow: object) -> object:
+def named_parts(follow: object) -> object:
     """The parts, where they are not named one by one."""
     return ACTING_PARTS if follow in ("all", ["all"], ("all",)) else follow
 
@@ -54,7 +54,7 @@ class PortraitOptions(BaseModel):
     strength: Annotated[float, Field(ge=0, le=2)] = Field(
         1.0, description="How strongly the motion is carried over; 1 is as the driver does it."
     )
-    follow: Annotated[tuple[Part, ...], Field(fail_fast=True, max_length=20), BeforeValidator(_named)] = Field(
+    follow: Annotated[tuple[Part, ...], Field(fail_fast=True, max_length=20), BeforeValidator(named_parts)] = Field(
         ACTING_PARTS, description='Which parts follow the driver; `["all"]` stands for every one.'
     )
     head_3d: bool = Field(
