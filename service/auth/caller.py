@@ -12,6 +12,7 @@ from typing import Annotated, Literal
 import structlog
 from fastapi import Depends, Request
 from sqlalchemy.exc import DBAPIError
+from starlette.requests import HTTPConnection
 
 from service.auth import repository
 from service.auth.rate import take_one
@@ -55,13 +56,14 @@ LOCAL_CALLER = Caller(LOCAL_KEY_ID, frozenset(SCOPES))
 
 def identify(request: Request, context: InContext) -> Caller:
     """The caller of a request, counted against its rate. Raises 401 and 429 problems."""
-    caller = _known(request, context)
+    caller = caller_of(request, context)
     if request.method == "DELETE" or request.url.path.endswith("/cancel"):
         make_room(context.settings)
     return caller
 
 
-def _known(request: Request, context: Context) -> Caller:
+def caller_of(request: HTTPConnection, context: Context) -> Caller:
+    """The caller of a request or of a WebSocket's handshake, counted against its rate. Raises 401 and 429 problems."""
     token = _bearer(request)
     session = request.cookies.get(COOKIE)
     if token is None and session is None:
@@ -103,7 +105,7 @@ Submitter = Annotated[Caller, Depends(require_scope("submit"))]
 Admin = Annotated[Caller, Depends(require_scope("admin"))]
 
 
-def _bearer(request: Request) -> str | None:
+def _bearer(request: HTTPConnection) -> str | None:
     given = request.headers.get("authorization")
     if given is None:
         return None

@@ -12,11 +12,11 @@ from service.tables.keys import LOCAL_KEY_ID, Key
 RETRY_SECONDS = 5
 
 
-def require_job(session: Session, settings: Settings, owner: str) -> None:
-    """Raise a 429 problem if a key may not have one more job under way. To be asked where the job is written, so that
-    two requests at the same moment cannot both be the last."""
+def require_job(session: Session, settings: Settings, owner: str, beside: int = 0) -> None:
+    """Raise a 429 problem if a key may not have one more job under way, `beside` what else of it is. To be asked where the
+    job is written, so that two requests at the same moment cannot both be the last."""
     most = _limits(session, settings, owner).jobs_at_once
-    if most is not None and repository.jobs_under_way(session, owner) >= most:
+    if most is not None and repository.jobs_under_way(session, owner) + beside >= most:
         raise Problem(
             429,
             "too_many_jobs",

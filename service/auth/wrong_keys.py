@@ -10,7 +10,7 @@ import zlib
 from collections.abc import Sequence
 from ipaddress import IPv6Address, IPv6Network, ip_address
 
-from fastapi import Request
+from starlette.requests import HTTPConnection
 
 from service.auth.rate import take_from_bucket
 from service.context import Context
@@ -27,7 +27,7 @@ TOTAL_TO_ADDRESS_RATIO = 20
 BURST_SECONDS = 60.0
 
 
-def count_wrong_key(context: Context, request: Request) -> None:
+def count_wrong_key(context: Context, request: HTTPConnection) -> None:
     """Count a key that opened nothing. Raises a 429 problem where there are too many."""
     most = context.settings.wrong_keys_per_minute
     place = zlib.crc32(caller_address(request, context.settings.trusted_proxies).encode()) % ADDRESS_BUCKETS
@@ -44,7 +44,7 @@ def count_wrong_key(context: Context, request: Request) -> None:
         )
 
 
-def caller_address(request: Request, proxies: Sequence[Network]) -> str:
+def caller_address(request: HTTPConnection, proxies: Sequence[Network]) -> str:
     """Where a request comes from: of IPv6, the network of 64 bits. Of what trusted proxies passed on, the last address
     that is none of theirs: what stands before it anybody may have written."""
     came = [request.client.host if request.client is not None else ""]

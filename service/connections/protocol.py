@@ -18,6 +18,7 @@ from service.connections.connection_limit import MAX_PARTING, ConnectionLimit
 from service.connections.sliced_reading import SlicedReading
 from service.connections.strict import StrictConnection
 from service.connections.transport import Transport
+from service.connections.websocket import WebSocketConnection
 from service.http import browser
 from service.problems import Problem, phrase
 
@@ -40,6 +41,7 @@ class Config(uvicorn.Config):
         self, app: Any, connection_limit: ConnectionLimit, head_seconds: float, send_seconds: float, **more: Any
     ):
         """`head_seconds` may the head of a request take, `send_seconds` may nothing be taken of an answer."""
+        more = {"ws": WebSocketConnection, **more}
         super().__init__(app, http=Protocol, h11_max_incomplete_event_size=HEAD_BYTES, **more)
         self.connection_limit = connection_limit
         self.head_seconds = head_seconds
@@ -60,6 +62,8 @@ class Protocol(SlicedReading):
         self._timed = ""
         self._admitted = False
         self._heard = False  # something of the next head
+        self._upgraded = False
+        self._websocket: WebSocketConnection | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         guarded = Transport(transport, self._incoming, self.config.send_seconds)
@@ -98,6 +102,28 @@ class Protocol(SlicedReading):
         super().resume_writing()
         self.transport.rest()
 
+    def handle_websocket_upgrade(self, event: h11.Request) -> None:
+        """Hand the connection over; it counts among the others until it is lost."""
+        if self._backlog or self.conn.trailing_data[0]:  # before the handshake is answered nobody may go on
+            self.send_400_response("")
+            return
+        self._time("", 0, lambda: None)
+        self.config.connection_limit.busy(self)
+        self._upgraded, self._heard = True, False
+        self.connections.discard(self)
+        app = cast(Any, self.config.loaded_app)
+        websocket = WebSocketConnection(app, cast(Any, self.scope), self.transport, self._websocket_lost)
+        self._websocket = websocket
+        self.connections.add(cast(Any, websocket))
+        self.transport.set_protocol(websocket)
+        task = websocket.begin()
+        task.add_done_callback(self.tasks.discard)
+        self.tasks.add(task)
+
+    def _websocket_lost(self, error: Exception | None) -> None:
+        self.connections.discard(cast(Any, self._websocket))
+        self.connection_lost(error)
+
     def make_room(self) -> None:
         """End: others have more use for the connection."""
         if self.cycle is None:  # somebody new, who is told
@@ -125,6 +151,8 @@ class Protocol(SlicedReading):
 
     def _look(self) -> None:
         """What is waited for, and how long."""
+        if self._upgraded:
+            return
         if self.transport.is_closing():
             self._time("", 0, lambda: None)
             self._count_out()
