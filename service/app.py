@@ -23,6 +23,9 @@ from service.jobs.endpoints import router as jobs
 from service.keys.endpoints import router as keys
 from service.kinds.endpoints import router as kinds
 from service.links.endpoints import router as links
+from service.live.endpoints import router as live
+from service.live.process import StartLive
+from service.live.sessions import LiveSessions
 from service.motions.endpoints import router as motions
 from service.traces.requests import Requests
 from service.uploads.endpoints import router as uploads
@@ -30,8 +33,8 @@ from service.uploads.under_way import ActiveUploads
 from service.webhooks.endpoints import router as webhooks
 
 
-def make_app(context: Context) -> FastAPI:
-    """The application over an opened context."""
+def make_app(context: Context, start_live: StartLive | None = None) -> FastAPI:
+    """The application over an opened context; `start_live` starts the process of a live portrait, without it there are none."""
     app = FastAPI(
         title="Galatea",
         version=engine.__version__,
@@ -46,10 +49,11 @@ def make_app(context: Context) -> FastAPI:
     app.state.uploads = ActiveUploads()
     app.state.stopping = Stopping()
     app.state.watch = Watch(context, app.state.stopping)
+    app.state.live = LiveSessions(context, app.state.stopping, start_live)
     problem_answers.install(app)
     openapi.describe(app, context.settings.keys_required)
     v1 = APIRouter(prefix="/v1")
-    for router in (files, uploads, jobs, events, artifacts, kinds, drivers, motions, keys, links, webhooks):
+    for router in (files, uploads, jobs, events, artifacts, kinds, drivers, motions, keys, links, webhooks, live):
         v1.include_router(router)
     app.include_router(v1)
     app.include_router(health)

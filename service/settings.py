@@ -135,6 +135,15 @@ class Settings(BaseSettings):
         3, ge=0, le=19, description="How far jobs give way to what else computes; 0 not at all, 19 wholly."
     )
     job_user: str = Field("nobody", description="Who jobs work as where the worker is root; empty: root.")
+    live_streams: int | None = Field(
+        None, ge=0, description="Live portraits at once on this machine; one for each core if not set, 0 none."
+    )
+    live_seconds: float = Field(3600, gt=0, description="The longest a live portrait may last.")
+    live_idle_seconds: float = Field(
+        20, gt=0, description="After how long without a frame of the camera, or with nobody looking, it ends."
+    )
+    live_frame_mb: float = Field(2, gt=0, le=8, description="The largest frame of the camera.")
+    live_frame_megapixels: float = Field(2.1, gt=0, description="The most pixels of a frame of the camera.")
     lease_seconds: float = Field(30, ge=2, le=900, description="How long a silent worker keeps its job.")
     sweep_seconds: float = Field(5, gt=0, description="How often lost messages and expired leases are looked for.")
     kinds: Annotated[list[str], NoDecode] = Field(

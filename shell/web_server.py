@@ -17,6 +17,7 @@ from service.connections.stopping import Stopping
 from service.context import Context
 from service.http.page import NOT_BUILT, is_built
 from service.settings import Settings
+from worker.live.processes import starter
 
 STOP_SECONDS = 3
 """How long requests may take to end once the service is to end; `Stopping` has told them."""
@@ -29,7 +30,7 @@ so long each time."""
 def answer_requests(context: Context, listening: socket.socket) -> None:
     """Answer what comes over a socket that listens, until SIGINT or SIGTERM."""
     sys.setswitchinterval(SWITCH_SECONDS)
-    app = make_app(context)
+    app = make_app(context, starter(context.settings))
     if not is_built(context.settings.web_dir):
         click.echo(NOT_BUILT, err=True)
     Server(_config(context.settings, app), app.state.stopping).run(sockets=[listening])
@@ -64,7 +65,6 @@ def _config(settings: Settings, app: FastAPI) -> Config:
         settings.send_seconds,
         timeout_keep_alive=settings.idle_seconds,
         loop="uvloop",
-        ws="none",
         log_config=None,
         access_log=settings.log_level == "DEBUG",
         proxy_headers=False,

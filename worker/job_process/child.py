@@ -187,7 +187,7 @@ def main() -> None:
         if kind.prepare is not None:
             kind.prepare()
     load_compiled(kinds)
-    _compile_without_keeping()
+    compile_without_keeping()
     models = [Path(os.environ[setting]) for setting in MODEL_SETTINGS if setting in os.environ]
     ready = Ready(kinds, limits, [*program_paths(), *compiled_folders(), *models])
     wire.send("ready")
@@ -201,7 +201,7 @@ def main() -> None:
             wire.pass_on(verdict | {"event": "end", "clean": True})
 
 
-def _compile_without_keeping() -> None:
+def compile_without_keeping() -> None:
     """What a job compiles, it compiles for itself: compiled functions are kept as pickles, which a stranger's job must
     not be able to leave for others. Those that are there already (`worker.compilation.rehearsal`) are used."""
     if "numba" in sys.modules:

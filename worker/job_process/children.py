@@ -50,7 +50,7 @@ class Child:
                     "worker.job_process.child",
                     str(os.getpid()),
                     str(write_end),
-                    json.dumps(asdict(_limits(settings, user))),
+                    json.dumps(asdict(process_limits(settings, user))),
                     ",".join(kinds),
                     *settings.kinds,
                 ),
@@ -58,7 +58,7 @@ class Child:
                 stdout=self._log,
                 stderr=self._log,
                 pass_fds=[write_end],
-                env=_environment(settings),
+                env=engine_environment(settings),
                 start_new_session=True,
             )
             lower_priority(self._process.pid, settings.job_niceness)  # from its first import on
@@ -271,7 +271,8 @@ def _state(process: int) -> str | None:
         return None
 
 
-def _limits(settings: Settings, user: int | None) -> Limits:
+def process_limits(settings: Settings, user: int | None) -> Limits:
+    """What the settings bound of a job's process."""
     return Limits(
         memory_bytes=int(settings.job_memory_mb * MEGABYTE),
         file_bytes=int(settings.job_file_mb * MEGABYTE),
@@ -287,7 +288,7 @@ def _cores(settings: Settings, turn: int) -> list[int]:
     return [there[(first + i) % len(there)] for i in range(min(settings.job_cores, len(there)))]
 
 
-def _environment(settings: Settings) -> dict[str, str]:
+def engine_environment(settings: Settings) -> dict[str, str]:
     """The worker's environment without its settings: passwords and addresses are not the engine's business. A model
     that the operator brings is."""
     kept = {name: value for name, value in os.environ.items() if _is_the_engines(name)}

@@ -1,0 +1,1 @@
+"""Live portraits: a process of its own for each, walled in as jobs are."""
