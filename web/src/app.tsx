@@ -16,6 +16,7 @@ import { onLocked } from './api/session';
 import { strings } from './language/strings';
 
 const SharedPage = later(() => import('./pages/shared'));
+const LivePage = later(() => import('./pages/live'));
 const KeysPage = later(() => import('./pages/keys'));
 const WebhooksPage = later(() => import('./pages/webhooks'));
 
@@ -23,6 +24,7 @@ export function App() {
   const route = useRoute(kinds.all);
   const [locked, setLocked] = useState(false);
   useEffect(() => onLocked(() => setLocked(true)), []);
+  if (route.page === 'live') return <LivePage key={route.id} id={route.id} token={route.token} />;
   const shared = route.page === 'shared';
   return (
     <KindsProvider value={kinds}>
@@ -70,7 +72,7 @@ function Navigation({ page }: { page: Route['page'] }) {
   );
 }
 
-function Page({ route }: { route: Route }) {
+function Page({ route }: { route: Exclude<Route, { page: 'live' }> }) {
   switch (route.page) {
     case 'studio': {
       const kind = kinds.of(route.kind);

@@ -10,6 +10,8 @@ export type Route =
   | { page: 'job'; id: string }
   | { page: 'history'; status: Status | null; words: string }
   | { page: 'shared'; token: string }
+  /** A live portrait alone, for whoever has the token. */
+  | { page: 'live'; id: string; token: string }
   | { page: 'keys' }
   | { page: 'webhooks' }
   /** An address that means nothing. */
@@ -34,6 +36,10 @@ export function parseRoute(kinds: readonly Kind[], hash: string, path = '/'): Ro
   if (place === 'make' && given) return { page: 'studio', kind: given };
   if (place === 'jobs' && given) return { page: 'job', id: given };
   if (place === 'shared' && given) return { page: 'shared', token: given };
+  if (place === 'live' && rest && /^\/[^/?#]+$/.test(beyond)) {
+    const [id, token] = [decoded(rest), decoded(beyond.slice(1))];
+    if (id && token) return { page: 'live', id, token };
+  }
   if (place === 'history' && (!rest || !beyond || beyond.startsWith('?'))) {
     const status = rest ? decoded(rest) : null;
     const words = (new URLSearchParams(beyond.replace(/^.*\?/, '')).get('q') ?? '').trim().slice(0, MAX_SEARCH_CHARACTERS);

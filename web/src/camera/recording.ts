@@ -67,5 +67,5 @@ export function useRecording(stream: MediaStream | null, name: string) {
     recorder.current?.stop();
   };
 
-  return { recording, begin: count, stop, reset };
+  return { recording, begin: count, beginNow: run, stop, reset };
 }

@@ -9,6 +9,7 @@ import { PerformancePanel } from '../../performances/performance_panel';
 import { useDrivers } from '../../performances/use_drivers';
 import { words as performanceWords } from '../../performances/words';
 import { SpecialCards } from './special_cards';
+import { DriveLive } from '../../live/button';
 import { StudioForm, useStudioTitle } from '../../studio/form';
 import { PicturePanel } from '../../studio/picture_panel';
 import { RecentWorks } from '../../works/recent_works';
@@ -68,6 +69,11 @@ export default function PortraitStudio({ kind }: StudioProps) {
     return true;
   }, refusePortrait);
 
+  const keepTake = (portrait: File, take: File): void => {
+    setPerformance({ by: 'file', file: take });
+    sending.begin(portraitOrder(portrait, { by: 'file', file: take }, optionsOf(choices, true)));
+  };
+
   const hasSound = performance?.by === 'file';
   const wrong = refused.portrait ? strings.studio.wrongPicture : refused.video ? performanceWords.ownVideo.wrong : null;
   const needed = wrong ?? (!portrait ? words.needPortrait : !performance ? words.needPerformance : '');
@@ -117,7 +123,14 @@ export default function PortraitStudio({ kind }: StudioProps) {
           sending={sending.step !== null}
           onKeeping={setKeeping}
           onGone={() => setPerformance({ by: 'name', name: AUTO })}
-          options={<FoldedChoices value={choices} mayHaveSound={hasSound} onChange={(choices) => change({ choices })} />}
+          options={
+            <>
+              <div class="actions">
+                <DriveLive portrait={refused.portrait ? null : portrait} onTake={keepTake} />
+              </div>
+              <FoldedChoices value={choices} mayHaveSound={hasSound} onChange={(choices) => change({ choices })} />
+            </>
+          }
         >
           <SpecialCards chosen={performance} onChoose={setPerformance} />
         </PerformancePanel>
