@@ -27,9 +27,9 @@ COPY engine engine
 COPY service service
 COPY worker worker
 COPY shell shell
-COPY scripts/identity_model.py scripts/identity_model.lock scripts/
+COPY scripts/model_files.py scripts/identity_model.lock scripts/salience_model.lock scripts/
 RUN /opt/galatea/bin/pip install --no-cache-dir --no-deps --no-build-isolation --editable . \
- && /opt/galatea/bin/python -m scripts.identity_model \
+ && /opt/galatea/bin/python -m scripts.model_files \
  && /opt/galatea/bin/python -m compileall -q engine service worker shell
 COPY --from=page /page/dist service/web
 COPY --from=page /page/reactive/dist/reactive-portrait.js engine/portrait/reactive/player/

@@ -124,7 +124,7 @@ locks=(requirements.lock)
 # What is installed for tests is kept up to date by whoever runs the demo next: one environment serves both.
 if [ "${1:-}" = --for-tests ] || [ -x .venv/bin/pytest ]; then locks+=(requirements-dev.lock); fi
 install_python "${locks[@]}"
-.venv/bin/python -m scripts.identity_model
+.venv/bin/python -m scripts.model_files
 build_web
 build_player
 if [ "${1:-}" = --for-tests ]; then install_test_tools; fi

@@ -74,6 +74,7 @@ def examine() -> int:
         _kinds,
         _files,
         _face_descriptor,
+        _outlines,
         _performances,
         _folder,
         _database,
@@ -179,6 +180,19 @@ def _face_descriptor(settings: Settings) -> Iterator[Finding]:
         yield Finding("missing", f"faces of personas: {error.detail}", install_anew())
     else:
         yield Finding("ok", f"faces of personas are told apart by {own or MODEL_FILE}")
+
+
+def _outlines(settings: Settings) -> Iterator[Finding]:
+    """What sees outlines of people beside the networks that know people, loaded as a job does: the file's hash is checked."""
+    from engine.package_data import IncompleteInstallation
+    from engine.perception.salience import MODEL_FILE, loaded_network
+
+    try:
+        loaded_network()
+    except IncompleteInstallation as error:
+        yield Finding("missing", f"outlines of characters: {error.detail}", install_anew())
+    else:
+        yield Finding("ok", f"outlines of characters are seen by {MODEL_FILE}")
 
 
 def _performances(settings: Settings) -> Iterator[Finding]:

@@ -7,6 +7,7 @@ from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
 from engine.package_data import package_folder
+from engine.perception import salience
 from engine.perception.identity.dlib_descriptor import MODEL_FILE
 from engine.performances.catalogue import scored
 from service.installed import checkout
@@ -24,7 +25,7 @@ def data_files() -> dict[str, tuple[str, ...]]:
     performances = [f"videos/{one.name}.{ending}" for one in scored() for ending in ("mp4", "jpg")]
     return {
         "engine.avatar.sample": ("body.mp4", "head.mp4"),
-        "engine.perception": ("canonical_face.npz",),
+        "engine.perception": ("canonical_face.npz", salience.MODEL_FILE),
         "engine.perception.identity": (MODEL_FILE,),
         "engine.performances": ("videos/appearances.json", *performances),
         "engine.portrait.reactive": ("page.html", "player/reactive-portrait.js"),

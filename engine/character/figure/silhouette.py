@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 import cv2
@@ -24,6 +25,7 @@ from engine.media.limits import Limits
 from engine.perception.body import BODY_LANDMARKS
 from engine.perception.matting import MattingModel
 from engine.perception.person import DOUBTFUL_BELIEF, LIKELY_BELIEF, person_mask
+from engine.perception.salience import with_salience
 from engine.perception.segmentation import people_confidence
 
 HEIGHT = 400
@@ -43,6 +45,8 @@ NEAR = 0.043
 """... and how far around them the rest of forearm and hand may be."""
 ARM_AND_HAND = 0.25
 """From the elbow to the fingertips, as a share of the person's height: so far from it may a hand be that is not seen closely."""
+BONE = 0.03
+"""Width of what is surely somebody along a bone whose joints are seen, as a share of their height."""
 LIMB = 0.03
 """Width of a limb that is known to be the person's, as a share of its skeleton's height."""
 
@@ -133,7 +137,12 @@ def _found(figure: Figure, model: MattingModel | None) -> NDArray[np.float32]:
     rgb = np.ascontiguousarray(figure.rgb[part])
     seed = seen_limbs(figure) if figure.spatial else _limbs(figure)
     known = model is not None or (figure.alpha is not None and (figure.alpha < 0.5).any())
-    people = None if known else people_confidence(rgb, whole=True)
+    people = None
+    if not known:
+        corner = np.array([part[1].start, part[0].start], np.float32)
+        people = with_salience(
+            rgb, people_confidence(rgb, whole=True), seen_bones(figure)[part], _hands(figure) - corner
+        )
     own = None if figure.alpha is None else figure.alpha[part]
     alpha = np.zeros(figure.rgb.shape[:2], np.float32)
     alpha[part] = person_mask(rgb, seed[part], own, model, figure.others[part], whole=True, people=people)
@@ -187,6 +196,33 @@ def seen_limbs(figure: Figure) -> NDArray[np.float32]:
         if min(figure.confidence[[BODY_LANDMARKS.index(name) for name in names]]) > JOINT:
             line(np.stack([figure.point(name) for name in names]), FOREARM)
     return np.asarray(np.maximum(LIKELY_BELIEF * seed, DOUBTFUL_BELIEF * near), np.float32)
+
+
+def seen_bones(figure: Figure) -> NDArray[np.bool_]:
+    """Where somebody is by their joints alone (H, W): along arms, legs and feet of which both ends are seen, and in the trunk."""
+    drawn = np.zeros(figure.rgb.shape[:2], np.uint8)
+    width = max(1, round(BONE * float(np.ptp(figure.points[figure.confidence > 0.3, 1], axis=0))))
+    for side in ("Left", "Right"):
+        for chain in (("Shoulder", "Elbow", "Wrist"), ("Hip", "Knee", "Ankle", "FootIndex"), ("Ankle", "Heel")):
+            for ends in pairwise(f"{side}{joint}" for joint in chain):
+                if min(figure.confidence[BODY_LANDMARKS.index(name)] for name in ends) > JOINT:
+                    line = np.rint(np.stack([figure.point(name) for name in ends])).astype(np.int32)
+                    cv2.polylines(drawn, [line], False, (1,), width)
+    trunk = ("LeftShoulder", "RightShoulder", "RightHip", "LeftHip")
+    if min(figure.confidence[BODY_LANDMARKS.index(name)] for name in trunk) > JOINT:
+        cv2.fillPoly(drawn, [np.rint(np.stack([figure.point(name) for name in trunk])).astype(np.int32)], (1,))
+    return drawn > 0
+
+
+def _hands(figure: Figure) -> NDArray[np.float32]:
+    """Points (K, 2) of hands and wrists that are seen."""
+    seen = [
+        np.concatenate([hand[:, :2] for hand in figure.hands if hand is not None] or [np.zeros((0, 2), np.float32)])
+    ]
+    for name in (f"{side}{mark}" for side in ("Left", "Right") for mark in ("Wrist", "Index", "Pinky")):
+        if figure.confidence[BODY_LANDMARKS.index(name)] > JOINT:
+            seen.append(figure.point(name)[None])
+    return np.concatenate(seen).astype(np.float32)
 
 
 def _limbs(figure: Figure) -> NDArray[np.float32]:
