@@ -255,6 +255,7 @@ def main() -> None:
     parser.add_argument("--only", default="", metavar="WORD")
     parser.add_argument("--clip", default="walk", choices=sorted(CLIPS))
     parser.add_argument("--back", default="see_through", choices=get_args(BackTexture))
+    parser.add_argument("--surface", default="relief", choices=("relief", "shell"))
     parser.add_argument("--sheet", type=Path)
     asked = parser.parse_args()
     print(machine())
@@ -281,7 +282,7 @@ def main() -> None:
             photo = Path(folder) / "photo.png"
             Image.fromarray(picture.rgb).save(photo)
             try:
-                woken = wake(photo, {"back_texture": asked.back})
+                woken = wake(photo, {"back_texture": asked.back, "surface": asked.surface})
             except InputError as error:
                 rows.append([person.name, error.code, *[""] * len(HEAD)])
                 continue

@@ -22,6 +22,8 @@ from engine.character.options import CharacterOptions
 from engine.character.parts.unseen_limbs import with_limbs_hidden
 from engine.character.rig.left_out import warn_of_silhouette
 from engine.character.rig.measures import measure, picture_camera
+from engine.character.shell.extremities import with_relaxed_hands
+from engine.character.shell.shell import make_shell
 from engine.character.stages import (
     Background,
     build_mesh,
@@ -33,6 +35,7 @@ from engine.character.stages import (
     label_drawn,
     make_character,
     make_drawn,
+    make_shell_character,
 )
 from engine.errors import InputError
 from engine.export.animated_gif import MAX_GIF_SIDE
@@ -207,6 +210,11 @@ def reconstruct(
             "hand_in_pocket", "A hand is in a pocket, or behind cloth: the template's is shown where it comes out."
         )
     fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.picture_camera()), labels, run.warn)
+    if options.surface == "shell":
+        fitted = with_relaxed_hands(fitted)
+        shell = run.stage("build_mesh", make_shell, figure, silhouette, fitted, labels)
+        made = (figure, silhouette, fitted, labels, shell, options.triangles, options.back_texture)
+        return Person(figure, silhouette, fitted, labels, run.stage("make_character", make_shell_character, *made))
     mesh = run.stage("build_mesh", build_mesh, figure, silhouette, fitted, labels)
     character = run.stage(
         "make_character",

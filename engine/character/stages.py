@@ -33,7 +33,10 @@ from engine.character.parts.unfound_hands import unfound_hands
 from engine.character.rig.measures import picture_camera, pose
 from engine.character.rig.relaxing import relaxed
 from engine.character.rig.rigging import Character, bind
+from engine.character.rig.shell_binding import bind_shell
 from engine.character.rig.turned_over import without_backs_in_view
+from engine.character.shell.colours.paint import paint_shell
+from engine.character.shell.shell import Shell
 from engine.character.surface.face_warp import JAW, Face
 from engine.character.surface.layers import build_layers
 from engine.character.surface.sheets import ClosedMesh, close
@@ -226,6 +229,21 @@ def make_character(
     character = relaxed(replace(character, mesh=fewer_triangles(character, triangles)))
     height, width = figure.rgb.shape[:2]
     return without_backs_in_view(character, picture_camera(character, fitted, (height, width)))
+
+
+def make_shell_character(
+    figure: Figure,
+    silhouette: Silhouette,
+    fitted: FittedBody,
+    labels: Labels,
+    shell: Shell,
+    triangles: int,
+    back: BackTexture,
+) -> Character:
+    """The shell painted, bound in T-pose and brought down to a number of triangles."""
+    texture = paint_shell(figure.rgb, silhouette, labels, shell, back)
+    character = bind_shell(shell, figure, silhouette, fitted, texture)
+    return replace(character, mesh=fewer_triangles(character, triangles))
 
 
 def _along_with_arms(mesh: ClosedMesh, labels: Labels) -> NDArray[np.bool_]:

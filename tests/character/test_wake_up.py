@@ -14,6 +14,8 @@ import pytest
 from missing import missing
 
 from benchmarks.known_truth.written_character import outline, read_written
+from engine.character.options import CharacterOptions
+from engine.character.pipeline import cut_all_out, find_figures, measure_character, reconstruct
 from engine.character.rig.measures import border_edges
 from engine.character.sample import sample_picture
 from engine.errors import InputError
@@ -24,7 +26,8 @@ from engine.media.video import read_video
 from engine.motion import rotation
 from engine.motion.files.gltf_motion import read_gltf_motion
 from engine.render.character import draw_character, prepare_character
-from engine.run import Progress
+from engine.run import Progress, Run
+from engine.store import StageStore
 from galatea import wake_up
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "export"))
@@ -309,3 +312,14 @@ def test_of_several_each_stands_where_they_are_in_the_picture(tmp_path: Path) ->
     first_share, second_share = np.diff([*measuring, 1])
     assert len(measuring) == 2 and 0 < first_share == pytest.approx(second_share)
     assert told[-1].stage == "measure", "and the end is where the last of them ends"
+
+
+def test_a_shell_is_whole_and_as_large_as_the_outline(picture: Path, cache: Path, woken: Path) -> None:
+    options = CharacterOptions(surface="shell")
+    with Run(StageStore(cache)) as run:
+        figures = find_figures(picture, options, run)
+        figures, silhouettes = cut_all_out(figures, None, options, run)
+        person = reconstruct(figures[0], silhouettes[0], None, options, run)
+        figures_of = measure_character(person, run)
+    assert figures_of["silhouette_iou"] > 0.94 and figures_of["closed"] == 1 and figures_of["flipped"] < 0.01
+    assert figures_of["triangles"] <= options.triangles and figures_of["landmark_reprojection"] < 0.05

@@ -37,6 +37,8 @@ NOSE = slice(27, 36)
 HUE, DARKER, LIGHTER, SHARE = 9.0, 0.6, 1.5, 0.6
 """By how much the skin of a foot differs from the face's in CIELAB's a and b at most, how light it may be, in the face's lightness,
 and of how much of a foot that must hold for it to be bare."""
+SHIN = 0.9
+"""Share of the shin's joint in what moves a vertex that is of a shin."""
 FEWEST = 25
 """Pixels of skin and of feet with which either is known."""
 
@@ -89,25 +91,31 @@ def _skin_triangles(mesh: TemplateMesh) -> NDArray[np.int32]:
 
 
 def barefoot(figure: Figure, silhouette: Silhouette, labels: Labels, template: NDArray[np.float64]) -> bool:
-    """Whether feet have the colour of the face. Whose face or feet are not seen is not. `template` (V, 3): the fitted one in the
-    grid's picture space."""
+    """Whether feet and shins have the colour of the face: brown shoes have it, too, but seldom below bare shins. Whose face, feet or
+    shins are not seen is not. `template` (V, 3): the fitted one in the grid's picture space."""
     if figure.face is None:
         return False
+    mesh = template_mesh()
     lab = cv2.cvtColor(silhouette.rgb.astype(np.float32) / 255, cv2.COLOR_RGB2LAB)
     height, width = labels.labels.shape
     nose = fiducials(figure.face[:, :2])[NOSE] @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
     face = cv2.fillConvexPoly(np.zeros((height, width), np.uint8), cv2.convexHull(np.rint(nose).astype(np.int32)), (1,))
-    toes = template[template_mesh().foot > 0.9]
-    near = np.zeros((height, width), np.uint8)
-    x, y = np.rint(toes[:, :2]).astype(int).T
-    inside = (x >= 0) & (y >= 0) & (x < width) & (y < height)
-    near[y[inside], x[inside]] = 1
     legs = np.isin(labels.labels, [BODY_PARTS.index(name) for name in ("left_leg", "right_leg")])
-    feet = lab[legs & (cv2.dilate(near, np.ones((5, 5), np.uint8)) > 0)]
     skin = lab[face > 0]
-    if min(len(feet), len(skin)) < FEWEST:
+    if len(skin) < FEWEST:
         return False
     own = np.median(skin, axis=0)
-    alike = np.linalg.norm(feet[:, 1:] - own[1:], axis=1) < HUE
-    alike &= (feet[:, 0] > DARKER * own[0]) & (feet[:, 0] < LIGHTER * own[0])
-    return bool(alike.mean() > SHARE)
+
+    def alike(vertices: NDArray[np.bool_]) -> bool:
+        near = np.zeros((height, width), np.uint8)
+        x, y = np.rint(template[vertices, :2]).astype(int).T
+        inside = (x >= 0) & (y >= 0) & (x < width) & (y < height)
+        near[y[inside], x[inside]] = 1
+        seen = lab[legs & (cv2.dilate(near, np.ones((5, 5), np.uint8)) > 0)]
+        if len(seen) < FEWEST:
+            return False
+        same = np.linalg.norm(seen[:, 1:] - own[1:], axis=1) < HUE
+        same &= (seen[:, 0] > DARKER * own[0]) & (seen[:, 0] < LIGHTER * own[0])
+        return bool(same.mean() > SHARE)
+
+    return alike(mesh.foot > 0.9) and alike(mesh.share("LeftLeg", "RightLeg") > SHIN)

@@ -20,10 +20,14 @@ AROUND = 64
 """Vertices of a row."""
 ROOM, THICK = 3.0, 1.5
 """Pixels between cloth and body in front and behind, and between its outside and its inside."""
+LOOSENS = 0.3
+"""Share of the tube's length, from above, over which it goes from the body's depth to the cloth's."""
 NEAR = 5.0
 """Pixels above and below a row within which the body is looked at."""
 BODY = 0.9
 """Share of trunk and legs in what moves a vertex that a skirt goes around."""
+HEM_EVEN = 2.0
+"""Vertices over which a hem is smoothed: at the sides of the tube the picture's columns say little."""
 WITH_LEGS = 0.75
 """How much a hem goes with the legs."""
 WAIST = 0.1
@@ -96,7 +100,9 @@ def _depths(
     if there.any():
         at = np.arange(len(rings))
         near, far = (gaussian_filter1d(np.interp(at, at[there], v[there]), 3) for v in (near, far))
-        return np.maximum(middle + half, near), np.minimum(middle - half, far)
+        loose = np.clip(at / (LOOSENS * len(rings)), 0, 1)
+        front, back = np.maximum(middle + half, near), np.minimum(middle - half, far)
+        return near + loose * (front - near), far + loose * (back - far)
     return middle + half, middle - half
 
 
@@ -107,7 +113,7 @@ def _hem(
     hem = area | cloth.lower
     x = np.clip(np.rint(columns).astype(int), 0, hem.shape[1] - 1)
     lowest = np.where(hem.any(0), hem.shape[0] - 1 - np.argmax(hem[::-1], 0), 0)[x]
-    return np.asarray(gaussian_filter1d(np.maximum(lowest + 0.5, rows), 1.0, mode="wrap"))
+    return np.asarray(np.maximum(rows, gaussian_filter1d(np.maximum(lowest + 0.5, rows), HEM_EVEN, mode="wrap")))
 
 
 def _double_wall(rows: int) -> NDArray[np.int32]:

@@ -1795,6 +1795,12 @@ export interface components {
              * @enum {string}
              */
             back_texture?: "see_through" | "mirror" | "inpaint";
+            /**
+             * @description What the character is made of: the picture cut into parts that are given their depth (the paper's way), which is the sharper at the outline; or the human template displaced to the outline, a shell that is whole from every side and where parts touch.
+             * @default relief
+             * @enum {string}
+             */
+            surface?: "relief" | "shell";
         };
         /** @description One field that is wrong. */
         FieldError: {

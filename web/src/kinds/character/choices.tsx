@@ -18,6 +18,7 @@ const both: Partial<Record<string, readonly BodyPart[]>> = {
 };
 const cameras = ['fixed', 'orbit', 'parallax'] as const;
 const backs = ['see_through', 'mirror', 'inpaint'] as const;
+const surfaces = ['relief', 'shell'] as const;
 const triangles = [10_000, 30_000, 60_000, 120_000, 200_000] as const;
 const levels = [0, 1, 2, 3] as const;
 
@@ -29,6 +30,7 @@ export interface Choices {
   /** Frames a second. */
   rate: number;
   format: Format;
+  surface: (typeof surfaces)[number];
   back: (typeof backs)[number];
   /** Of the character, at most. */
   triangles: number;
@@ -49,6 +51,7 @@ export const defaults: Choices = {
   size: null,
   rate: 30,
   format: 'mp4',
+  surface: 'relief',
   back: 'see_through',
   triangles: 60_000,
   levels: 0,
@@ -72,6 +75,7 @@ export function changedOptions(before: Choices, now: Choices): { [Name in keyof 
     ...(now.size?.join() !== before.size?.join() && { size: now.size }),
     ...(now.rate !== before.rate && { fps: now.rate === defaults.rate ? null : now.rate }),
     ...(now.format !== before.format && { format: now.format === defaults.format ? null : now.format }),
+    ...(now.surface !== before.surface && { surface: now.surface === defaults.surface ? null : now.surface }),
     ...(now.back !== before.back && { back_texture: now.back === defaults.back ? null : now.back }),
     ...(now.triangles !== before.triangles && { triangles: now.triangles === defaults.triangles ? null : now.triangles }),
     ...(now.levels !== before.levels && { levels: now.levels || null }),
@@ -92,6 +96,7 @@ export function choicesOf(options: CharacterOptions): Choices {
     size: options.size ?? defaults.size,
     rate: options.fps ?? defaults.rate,
     format: options.format ?? defaults.format,
+    surface: options.surface ?? defaults.surface,
     back: options.back_texture ?? defaults.back,
     triangles: options.triangles ?? defaults.triangles,
     levels: options.levels ?? defaults.levels,
@@ -168,6 +173,13 @@ export function CharacterFields({ value, onChange }: Props) {
   const id = useId();
   return (
     <>
+      <SelectField
+        label={words.surface}
+        value={value.surface}
+        choices={surfaces}
+        nameOf={(surface) => words.surfaces[surface]}
+        onChange={(surface) => onChange({ surface })}
+      />
       <SelectField
         label={words.back}
         value={value.back}

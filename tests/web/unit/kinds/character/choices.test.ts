@@ -4,8 +4,8 @@ import { describe, expect, it } from 'vitest';
 describe('the options of a character', () => {
   it('sends only what differs from the defaults', () => {
     expect(optionsOf(defaults)).toEqual({});
-    expect(optionsOf({ ...defaults, keep: ['right_arm', 'head'], back: 'inpaint', lit: true, vrm: true })).toEqual({
-      ...{ keep: ['head', 'right_arm'], back_texture: 'inpaint', lit: true, vrm: true },
+    expect(optionsOf({ ...defaults, keep: ['right_arm', 'head'], back: 'inpaint', surface: 'shell', lit: true, vrm: true })).toEqual({
+      ...{ keep: ['head', 'right_arm'], back_texture: 'inpaint', surface: 'shell', lit: true, vrm: true },
     });
     expect(optionsOf({ ...defaults, vrm: true, author: ' Ada ' })).toEqual({ vrm: true, vrm_author: 'Ada' });
     expect(optionsOf({ ...defaults, author: '  ' })).toEqual({});

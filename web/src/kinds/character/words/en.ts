@@ -83,6 +83,7 @@ const english = {
     labels: 'body parts',
     label_strokes: 'body parts',
     back_texture: 'back',
+    surface: 'surface',
   } satisfies Record<keyof (CharacterOptions & CharacterCorrections) | 'photo', string>,
 
   /** Files, by what they are to an order. */
@@ -113,6 +114,8 @@ const english = {
     triangles: 'Maximum triangles',
     levels: 'Levels of detail (LOD)',
     noLevels: 'None',
+    surface: 'Surface',
+    surfaces: { relief: 'The picture in relief', shell: 'A body, shaped to the outline' },
     back: 'Back of the character',
     backs: { see_through: 'Front, without what only fronts have', mirror: 'Front, mirrored', inpaint: 'Inpainted' },
     partial: 'Accept a person who is cut off or hidden below the chest',
