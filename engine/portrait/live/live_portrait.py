@@ -6,7 +6,7 @@ is drawn.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import TracebackType
 from typing import Literal
@@ -23,6 +23,7 @@ from engine.media.film_strip import FilmStrip
 from engine.perception.face_track.face_crop import CROP_SHAPE, FaceCrop
 from engine.perception.face_track.track import FaceTrack
 from engine.portrait.live.camera_face import CameraFace
+from engine.portrait.live.kept_in_frame import kept_in_frame, reach_in_frame
 from engine.portrait.live.options import LiveOptions
 from engine.portrait.live.rest import Obstacle, RestCalibration
 from engine.portrait.target import find_target_face
@@ -44,8 +45,9 @@ def prepare_live(image: Path, options: LiveOptions, run: Run) -> RiggedTarget:
 
 @dataclass(frozen=True)
 class _Play:
-    """What follows one rest: where it carries the control points, and what draws them."""
+    """What follows one `rest` (478, 3): where it carries the control points, and what draws them."""
 
+    rest: NDArray[np.float32]
     transfer: MotionTransfer
     animation: FaceAnimation
 
@@ -74,6 +76,7 @@ class LivePortrait:
         points, mesh = target.rig.control.points, target.face.mesh
         self._proxy = build_head_proxy(points, mesh) if options.head_3d else None
         self._mouth = target_mouth(target.face)
+        self._reach = reach_in_frame(target.face)
         self._plain = np.ones(CROP_SHAPE, np.float32)
         self._frame = 0
         self._camera = CameraFace()
@@ -108,7 +111,8 @@ class LivePortrait:
         assert self._playing is not None
         play = self._playing
         self._frame += 1
-        (offsets,), (depth,), (gaze,) = play.transfer(_frames_of(look))
+        kept = replace(look, mesh=kept_in_frame(look.mesh, play.rest, self._reach))
+        (offsets,), (depth,), (gaze,) = play.transfer(_frames_of(kept))
         motion = ControlMotion(self._frame, offsets, depth, gaze)
         return Watched("live" if self._camera.visible else "no_face", 1.0, None, motion, play)
 
@@ -123,7 +127,7 @@ class LivePortrait:
         target, options = self._target, self._options
         animation = FaceAnimation(target, RegisteredDriver(_still(rest), 0), options, LIVE_PARTS, self._mouth)
         transfer = MotionTransfer(_frames_of(rest), target.face.mesh, target.rig.control, self._proxy, options)
-        self._playing, self._calibration = _Play(transfer, animation), None
+        self._playing, self._calibration = _Play(rest.mesh, transfer, animation), None
 
 
 def _frames_of(look: FaceCrop) -> DriverFrames:
