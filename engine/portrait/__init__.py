@@ -30,7 +30,10 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
 
 
 def _prepare() -> None:
-    from engine.portrait import pipeline  # noqa: F401 - importing it is the preparation
+    from engine.body import load_template
+    from engine.portrait import pipeline  # noqa: F401 - importing it is half of the preparation
+
+    load_template()  # the mouth's; a job may not read the user's cache, in which it lies: what is loaded here is kept
 
 
 def _rehearse(folder: Path) -> None:

@@ -17,6 +17,7 @@ from typing import Any, NoReturn
 from engine.errors import InputError
 from engine.media.limits import Limits as MediaLimits
 from engine.perception.models import MODEL_SETTINGS
+from engine.portrait import KIND
 from engine.portrait.live.live_portrait import LivePortrait, prepare_live
 from engine.portrait.live.options import LiveOptions
 from engine.run import Run
@@ -39,8 +40,8 @@ def perform(order: Mapping[str, Any], wire: Wire) -> None:
         failed = {"event": "failed", "code": error.code, "detail": error.detail}
         wire.send(EVENT, json.dumps(failed).encode())
         return
-    wire.send(EVENT, json.dumps({"event": "calibrating", "fraction": 0.0, "obstacle": None}).encode())
     with LivePortrait(target, options) as portrait:
+        wire.send(EVENT, json.dumps({"event": "calibrating", "fraction": 0.0, "obstacle": None}).encode())
         LiveStream(wire, portrait, order["frame_pixels"], order["mark_synthetic"]).run()
 
 
@@ -66,7 +67,9 @@ def main() -> None:
     limits = Limits(**order["process_limits"])
     die_with_parent(parent)
     limit(limits)
-    load_compiled(["portrait"])
+    assert KIND.prepare is not None
+    KIND.prepare()
+    load_compiled([KIND.name])
     compile_without_keeping()
     models = [Path(os.environ[setting]) for setting in MODEL_SETTINGS if setting in os.environ]
     program = [*program_paths(), *compiled_folders(), *models]
