@@ -1,6 +1,6 @@
 """The figures of the portrait system, printed as the tables of `docs/figures.md`.
 
-python benchmarks/portrait.py speed|fidelity|ablations|stillness|lag|turn|pair|memory|all
+python benchmarks/portrait.py speed|fidelity|ablations|stillness|lag|turn|pair|mouths|memory|all
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from benchmarks.portrait_figures import fidelity, memory, speed, steadiness, turn
+from benchmarks.portrait_figures import fidelity, memory, mouths_and_eyes, speed, steadiness, turn
 from benchmarks.tables import machine
 
-TABLES = ("speed", "fidelity", "ablations", "stillness", "lag", "turn", "pair", "memory")
+TABLES = ("speed", "fidelity", "ablations", "stillness", "lag", "turn", "pair", "mouths", "memory")
 
 
 def main() -> None:
@@ -42,6 +42,8 @@ def main() -> None:
             turn.turn(given.pictures)
         elif name == "pair":
             fidelity.pair(given.pictures)
+        elif name == "mouths":
+            mouths_and_eyes.mouths_and_eyes(given.clips)
         else:
             memory.memory()
         sys.stdout.flush()
