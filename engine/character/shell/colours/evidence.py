@@ -20,7 +20,7 @@ from engine.character.parts.labels import ARMS
 from engine.character.shell.shell import Shell
 from engine.compiled import njit
 from engine.geometry.surface import vertex_normals
-from engine.imaging.filling.nearest import nearest_colours
+from engine.imaging.filling.nearest import nearest_colours, nearest_values
 from engine.imaging.masks.mask_distance import distance_inside, distance_to
 from engine.render.rasteriser import depth_map
 
@@ -36,6 +36,10 @@ BESIDE_ARM, SURE_BESIDE_ARM, LEG_BESIDE_ARM = 2.0, 4.0, 7.0
 """Pixels of the grid from an arm that passes before; a hand's shadow lies on the thigh."""
 OWN = 0.9
 """Alpha from which a pixel's colour is the person's own."""
+RIM, BEYOND = 8.0, 3.0
+"""Pixels of the grid from the outline inward in which there may be wall, and outward from which on there surely is."""
+LIKE, UNLIKE = 0.5, 15.0
+"""How much nearer to the wall's colour than to the person's that of a wall is; CIE Lab distance from which both can be told apart."""
 AGREES = 0.1
 """Share of the parts that may show a label, in what moves a point, from which on the label agrees with it."""
 
@@ -47,7 +51,7 @@ for _part, _labels in {"head": ("torso",), "torso": ("head", "left_leg", "right_
 
 @dataclass(frozen=True)
 class Evidence:
-    """Of points (...): `colours` (..., 3) float32, the picture's there; `shown` (...) float32, from 0, not at all, to 1; `source`
+    """Of points (...): `colours` (..., 3) float32, the picture's where it shows them, 0 elsewhere; `shown` (...) float32, from 0, not at all, to 1; `source`
     (...) bool: whether other places may be filled with it."""
 
     colours: NDArray[np.float32]
@@ -60,8 +64,9 @@ class Witness:
     """What the picture can say of a shell.
 
     attributes : (V, 10) float32 of the shell's vertices: place on the grid (3), cosine to the viewer, and parts (6).
-    labels : (h, w) int8 on the grid, -1 outside.
+    labels : (2, h, w) uint8 on the grid, which labels there are within one pixel, and within two: a bit for each.
     inside : (h, w) float32, pixels from the mask's outline.
+    wall : (h, w) bool, what looks like the wall beside it and not like the person within.
     from_arms : (2, h, w) float32, pixels from the left and the right arm.
     nearest : (3, 3 h, 3 w) float32, depth towards the viewer: at each place, the largest close around it, and further around.
     clean : (H, W, 3) uint8 the picture, its person's own colours continued beyond them.
@@ -69,8 +74,9 @@ class Witness:
     """
 
     attributes: NDArray[np.float32]
-    labels: NDArray[np.int8]
+    labels: NDArray[np.uint8]
     inside: NDArray[np.float32]
+    wall: NDArray[np.bool_]
     from_arms: NDArray[np.float32]
     nearest: NDArray[np.float32]
     clean: NDArray[np.uint8]
@@ -80,7 +86,17 @@ class Witness:
         """What it says of points (..., 10), interpolated from its vertices' attributes."""
         flat = np.ascontiguousarray(attributes.reshape(-1, attributes.shape[-1]))
         colours, shown, source = _judged(
-            *(flat, self.labels, self.inside, self.from_arms, self.nearest, self.clean, self.to_picture, MAY_SHOW)
+            *(
+                flat,
+                self.labels,
+                self.inside,
+                self.wall,
+                self.from_arms,
+                self.nearest,
+                self.clean,
+                self.to_picture,
+                MAY_SHOW,
+            )
         )
         shape = attributes.shape[:-1]
         return Evidence(colours.reshape(*shape, 3), shown.reshape(shape), source.reshape(shape))
@@ -100,8 +116,9 @@ def witness(rgb: NDArray[np.uint8], silhouette: Silhouette, labels: Labels, shel
     own = silhouette.alpha > OWN
     return Witness(
         np.concatenate([shell.pictured, towards, shell.mesh.parts], 1).astype(np.float32),
-        labels.labels.astype(np.int8),
+        np.stack([_labels_around(labels.labels, size) for size in (3, 5)]),
         distance_inside(silhouette.mask),
+        _walls(silhouette, labels.labels),
         np.stack([distance_to(labels.labels == arm) for arm in ARMS]),
         np.stack([near, *around]),
         nearest_colours(rgb, own) if own.any() else rgb,
@@ -109,22 +126,73 @@ def witness(rgb: NDArray[np.uint8], silhouette: Silhouette, labels: Labels, shel
     )
 
 
+def _walls(silhouette: Silhouette, labels: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """The pixels (h, w) near the outline of head and trunk that are like what is beyond it and unlike what is within: where
+    the mask takes in some of the wall, between strands of hair above all. Limbs are too thin to have a within."""
+    depth, away = distance_inside(silhouette.mask), distance_to(silhouette.mask)
+    within, beyond = depth > RIM, (away > BEYOND) & (away < 3 * RIM)
+    if not within.any() or not beyond.any():
+        return np.zeros_like(silhouette.mask)
+    lab = cv2.cvtColor(cv2.GaussianBlur(silhouette.rgb, (0, 0), 1).astype(np.float32) / 255, cv2.COLOR_RGB2LAB)
+    person, wall = (nearest_values(cv2.blur(lab, (5, 5)), where) for where in (within, beyond))
+    like_wall, like_person = (np.linalg.norm(lab - one, axis=-1) for one in (wall, person))
+    apart = np.linalg.norm(wall - person, axis=-1) > UNLIKE
+    big = np.isin(labels, (BODY_PARTS.index("head"), BODY_PARTS.index("torso")))
+    return np.asarray(big & (depth <= RIM) & apart & (like_wall < LIKE * like_person))
+
+
+def _labels_around(labels: NDArray[np.integer], size: int) -> NDArray[np.uint8]:
+    """Which labels (h, w), -1 where none is, are in a square of so many pixels about each, as bits."""
+    found = np.zeros(labels.shape, np.uint8)
+    for label in range(len(BODY_PARTS)):
+        own = np.asarray(labels == label, np.uint8) << label
+        found |= np.asarray(cv2.dilate(own, np.ones((size, size), np.uint8)), np.uint8)
+    return found
+
+
 @njit(parallel=True, boundscheck=False, error_model="numpy")
 def _judged(
     points: np.ndarray,
     labels: np.ndarray,
     inside: np.ndarray,
+    wall: np.ndarray,
     from_arms: np.ndarray,
     nearest: np.ndarray,
     clean: np.ndarray,
     to_picture: np.ndarray,
     may_show: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    count, (height, width), (rows, columns) = len(points), labels.shape, clean.shape[:2]
+    count, (height, width), (rows, columns) = len(points), labels.shape[1:], clean.shape[:2]
     colours = np.zeros((count, 3), np.float32)
     shown, source = np.zeros(count, np.float32), np.zeros(count, np.bool_)
     for i in prange(count):
         x, y, z, towards = points[i, 0], points[i, 1], points[i, 2], points[i, 3]
+        column, row = int(np.floor(x + 0.5)), int(np.floor(y + 0.5))
+        if towards <= FACES or column < 2 or row < 2 or column >= width - 2 or row >= height - 2:
+            continue
+        if inside[row, column] <= WITHIN:
+            continue
+        fine_column, fine_row = int((x + 0.5) * FINER), int((y + 0.5) * FINER)
+        if nearest[0, fine_row, fine_column] - z > BEHIND or nearest[1, fine_row, fine_column] - z > JUMP:
+            continue
+        agrees, surely = True, points[i, 4] >= points[i, 5] or not labels[1, row, column] & 1  # hair before a shoulder
+        for label in range(may_show.shape[1]):
+            if not labels[1, row, column] >> label & 1:
+                continue
+            likely = np.float32(0)
+            for part in range(may_show.shape[0]):
+                likely += points[i, 4 + part] * may_show[part, label]
+            if likely <= AGREES:
+                surely = False
+                agrees &= not labels[0, row, column] >> label & 1
+        leg = points[i, 8] + points[i, 9]
+        for k in range(2):
+            if points[i, 6 + k] < 0.05:
+                away = from_arms[k, row, column]
+                agrees &= away >= BESIDE_ARM
+                surely &= away >= (LEG_BESIDE_ARM if leg > 0.02 else SURE_BESIDE_ARM)
+        if not agrees:
+            continue
         u = min(max(to_picture[0, 0] * x + to_picture[0, 2], 0.0), columns - 1.0)
         v = min(max(to_picture[1, 1] * y + to_picture[1, 2], 0.0), rows - 1.0)
         left, top = int(u), int(v)
@@ -134,40 +202,10 @@ def _judged(
             upper = clean[top, left, k] * (1 - fu) + clean[top, right, k] * fu
             lower = clean[bottom, left, k] * (1 - fu) + clean[bottom, right, k] * fu
             colours[i, k] = upper * (1 - fv) + lower * fv
-        column, row = int(np.floor(x + 0.5)), int(np.floor(y + 0.5))
-        if towards <= FACES or column < 2 or row < 2 or column >= width - 2 or row >= height - 2:
-            continue
-        if inside[row, column] <= WITHIN:
-            continue
-        fine_column, fine_row = int((x + 0.5) * FINER), int((y + 0.5) * FINER)
-        if nearest[0, fine_row, fine_column] - z > BEHIND or nearest[1, fine_row, fine_column] - z > JUMP:
-            continue
-        agrees, surely = True, True
-        for dy in range(-2, 3):
-            for dx in range(-2, 3):
-                label = labels[row + dy, column + dx]
-                if label < 0:
-                    continue
-                if label == 0 and points[i, 4] < points[i, 5]:
-                    surely = False  # hair before a shoulder
-                likely = np.float32(0)
-                for part in range(may_show.shape[0]):
-                    likely += points[i, 4 + part] * may_show[part, label]
-                if likely <= AGREES:
-                    surely = False
-                    if max(abs(dx), abs(dy)) < 2:
-                        agrees = False
-        leg = points[i, 8] + points[i, 9]
-        for k in range(2):
-            if points[i, 6 + k] < 0.05:
-                away = from_arms[k, row, column]
-                agrees &= away >= BESIDE_ARM
-                surely &= away >= (LEG_BESIDE_ARM if leg > 0.02 else SURE_BESIDE_ARM)
-        if not agrees:
-            continue
         shown[i] = min((towards - FACES) / (SURE_FACES - FACES), 1.0)
         source[i] = (
             surely
+            and not wall[row, column]
             and towards > SURE_FACES
             and inside[row, column] > SURE_WITHIN
             and nearest[2, fine_row, fine_column] - z <= JUMP

@@ -21,8 +21,12 @@ from engine.character.shell.template_mesh import template_mesh
 
 BROWS, EYES, NOSE, CHIN = slice(17, 27), slice(36, 48), 30, 8
 """Of the 68 points of a face."""
-FACE = 1.0
-"""Radians from its middle to where a face ends and temples and ears begin."""
+FACE, CHEEK = 1.0, 0.65
+"""Radians from its middle to where a face ends and temples and ears begin; and up to where there is surely no hair beside it."""
+BARE = 0.35
+"""Radians from its middle up to which a face is bare between eyes and nose, above all beards and below spectacles."""
+HALF = 0.5
+"""Share of one half of a face, below which so little of it is seen that the other half says what it is."""
 HAIRLINE = 0.25
 """How far above the brows hair begins at the earliest, as a share of the way to the crown."""
 HAIR_BEGINS = {"nape": 2.5, "nose": 2.0, "eyes": 1.8, "brow": 1.4, "forehead": 1.0, "crown": 0.0}
@@ -30,14 +34,16 @@ HAIR_BEGINS = {"nape": 2.5, "nose": 2.0, "eyes": 1.8, "brow": 1.4, "forehead": 1
 APART = 14.0
 """CIE Lab distance, lightness counting 0.7 and hues 1.5, from which hair can be told from skin."""
 NOT_SKIN = 25.0
-"""The same, from which a colour is no skin of this face."""
+"""The same, from which a colour is no skin of this face ..."""
+LIGHTER = 5.0
+"""... where no colour is lighter than its skin by more than this: light may fall on it."""
 FEW = 40
 """Cells from which a colour is known."""
 LONG = 0.5
 """Share of what is beside the cheeks that is hair, if hair is long, and goes down to the neck."""
 SOFT = 0.008
 """Metres over which hair ends."""
-EAR_SOFT = 0.003
+EAR_SOFT = 0.008
 """The same of ears."""
 FLANK = 0.7
 """Radians from the face's middle beyond which skin has the light of the ears."""
@@ -94,11 +100,11 @@ def head_round(
     head = head_map()
     level = head.levels
     hairline = level["brow"] + HAIRLINE * (level["crown"] - level["brow"])
-    on_face = (head.angle < FACE) & (head.height < hairline) & (head.height > level["chin"])
-    colours, known = _both_cheeks(colours, source, on_face)
+    at_face = (head.height < hairline) & (head.height > level["chin"])
+    colours, known = _both_cheeks(colours, source, at_face & (head.angle < FACE), at_face & (head.angle < CHEEK))
     lab = cv2.cvtColor(np.clip(colours, 0, 255) / np.float32(255), cv2.COLOR_RGB2LAB)
-    above, beside = head.height > level["nape"], ~on_face & ~head.ears
-    cheeks = known & (head.angle < 0.6) & (head.height < level["eyes"]) & (head.height > level["chin"])
+    above, beside = head.height > level["nape"], ~(at_face & (head.angle < CHEEK)) & ~head.ears
+    cheeks = known & (head.angle < BARE) & (head.height < level["eyes"]) & (head.height > level["nose"])
     top = source & beside & (head.height > hairline)
     own = source & beside
     ears = None
@@ -107,10 +113,11 @@ def head_round(
         skin, hair = np.median(lab[cheeks], 0), np.median(lab[top], 0)
         from_skin, from_hair = (np.linalg.norm((lab - one) * WEIGHT, axis=-1) for one in (skin, hair))
         if np.linalg.norm((skin - hair) * WEIGHT) > APART:
-            bare = (from_skin < from_hair) & (from_skin < NOT_SKIN)
-            own &= ~(bare & above)
+            darker = np.minimum(lab - skin, [LIGHTER, np.inf, np.inf])
+            bare = (from_skin < from_hair) & (np.linalg.norm(darker * WEIGHT, axis=-1) < NOT_SKIN)
             sides = source & (head.angle > 0.9) & (head.height < level["nose"]) & (head.height > level["chin"])
             long = bool(sides.sum() > FEW and (~bare)[sides].mean() > LONG)
+            own &= ~(bare & (above | long))
             flanks = source & bare & above & (head.angle > FLANK) & (head.height < level["brow"])
             ears = np.median(colours[flanks if flanks.sum() > FEW else cheeks], 0)
     if long:
@@ -157,16 +164,17 @@ def _strands(detail: NDArray[np.float32], hair: NDArray[np.bool_], hairline: int
 
 
 def _both_cheeks(
-    colours: NDArray[np.float32], known: NDArray[np.bool_], on_face: NDArray[np.bool_]
+    colours: NDArray[np.float32], known: NDArray[np.bool_], on_face: NDArray[np.bool_], middle: NDArray[np.bool_]
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """A face that is seen from its side has on the other what it has on this one, in its own light."""
+    """A face that is seen from its side has on the other what it has on this one, in its own light: where it is `on_face`
+    (A, `ANGLES`), if of its `middle` (A, `ANGLES`) one half is hardly seen."""
     mirrored, there = colours[:, ::-1], known[:, ::-1]
     lacks = there & ~known & on_face
     both = there & known & on_face
-    if not lacks.any():
-        return colours, known
     half = np.arange(ANGLES) < ANGLES // 2
     lacking = half if (lacks & half).sum() > (lacks & ~half).sum() else ~half
+    if not lacks.any() or known[middle & lacking].mean() > HALF:
+        return colours, known
     near = both & lacking
     gain = np.ones(3, np.float32)
     if near.sum() > FEW:

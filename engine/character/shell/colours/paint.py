@@ -19,6 +19,7 @@ from engine.character.shell.shell import Shell
 from engine.character.shell.template_mesh import template_mesh
 from engine.compiled import njit
 from engine.imaging.filling.nearest import nearest_in
+from engine.imaging.masks.mask_distance import dilate_mask
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import Raster, rasterise
 
@@ -26,6 +27,10 @@ SIZE = 2048
 """Texels of the texture's sides."""
 SOFT = 6
 """Texels over which what is shown goes over into what is filled in."""
+GUTTER = 16
+"""Texels beside the chart that have the colours of the chart."""
+SAMPLED = 97
+"""One texel of so many is looked at for the mean of all."""
 UNSURE = 0.02
 """How much a part counts, where two meet, whose row has nothing to say."""
 STRIP = 256
@@ -97,12 +102,15 @@ def _softened(shown: NDArray[np.float32]) -> NDArray[np.float32]:
 def _gutter() -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
     """Rows and columns of the texels beside the chart, and of those on it that are nearest to them."""
     on = texels().triangle >= 0
-    y, x = np.nonzero(~on)
+    y, x = np.nonzero(~on & dilate_mask(on, GUTTER))
     rows, columns = nearest_in(on)
     return y, x, rows[y, x], columns[y, x]
 
 
 def _beyond_the_chart(texture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """The texture with its chart's colours beside it, so that none other is mixed into them when it is seen from far away."""
+    on = texels().triangle >= 0
+    texture[~on] = texture[on][::SAMPLED].mean(0)
     y, x, rows, columns = _gutter()
     texture[y, x] = texture[rows, columns]
     return texture

@@ -15,6 +15,7 @@ from typing import Literal
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import median_filter
 
 from engine.character.shell.colours.unrolled import ANGLES, STEP
 from engine.imaging.filling.pull_push import pull_push
@@ -117,7 +118,7 @@ def row_model(seen: NDArray[np.floating], weight: NDArray[np.floating]) -> RowMo
     values, counts = (np.stack(each, 1) for each in zip(*sides, strict=True))  # (A, 2, 3 + 1), (A, 2)
     known, other = counts[..., None], CROSSING * counts[:, ::-1, None]
     values = (known * values + other * values[:, ::-1]) / np.maximum(known + other, 1e-6)
-    values = _nearest_rows(values, (known + other)[..., 0])
+    values = _on_both_sides(_nearest_rows(values, (known + other)[..., 0]))
     share = (np.clip(SIDEWAYS / BEST, -1, 1) * 0.5 + 0.5)[None, :, None]
     between = np.asarray((1 - share) * values[:, :1] + share * values[:, 1:], np.float32)
     sure = np.clip(counts.max(1) / ENOUGH, 0, 1).astype(np.float32)
@@ -127,16 +128,32 @@ def row_model(seen: NDArray[np.floating], weight: NDArray[np.floating]) -> RowMo
 def _side(seen: NDArray[np.floating], weight: NDArray[np.floating]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """One side's colour in each row and the square of what it varies by (A, 4), and how many cells say so (A,). What is unlike
     the others counts little."""
-    trust = weight
+    told = weight.any(0)
+    seen, weight, aside = seen[:, told], weight[:, told], np.abs(SIDEWAYS[told])
+    trust = np.asarray(weight, np.float64)
+    mean = np.zeros((len(seen), 3))
     for _ in range(ROUNDS):
         count = _blurred(trust.sum(1), ROW)
-        mean = _blurred((trust[..., None] * seen).sum(1), ROW) / np.maximum(count, 1e-6)[:, None]
-        off = np.linalg.norm(seen - mean[:, None], axis=-1)
-        trust = weight / (1 + (off / UNLIKE) ** 2)
-    away = np.linalg.norm((_lab(seen) - _lab(mean[:, None])) * HUES, axis=-1)
-    trust = trust * (np.abs(SIDEWAYS) > ASIDE)
-    squares = _blurred((trust * away**2).sum(1), KIND) / np.maximum(_blurred(trust.sum(1), KIND), 1e-6)
+        mean[:] = _blurred(np.einsum("an,anc->ac", trust, seen), ROW) / np.maximum(count, 1e-6)[:, None]
+        off = seen - mean[:, None]
+        trust = weight / (1 + np.einsum("anc,anc->an", off, off) / UNLIKE**2)
+    away = (_lab(seen) - _lab(mean[:, None])) * HUES
+    trust = trust * (aside > ASIDE)
+    varies = _blurred((trust * np.einsum("anc,anc->an", away, away)).sum(1), KIND)
+    squares = varies / np.maximum(_blurred(trust.sum(1), KIND), 1e-6)
     return np.concatenate([mean, squares[:, None]], 1).astype(np.float32), _blurred(weight.sum(1), ROW)
+
+
+def _on_both_sides(values: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Values (A, 2, C) of a part's rows without what one side alone has there, a letter or a pocket: by how much the sides differ more
+    than is usual around is taken off the one that is the odder."""
+    size = 2 * round(KIND / STEP) + 1
+    usual = median_filter(values, (size, 1, 1), mode="nearest")
+    apart = values[:, 0] - values[:, 1]
+    more = apart - median_filter(apart, (size, 1), mode="nearest")
+    odd = np.linalg.norm((values - usual)[..., :3], axis=-1, keepdims=True)
+    share = odd / np.maximum(odd.sum(1, keepdims=True), 1e-6)
+    return np.asarray(values - share * more[:, None] * np.array([1, -1])[None, :, None], np.float32)
 
 
 def _nearest_rows(values: NDArray[np.floating], count: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -169,7 +186,7 @@ def _of_the_kind(seen: NDArray[np.floating], model: RowModel, known: NDArray[np.
     usual = np.asarray(cv2.medianBlur(wide, 5))
     mostly = np.minimum(usual, np.clip((cv2.blur(usual, (size, size)) - MIXED) / MIXED, 0, 1))
     calm = cv2.blur(cv2.erode(mostly, np.ones((size, size), np.uint8)), (size, size))
-    return np.asarray(calm[:, ANGLES : 2 * ANGLES], np.float32)
+    return np.asarray(calm[:, ANGLES : 2 * ANGLES] * known, np.float32)
 
 
 def continued_rows(colours: NDArray[np.floating], weight: NDArray[np.floating]) -> NDArray[np.float32]:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -97,3 +100,15 @@ def test_what_is_shown_is_the_pictures_own(seen: tuple[Shell, Silhouette, Labels
     expected = points[surely][:, :2] * [0.8, 0.9]
     assert surely.sum() > 5000
     assert np.abs(texture[surely][:, :2] - expected).max() < 2
+
+
+def test_wall_that_the_mask_takes_in_is_no_source(seen: tuple[Shell, Silhouette, Labels]) -> None:
+    shell, silhouette, labels = seen
+    rgb = dressed(shell, silhouette)
+    wide = cv2.dilate(silhouette.mask.astype(np.uint8), np.ones((7, 7), np.uint8)) > 0
+    taken = wide & ~silhouette.mask
+    trunk = BODY_PARTS.index("torso")
+    grown = replace(labels, labels=np.where(taken, trunk, labels.labels).astype(np.int8))
+    told = witness(rgb, replace(silhouette, mask=wide, rgb=rgb), grown, shell)
+    assert told.wall[taken].mean() > 0.9
+    assert not told.wall[silhouette.mask & (labels.labels == trunk) & (told.inside > 6)].any()
