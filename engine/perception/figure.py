@@ -21,6 +21,8 @@ MIN_PAPER_GREY_LEVEL = 100.0
 """Grey levels; darker ground is no paper, on which lines are darker still."""
 MAX_BORDER_SHARE = 0.15
 """Largest share of the border that the figure may touch."""
+MAX_FILLED_SHARE = 0.7
+"""Share of a drawn figure in which it differs from the paper, at most: children's drawings have 0.4, coats on white walls 0.9."""
 MIN_CERTAIN_SHARE = 0.4
 """Share of what the networks believe in (0.3 and more) that they are sure of (0.9 and more), above which the
 picture is theirs. On photographs, paintings and cartoons it was 0.7 and more, on a child's drawing 0.05."""
@@ -48,13 +50,17 @@ def figure_on_plain_ground(
 
 
 def figure_on_paper(rgb: NDArray[np.uint8]) -> NDArray[np.bool_] | None:
-    """The largest thing (H, W) that lines enclose on plain paper, whoever or whatever it is; None without paper or lines."""
-    figure = _on_paper(resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE)).astype(np.float32))
-    return None if figure is None else resized(figure.astype(np.float32), (rgb.shape[1], rgb.shape[0])) > 0.5
+    """The largest thing (H, W) that lines enclose on plain paper, whoever or whatever it is; None without paper or lines, or where it is
+    no drawing of lines: not of the paper's colour inside."""
+    small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE)).astype(np.float32)
+    figure = _on_paper(small)
+    if figure is None or _strokes(small)[figure].mean() > MAX_FILLED_SHARE:
+        return None
+    return resized(figure.astype(np.float32), (rgb.shape[1], rgb.shape[0])) > 0.5
 
 
 def _on_paper(small: NDArray[np.float32]) -> NDArray[np.bool_] | None:
-    """The same at the size at which strokes are looked for."""
+    """What lines enclose on paper, at the size at which strokes are looked for."""
     strokes = _strokes(small)
     if _border(strokes).mean() > MAX_BORDER_SHARE or np.median(_border(small)) < MIN_PAPER_GREY_LEVEL:
         return None

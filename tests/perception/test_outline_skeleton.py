@@ -98,3 +98,10 @@ def test_what_lines_enclose_on_paper_is_filled() -> None:
     assert found is not None
     assert (found & outline).sum() / (found | outline).sum() > 0.95
     assert figure_on_paper(np.full((200, 200, 3), 40, np.uint8)) is None
+
+
+def test_what_is_filled_is_no_drawing() -> None:
+    outline = figure(STANDING)
+    paper = np.full((*outline.shape, 3), 235, np.uint8)
+    paper[outline] = (90, 80, 60)
+    assert figure_on_paper(paper) is None

@@ -274,6 +274,13 @@ def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]
     limit = np.array([width, height])
     off = np.abs(figure.points / limit - 0.5).max(axis=1)
     seen = {name for i, name in enumerate(BODY_LANDMARKS) if off[i] < 0.55 and figure.confidence[i] > SEEN}
+    nose = BODY_LANDMARKS.index("Nose")
+    if off[nose] > 0.5 and figure.confidence[nose] > SEEN:  # the network guesses a head that the picture cuts off
+        raise InputError(
+            "not_full_body",
+            "The person's head is cut off by the picture's edge: choose a picture that shows it.",
+            ("joints",),
+        )
     if missing := [name for name in SHOULDERS if name not in seen]:
         raise InputError(
             "not_full_body",

@@ -56,3 +56,14 @@ def test_who_lies_in_a_real_picture_is_refused(media: Callable[[str], Path], tmp
     with pytest.raises(InputError) as refused:
         told(tmp_path / "photo.png")
     assert refused.value.code == "person_lying"
+
+
+@pytest.mark.parametrize("partial", [False, True])
+def test_who_has_no_head_in_the_picture_is_refused(media: Callable[[str], Path], tmp_path: Path, partial: bool) -> None:
+    """Cut off at the neck: perception guesses where the head would be, above the picture."""
+    rgb = read_image(media("fullbody/woman_white_top_shorts.jpg")).rgb
+    neck = round(0.19 * len(rgb))
+    write_image(tmp_path / "photo.png", np.ascontiguousarray(rgb[neck:]))
+    with pytest.raises(InputError) as refused:
+        find_figure(tmp_path / "photo.png", Choice(), partial, Limits(), lambda code, message: None)
+    assert (refused.value.code, "head" in refused.value.detail) == ("not_full_body", True)
