@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
-from galatea_client.models import Driver, Kind, Motion
+from galatea_client.models import Driver, Kind, Live, Motion
 from galatea_client.requests import J, Requests
 from galatea_client.transfer import OnProgress, Upload, send_file, target_file
 from galatea_client.works import Source
@@ -80,3 +82,18 @@ class Libraries(Requests[J]):
         answer = await self._transport.call("get_motion_file", path={"name": motion.name})
         await self._transport.line.aside(target.write_bytes, answer.content)
         return target
+
+    async def create_live(
+        self, image: str | None = None, job: str | None = None, options: Mapping[str, Any] | None = None
+    ) -> Live:
+        """Begin a live portrait of an uploaded picture, or of a portrait job's (ids). Its frames go by a WebSocket (docs/live.md)."""
+        wanted = {"image": image, "job": job, "options": dict(options or {})}
+        return self._read(Live, await self._call("create_live", json=wanted))
+
+    async def live(self, live_id: str) -> Live:
+        """How a live portrait is."""
+        return self._read(Live, await self._call("get_live", live_id=live_id))
+
+    async def end_live(self, live_id: str) -> None:
+        """End a live portrait."""
+        await self._transport.call("end_live", path={"live_id": live_id})

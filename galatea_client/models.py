@@ -314,3 +314,15 @@ class Delivery(Model):
     delivered_at: datetime | None
     attempts: int
     last_attempt: Attempt | None
+
+
+class Live(Model):
+    """A portrait that follows a camera. `stream` is the path of the WebSocket that takes the camera's frames, `view` of one for those
+    who look on; `code` and `detail` say why it has ended."""
+
+    id: str
+    status: Literal["preparing", "calibrating", "live", "ended"]
+    stream: str
+    view: str
+    code: str | None
+    detail: str | None

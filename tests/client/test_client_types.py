@@ -28,6 +28,7 @@ SCHEMAS: dict[type[BaseModel], str] = {
     models.Motion: "MotionOut",
     models.MotionJoint: "MotionJoint",
     models.MotionError: "MotionError",
+    models.Live: "LiveOut",
     models.Key: "KeyOut",
     models.NewKey: "NewKeyOut",
     models.OwnKey: "OwnKeyOut",
