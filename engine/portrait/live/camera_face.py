@@ -18,7 +18,7 @@ from engine.perception.one_face import OneFace
 
 TRACKED_SIDE = 640
 """Pixels: larger frames are looked at in this size. The tracker's network sees the face in 192."""
-MIN_CUTOFF_HZ, CUTOFF_PER_SPEED, DERIVATIVE_CUTOFF_HZ = 1.5, 10.0, 6.0
+MIN_CUTOFF_HZ, CUTOFF_PER_SPEED, DERIVATIVE_CUTOFF_HZ = 1.0, 15.0, 8.0
 """Of the one-euro filter, of meshes in eye distances: a lid that shuts goes 1.5 eye distances a second, a head at rest 0.03."""
 
 
