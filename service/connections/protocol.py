@@ -102,6 +102,10 @@ class Protocol(SlicedReading):
         super().resume_writing()
         self.transport.rest()
 
+    def _should_upgrade_to_ws(self) -> bool:
+        """Whoever offers the upgrade without a handshake's key is answered as if it had not been offered."""
+        return any(name == b"sec-websocket-key" for name, _ in self.headers)
+
     def handle_websocket_upgrade(self, event: h11.Request) -> None:
         """Hand the connection over; it counts among the others until it is lost."""
         if self._backlog or self.conn.trailing_data[0]:  # before the handshake is answered nobody may go on
