@@ -69,7 +69,8 @@ describe('a live portrait', () => {
     await viewer.goto(new URL((await alone.getAttribute('href')) ?? '', page.url()).href);
     await expect.poll(() => shown(viewer)).not.toBe('');
     await lacks(viewer.locator('header, footer, nav'), viewer.locator('canvas'));
-    expect(await viewer.evaluate(() => getComputedStyle(document.querySelector('.live-alone')!).backgroundColor)).toBe('rgb(0, 0, 0)');
+    const ground = () => viewer.evaluate(() => getComputedStyle(document.querySelector('.live-alone')!).backgroundColor);
+    await expect.poll(ground).toBe('rgb(0, 0, 0)');
     await viewer.close();
 
     await page.getByRole('button', { name: 'Record', exact: true }).click();
