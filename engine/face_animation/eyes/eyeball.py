@@ -34,9 +34,14 @@ HUE_RANGE = (0.0, 0.6)
 SHADED_DEPTH, OPEN_DEPTH = 0.07, 0.14
 """Eye widths below the upper lid up to which it shades the white, and from which on it does not."""
 MAX_LID_SHADE = 0.45
+CORNER_SHADE, CORNER_WIDTH = 0.3, 0.25
+"""Of the light, that a white that is shaded by its lid has less in the eye's corners, and eye widths from them up to which it does."""
+OWN_LIGHT, OWN_HUE = (0.7, 0.88), (0.06, 0.12)
+"""Of the white's light, from which on, and by how much the shares of red and blue may differ up to which, what the picture shows beside the iris is
+kept as it is."""
 RINGS = 12
 """Of an iris, between which its colours are told apart."""
-SPURIOUS, SPARED = 24.0, 60.0
+SPURIOUS, SPARED = 36.0, 80.0
 """Grey levels from the usual of its ring, from which on a place of the iris is lash, lid or light, and at which it is wholly."""
 GLINT_RADII = 0.8
 """Within which a place that is so much lighter is the catch-light's."""
@@ -103,12 +108,14 @@ def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> E
     if beside.sum() < 6:
         return None
     tone = _white(rgb, mesh, side)
+    lid_shade = _lid_shade(patch, beside, below_lid(opening - low, patch.shape[:2]))
+    light = white_light(lid_shade, (opening - low).astype(np.float32), patch.shape[:2])
     disk, glint = _complete_iris(patch, (seen > 0) & inside_iris, distance, radius)
     alpha = np.clip((1.08 * radius - distance) / max(0.2 * radius, 1.0) + 0.5, 0, 1)
     along = (ends[1] - ends[0]).astype(np.float64) / width
     off = mesh[iris[0], :2] - ends.mean(axis=0)
     return Eyeball(
-        np.broadcast_to(tone, patch.shape).astype(np.float32),
+        _with_own(tone, patch / light[..., None], beside),
         disk,
         alpha.astype(np.float32),
         glint,
@@ -117,7 +124,7 @@ def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> E
         width,
         area / width**2,
         _lashes(rgb, opening),
-        _lid_shade(patch, beside, below_lid(opening - low, patch.shape[:2])),
+        lid_shade,
         np.array([off @ along, off @ (-along[1], along[0])]) / width,
         radius / width,
     )
@@ -134,6 +141,31 @@ def below_lid(opening: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[n
     ys, xs = np.mgrid[: shape[0], : shape[1]]
     places, heights = xs * right[0] + ys * right[1], xs * down[0] + ys * down[1]
     return np.asarray((heights - np.interp(places, lid[:, 0], lid[:, 1])) / width, np.float32)
+
+
+def white_light(lid_shade: float, opening: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
+    """(h, w) of the light, what a lid that keeps `lid_shade` of it, and the corners of an `opening` (16, 2), leave for the white in a part of
+    `shape`."""
+    if lid_shade == 0:
+        return np.ones(shape, np.float32)
+    lid = np.clip(1 - below_lid(opening, shape) / OPEN_DEPTH, 0, 1) ** 1.5
+    ys, xs = np.mgrid[: shape[0], : shape[1]]
+    across = (opening[8] - opening[0]).astype(np.float64)
+    along = ((xs - opening[0, 0]) * across[0] + (ys - opening[0, 1]) * across[1]) / max(float(across @ across), 1.0)
+    corner = np.clip(1 - np.minimum(along, 1 - along) / CORNER_WIDTH, 0, 1) ** 2
+    return np.asarray((1 - lid_shade * lid) * (1 - CORNER_SHADE * corner), np.float32)
+
+
+def _with_own(tone: NDArray[np.float64], patch: NDArray[np.float32], beside: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """(h, w, 3) the white: of one `tone` (3,), but for what is seen `beside` (h, w) the iris in a `patch` (h, w, 3) and is white."""
+    whole = np.asarray(tone, np.float32)
+    ratio = patch @ LUMINANCE_WEIGHTS.astype(np.float32) / max(float(tone @ LUMINANCE_WEIGHTS), 1.0)
+    hue = np.abs(patch / np.maximum(patch.sum(axis=-1, keepdims=True), 1) - whole / whole.sum()).max(axis=-1)
+    own = np.clip((ratio - OWN_LIGHT[0]) / (OWN_LIGHT[1] - OWN_LIGHT[0]), 0, 1)
+    own *= np.clip((OWN_HUE[1] - hue) / (OWN_HUE[1] - OWN_HUE[0]), 0, 1)
+    own *= np.minimum(cv2.distanceTransform(beside.astype(np.uint8), cv2.DIST_L2, 3) / 3, 1)
+    own = np.asarray(cv2.GaussianBlur(own.astype(np.float32), (0, 0), 1.0)) * beside
+    return np.asarray(whole + own[..., None] * (np.minimum(patch, 255) - whole), np.float32)
 
 
 def _white(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float64]:

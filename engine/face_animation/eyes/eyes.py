@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes.eyeball import EYE_VERTICES, LASH_LINE_EYE_WIDTHS, OPEN_DEPTH, Eyeball, below_lid
+from engine.face_animation.eyes.eyeball import EYE_VERTICES, LASH_LINE_EYE_WIDTHS, Eyeball, white_light
 
 FULL_OPENING_CHANGE = 0.15
 """Change of the opening's area, as a share of it, from which the eyeball's layer is fully drawn."""
@@ -23,8 +23,6 @@ CLOSING_GAP_SHARES = (0.75, 0.3)
 """Shares of the picture's opening at which a lid begins to take its own colours, and has."""
 GLINT_FOLLOWS = 0.3
 """Of the iris' way, that the catch-light goes: it is a mirror image of what is before the face."""
-CORNER_SHADE, CORNER_WIDTH = 0.3, 0.25
-"""Of the light, that a white that is shaded by its lid has less in the eye's corners, and eye widths from them up to which it does."""
 IRIS_ROOM = 0.85
 """Radii of the iris that are between its middle and a corner of the eye, at least."""
 FREE_SHARE = 0.6
@@ -95,7 +93,7 @@ def draw_eye(
     shifted[:, 2] += look[0] * along + look[1] * across
     iris = cv2.warpAffine(eye.iris, shifted, shape[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     disk = cv2.warpAffine(eye.iris_alpha, shifted, shape[::-1], flags=cv2.INTER_LINEAR)[..., None]
-    white = np.asarray(white, np.float32) * _white_light(eye, opening - low, shape)[..., None]
+    white = np.asarray(white, np.float32) * white_light(eye.lid_shade, opening - low, shape)[..., None]
     ball = white + disk * (iris - white)
     place[:, 2] += GLINT_FOLLOWS * (look[0] * along + look[1] * across)
     glint = cv2.warpAffine(eye.glint, place, shape[::-1], flags=cv2.INTER_LINEAR)
@@ -106,18 +104,6 @@ def draw_eye(
     seam = lid_closing_share(eye, mesh, side) * _lash_line(opening - low, shape)[..., None]
     drawn += seam * (eye.lashes - drawn)
     frame[low[1] : high[1], low[0] : high[0]] = np.clip(drawn + 0.5, 0, 255).astype(np.uint8)
-
-
-def _white_light(eye: Eyeball, opening: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
-    """(h, w) of the light, what the lid and the corners of an `opening` (16, 2) leave for the white in a part of `shape`."""
-    if eye.lid_shade == 0:
-        return np.ones(shape, np.float32)
-    lid = np.clip(1 - below_lid(opening, shape) / OPEN_DEPTH, 0, 1) ** 1.5
-    ys, xs = np.mgrid[: shape[0], : shape[1]]
-    across = (opening[8] - opening[0]).astype(np.float64)
-    along = ((xs - opening[0, 0]) * across[0] + (ys - opening[0, 1]) * across[1]) / max(float(across @ across), 1.0)
-    corner = np.clip(1 - np.minimum(along, 1 - along) / CORNER_WIDTH, 0, 1) ** 2
-    return np.asarray((1 - eye.lid_shade * lid) * (1 - CORNER_SHADE * corner), np.float32)
 
 
 def lid_closing_share(eye: Eyeball, mesh: NDArray[np.floating], side: int) -> float:
