@@ -24,6 +24,8 @@ PERSON_SHARE = 0.8
 """Share of the picture's height that the person takes, and at most of its width."""
 EYE_HEIGHT = 1.3
 """Metres of the level camera above the ground, for somebody of 1.8 m."""
+TELEPHONE_FOCAL_LENGTH, TELEPHONE_HEIGHT = 1.0, 1.5
+"""Of a telephone: the focal length in picture heights, and metres above the ground, for somebody of 1.8 m."""
 LIGHT_DIRECTION, AMBIENT_SHARE = np.array([0.35, 0.6, 0.72]), 0.5
 CONTACT_SHADE = 0.45
 """Share of the light that is missing on the ground beneath the feet."""
@@ -60,16 +62,43 @@ class KnownPicture:
     person: Person
 
 
-def draw_into(person: Person, background: NDArray[np.uint8], shadow: bool = True) -> KnownPicture:
-    """Draw a person standing in a photograph (H, W, 3), antialiased, with a soft shadow at the feet unless there is one."""
-    height, width = background.shape[:2]
+def level_camera(person: Person, size: tuple[int, int]) -> Camera:
+    """A level camera, as far away as the person fills `PERSON_SHARE` of a picture of `size` (height, width)."""
+    height, width = size
     focal = FOCAL_LENGTH * height
-    distance = focal * max(person.height / height, float(np.ptp(person.vertices[:, 0])) / width) / PERSON_SHARE
-    middle = float(person.vertices[:, 0].min() + person.vertices[:, 0].max()) / 2
-    eye = (middle, EYE_HEIGHT * person.height / 1.8, distance)
+    distance = _distance(person, focal, size)
+    eye = (_middle(person), EYE_HEIGHT * person.height / 1.8, distance)
     # level, so that upright lines stay upright: the picture is shifted, not the camera tilted
     centre = ((width - 1) / 2, (height - 1) / 2 + focal / distance * (person.height / 2 - eye[1]))
-    camera = Camera(eye, focal, centre, (height, width))
+    return Camera(eye, focal, centre, size)
+
+
+def telephone_camera(person: Person, size: tuple[int, int]) -> Camera:
+    """A telephone held before the eyes of somebody near by, and tilted down so that the person is in the picture's middle."""
+    height, width = size
+    focal = TELEPHONE_FOCAL_LENGTH * height
+    middle = _middle(person)
+    eye = (middle, TELEPHONE_HEIGHT * person.height / 1.8, _distance(person, focal, size))
+    plain = Camera((0, 0, 0), focal, ((width - 1) / 2, (height - 1) / 2), size)
+    return plain.aimed(np.array(eye), np.array([middle, person.height / 2, 0.0]))
+
+
+def _distance(person: Person, focal: float, size: tuple[int, int]) -> float:
+    height, width = size
+    return focal * max(person.height / height, float(np.ptp(person.vertices[:, 0])) / width) / PERSON_SHARE
+
+
+def _middle(person: Person) -> float:
+    return float(person.vertices[:, 0].min() + person.vertices[:, 0].max()) / 2
+
+
+def draw_into(
+    person: Person, background: NDArray[np.uint8], shadow: bool = True, camera: Camera | None = None
+) -> KnownPicture:
+    """Draw a person standing in a photograph (H, W, 3), antialiased, with a soft shadow at the feet unless there is one; as
+    `level_camera` sees them, or another."""
+    height, width = background.shape[:2]
+    camera = camera or level_camera(person, (height, width))
     large = camera.scaled(SUPERSAMPLING)
     raster = rasterise(large.project(person.vertices), person.triangles, large.size, perspective=True)
     covered = raster.triangle >= 0

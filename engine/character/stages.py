@@ -22,7 +22,8 @@ from engine.character.figure.strokes import read_labels, relabel
 from engine.character.film.cast_shadow import CastShadow, find_cast_shadow
 from engine.character.fit.hands import turn_hands
 from engine.character.fit.head import turn_head
-from engine.character.fit.template_fit import FittedBody, fit_figure, load_human, pose_template
+from engine.character.fit.second_look import look_again
+from engine.character.fit.template_fit import FittedBody, fit_best, load_human, pose_template
 from engine.character.options import LabelStroke
 from engine.character.parts.crossed_labels import label_crossed
 from engine.character.parts.hem import with_cloth
@@ -168,7 +169,8 @@ def hand_labels(
 
 def fit_template(figure: Figure, silhouette: Silhouette) -> FittedBody:
     """The template fitted to figure and silhouette, its head to the face (sections 3 and 5), its hands to the hands."""
-    fitted = turn_head(fit_figure(figure, silhouette.alpha > 0.5), figure)
+    looks = look_again(figure, silhouette.alpha)
+    fitted = turn_head(fit_best(looks, silhouette.alpha > 0.5), figure)
     return turn_hands(fitted, without_hidden_hand(figure, fitted.crossed))
 
 

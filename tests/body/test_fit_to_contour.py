@@ -10,7 +10,7 @@ import numpy as np
 from engine.body import load_template
 from engine.body.body_space import load_body_space
 from engine.body.fitting.body_fitting import Fit, fit_body
-from engine.body.fitting.contour import Contour, match_contour, skin_points, trace_contour
+from engine.body.fitting.contour import SEARCH_INSIDE, Contour, match_contour, skin_points, trace_contour
 from engine.body.fitting.first_guess import first_guess
 from engine.body.fitting.observation import DIRECTED_LIMBS, Observation
 from engine.body.fitting.posing import FITTED_JOINTS, SHAPE_COEFFICIENTS, forward, rotation_matrices
@@ -101,7 +101,7 @@ def test_an_outline_meets_what_faces_the_same_way_outermost() -> None:
     pixels = np.array([[46.0, 50.0], [48.0, 50.5], [51.0, 50.0], [49.0, 58.0]])
     right, left = [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]
     which, at = match_contour(
-        contour, pixels, np.array([right, right, left, right]), 100
+        contour, pixels, np.array([right, right, left, right]), np.full(4, SEARCH_INSIDE), 100
     )  # the third faces back, the last is far
     assert which.tolist() == [0] and at.tolist() == [1]
 
@@ -129,3 +129,27 @@ def test_wide_clothes_do_not_make_stout_people() -> None:
     coat = cv2.dilate(mask_of(truth).astype(np.uint8), np.ones((61, 61), np.uint8)) > 0
     found = fitted(truth, trace_contour(coat))
     assert waist(found.coefficients) - waist(truth[-SHAPE_COEFFICIENTS:]) < 0.04
+
+
+def test_a_gap_in_the_mask_has_an_outline_too_that_faces_into_it() -> None:
+    y, x = np.mgrid[:200, :240]
+    away = np.hypot(x - 120, y - 90)
+    contour = trace_contour((away < 70) & (away > 30))
+    inner = contour.points - [120, 90]
+    inner_normals = contour.normals[np.hypot(*inner.T) < 50]
+    inner = inner[np.hypot(*inner.T) < 50]
+    assert len(inner) > 0.3 * len(contour.points) * 30 / 70
+    np.testing.assert_allclose(inner_normals, -inner / np.linalg.norm(inner, axis=1, keepdims=True), atol=0.2)
+
+
+def test_legs_end_where_their_outline_ends() -> None:
+    """Both feet are seen 4% of the height too high, all of their landmarks alike."""
+    truth = parameters({3: 1.0})
+    seen, place = seen_of(truth)
+    low = [k for k, name in enumerate(MARKS.names) if name.endswith(("Ankle", "Heel", "FootIndex"))]
+    points = seen.points.copy()
+    points[low, 1] -= 0.04 * seen.height
+    seen = replace(seen, points=points, contour=trace_contour(mask_of(truth)))
+    found = fit_body(SPACE, MARKS, seen, first_guess(SPACE, MARKS, seen, place), SKIN)
+    rows = [np.flatnonzero(mask_of(each).any(1)).max() for each in (truth, found.parameters)]
+    assert abs(rows[0] - rows[1]) < 0.012 * seen.height

@@ -7,7 +7,6 @@ C. Lassner et al., Unite the People, 2017, which counts both ways alike).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -22,6 +21,8 @@ from engine.geometry.surface import triangulate, vertex_normals
 
 CONTOUR_POINTS = 240
 """Points along a contour."""
+LEAST_GAP = 8.0
+"""Steps of the contour around a gap in the mask, at least, for it to count: between arm and trunk, or both legs."""
 DIRECTION_SMOOTHING_STEPS = 2.0
 """Steps of the contour over which its direction is averaged."""
 MIN_NORMAL_COSINE = 0.6
@@ -34,8 +35,10 @@ SEARCH_INSIDE = 0.06
 """How far inside the contour the body may be to be matched, as a share of the person's height."""
 SEARCH_OUTSIDE = 0.03
 """How far outside the contour the body may be to be matched, as a share of the person's height."""
-UNMATCHED_JOINTS = ("Head", "Neck", "Hand", "Foot", "Toe", "Thumb", "Index", "Middle", "Ring", "Pinky")
-"""Joints whose surface is not matched: hair, fingers and shoes have contours of their own."""
+FEET, FEET_INSIDE = ("Foot", "Toe"), 0.1
+"""Joints of feet, and the same of these, which perception has too high on long legs: a leg ends where its outline ends."""
+UNMATCHED_JOINTS = ("Head", "Neck", "Hand", "Thumb", "Index", "Middle", "Ring", "Pinky")
+"""Joints whose surface is not matched: hair and fingers have contours of their own."""
 VERTEX_STRIDE = 2
 """One of so many vertices of the template is looked at."""
 
@@ -55,55 +58,75 @@ class SkinPoints:
     `joints` (S,): which carries each.
     `mean` (S, 3) and `basis` (K, S, 3): where they are at rest, metres, linear in the coefficients.
     `normals` (S, 3): the mean body's, unit vectors.
+    `inside` (S,): how far inside a contour each may be that meets it, as a share of the person's height.
     """
 
     joints: NDArray[np.intp]
     mean: NDArray[np.float32]
     basis: NDArray[np.float32]
     normals: NDArray[np.float32]
+    inside: NDArray[np.float32]
 
     def subset(self, chosen: NDArray[np.intp]) -> SkinPoints:
         """Those with the numbers `chosen`."""
-        return SkinPoints(self.joints[chosen], self.mean[chosen], self.basis[:, chosen], self.normals[chosen])
+        return SkinPoints(
+            self.joints[chosen], self.mean[chosen], self.basis[:, chosen], self.normals[chosen], self.inside[chosen]
+        )
 
 
 def skin_points(template: Template, space: BodySpace, rig: Rig) -> SkinPoints:
-    """Points all over trunk, arms and legs."""
+    """Points all over trunk, arms, legs and feet."""
     normals = vertex_normals(space.mean, triangulate(template.quads[template.faces("body")]))
     body = template.vertices_of("body")[::VERTEX_STRIDE].astype(np.intp)
     carried = [k for k in body if not any(leaf in rig.names[rig.bones[k, 0]] for leaf in UNMATCHED_JOINTS)]
     chosen = np.array(carried, np.intp)
-    at = np.array([space.names.index(rig.names[bone]) for bone in rig.bones[chosen, 0]])
-    return SkinPoints(at, space.mean[chosen], space.basis[:, chosen], normals[chosen])
+    carrying = [rig.names[bone] for bone in rig.bones[chosen, 0]]
+    at = np.array([space.names.index(name) for name in carrying])
+    inside = [FEET_INSIDE if any(leaf in name for leaf in FEET) else SEARCH_INSIDE for name in carrying]
+    return SkinPoints(at, space.mean[chosen], space.basis[:, chosen], normals[chosen], np.array(inside, np.float32))
 
 
 def trace_contour(mask: NDArray[np.bool_]) -> Contour:
-    """The contour of the largest piece of a mask (H, W), at even steps; what the picture's border cuts is left out."""
+    """The contour of the largest piece of a mask (H, W), and of the gaps in it, at even steps; what the picture's border cuts is
+    left out."""
     height, width = mask.shape
-    found: Sequence[NDArray[np.int32]] = cv2.findContours(  # type: ignore[assignment]
-        mask.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
-    )[0]
-    line = max(found, key=len)[:, 0].astype(np.float64)
-    steps = np.linspace(0, len(line), CONTOUR_POINTS, endpoint=False).astype(int)
-    width_of_mean = DIRECTION_SMOOTHING_STEPS * len(line) / CONTOUR_POINTS
-    smooth = gaussian_filter1d(line, width_of_mean, axis=0, mode="wrap")
-    along = np.roll(smooth, -1, 0) - np.roll(smooth, 1, 0)
-    normals = np.stack([-along[:, 1], along[:, 0]], 1)
-    signed = float(((line - line.mean(0)) * normals).sum())  # positive where they point outwards
-    normals *= np.sign(signed) / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
-    points, normals = line[steps], normals[steps]
+    found, tree = cv2.findContours(mask.astype(np.uint8), cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
+    own = max((k for k in range(len(found)) if tree[0, k, 3] < 0), key=lambda k: len(found[k]))
+    step = len(found[own]) / CONTOUR_POINTS
+    lines = [(found[own][:, 0], 1.0)]
+    lines += [
+        (found[k][:, 0], -1.0) for k in range(len(found)) if tree[0, k, 3] == own and len(found[k]) > LEAST_GAP * step
+    ]
+    parts = [_along(line.astype(np.float64), step, way) for line, way in lines]
+    points, normals = (np.concatenate([part[k] for part in parts]) for k in range(2))
     within = ((points > 1) & (points < [width - 2, height - 2])).all(1)
     return Contour(points[within], normals[within])
 
 
+def _along(line: NDArray[np.float64], step: float, way: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Points (M, 2) at even steps of a closed line (L, 2), and the normals there: outwards where `way` is 1, inwards where -1."""
+    steps = np.linspace(0, len(line), round(len(line) / step), endpoint=False).astype(int)
+    smooth = gaussian_filter1d(line, DIRECTION_SMOOTHING_STEPS * step, axis=0, mode="wrap")
+    along = np.roll(smooth, -1, 0) - np.roll(smooth, 1, 0)
+    normals = np.stack([-along[:, 1], along[:, 0]], 1)
+    signed = float(((line - line.mean(0)) * normals).sum())  # positive where they point outwards
+    normals *= way * np.sign(signed) / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
+    return line[steps], normals[steps]
+
+
 def match_contour(
-    contour: Contour, pixels: NDArray[np.float64], normals: NDArray[np.float64], height: float
+    contour: Contour,
+    pixels: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    inside: NDArray[np.floating],
+    height: float,
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Which points of the contour meet which points of the body, both (R,).
 
     Parameters
     ----------
     pixels : (S, 2) the body's points in the picture; `normals` (S, 3) there: x right, y down, z to the viewer.
+    inside : (S,) as in `SkinPoints`.
     height : of the person, pixels.
     """
     away = pixels[None] - contour.points[:, None]
@@ -111,9 +134,7 @@ def match_contour(
     along = away[..., 0] * contour.normals[:, None, 1] - away[..., 1] * contour.normals[:, None, 0]
     flat = normals[:, :2] / np.maximum(np.linalg.norm(normals[:, :2], axis=1, keepdims=True), 1e-9)
     meant = (
-        (np.abs(along) < SEARCH_HALF_WIDTH * height)
-        & (across > -SEARCH_INSIDE * height)
-        & (across < SEARCH_OUTSIDE * height)
+        (np.abs(along) < SEARCH_HALF_WIDTH * height) & (across > -inside * height) & (across < SEARCH_OUTSIDE * height)
     )
     meant &= (contour.normals @ flat.T > MIN_NORMAL_COSINE) & (np.abs(normals[:, 2]) < MAX_NORMAL_DEPTH)
     outermost = np.where(meant, across, -np.inf).argmax(1)

@@ -64,7 +64,8 @@ class Figure:
     them surely are. `face` (478, 3): the mesh of the face, as
     `engine.perception.faces.find_faces` gives it; None where none is seen. `hands`: the left and the right, each (21, 3) as
     `engine.perception.hands.Hand` has its points, with their depth; None where it is not seen.
-    `drawn`: nobody whom networks see, but a figure on plain paper, whose joints are its outline's."""
+    `drawn`: nobody whom networks see, but a figure on plain paper, whose joints are its outline's. `placed`: the joints that
+    were placed by hand."""
 
     rgb: NDArray[np.uint8]
     alpha: NDArray[np.float32] | None
@@ -79,6 +80,7 @@ class Figure:
     face: NDArray[np.float32] | None
     hands: tuple[NDArray[np.float32] | None, NDArray[np.float32] | None]
     drawn: bool = False
+    placed: tuple[str, ...] = ()
 
     @property
     def scale(self) -> NDArray[np.float64]:
@@ -145,7 +147,7 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
         confidence=confidence,
         world=np.zeros((len(BODY_LANDMARKS), 3), np.float32)
         if body is None
-        else _moved_along(body, points, tuple(joints)),
+        else moved_along(body, points, tuple(joints)),
         spatial=body is not None,
         original=(width, height),
         people=np.array([person_box(one, rgb.shape) for one in people], np.float32).reshape(-1, 4)
@@ -156,13 +158,14 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
         face=None if body is None else _face(shown, points),
         hands=hands,
         drawn=sketched is not None,
+        placed=tuple(joints),
     )
     legs = _check_whole(figure, partial, warn)
     check_posture(figure.points, figure.world if figure.spatial else None, legs, warn)
     return figure
 
 
-def _moved_along(body: Body, points: NDArray[np.float32], joints: Sequence[str]) -> NDArray[np.float32]:
+def moved_along(body: Body, points: NDArray[np.float32], joints: Sequence[str]) -> NDArray[np.float32]:
     """A body's places in space (33, 3), those of joints that were moved by hand to points (33, 2) moved as far: otherwise what
     was believed before would hold against them. Their depth stays."""
     world = body.world.copy()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 
@@ -28,28 +29,39 @@ from engine.geometry.camera import Camera
 from engine.geometry.skinning import bone_transforms, skin
 from engine.geometry.surface import triangulate
 from engine.perception.body import BODY_LANDMARKS
+from engine.render.rasteriser import rasterise
 
 RIG = "mixamo"
 """The rig of a character, who is one surface: the joints of `engine.body.rig.FACE_JOINTS` would move nothing that opens or turns."""
 FOCAL = 2.2
 """Focal length in longer sides of the picture: a moderate telephoto lens, as people are photographed."""
 RELIABLE = {
+    "Nose": 4.0,
+    "Eye": 4.0,
     "Pinky": 0.3,
     "Index": 0.3,
     "Thumb": 0.2,
     "Heel": 0.5,
     "FootIndex": 0.6,
-    "Ear": 0.6,
+    "Ear": 1.0,
     "Hip": 0.5,
 } | dict.fromkeys(("EyeInner", "EyeOuter", "MouthLeft", "MouthRight"), 0.0)
-"""How much these landmarks count; the others count 1. Nose, eyes and ears say enough of the head, whose turn is found by all
-of its face points."""
+"""How much these landmarks count; the others count 1. Nose and eyes are found best of all; with ears they say enough of the
+head, whose turn is found by all of its face points."""
 BEFORE, NARROWER, SEEN = 0.2, 0.9, 0.5
 """Metres from the trunk's middle to an arm before it; the share of the trunk's outline that is surely the trunk's; the
 confidence from which a joint is seen and not hidden."""
+FOREARMS_NEAR = 0.25
+"""How much nearer to the viewer than the elbow perception has wrists, more than they are, per length of the forearm: of
+straight arms in A-pose, rendered and photographed."""
 FLATTENED, UNSURE = 3.0, 0.12
 """How much further one leg is before the other than perception has it, measured on renders; and the difference (of unit
 vectors) below which what it has is rather noise."""
+OFF_COUNTS = 2.0
+"""How much more a share of the height by which landmarks are off counts than a share of overlap, where one of several fits is
+chosen: front and back have one outline."""
+COMPARED_AT = 480
+"""Pixels of the picture's longer side at which templates are held against a mask."""
 JOINTS = {"Arm": "Shoulder", "ForeArm": "Elbow", "Hand": "Wrist", "UpLeg": "Hip", "Leg": "Knee", "Foot": "Ankle"}
 """Landmarks at which limbs begin and end, by the joint."""
 
@@ -116,6 +128,8 @@ def fit_figure(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
     limbs = np.stack([world[places[b]] - world[places[a]] for a, b in DIRECTED_LIMBS])
     trunk = {joint: world[place] for joint, place in places.items()}
     limbs = limbs / np.maximum(np.linalg.norm(limbs, axis=1, keepdims=True), 1e-6)
+    if figure.spatial:
+        limbs = forearms_back(limbs)
     limbs = legs_apart(limbs, facing(trunk)[:, 2])
     sure = np.array([min(figure.confidence[places[a]], figure.confidence[places[b]]) for a, b in DIRECTED_LIMBS])
     crossed = crossed_arms(figure, mask)
@@ -133,6 +147,28 @@ def fit_figure(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
     fit = fit_body(human.space, landmarks, seen, start, human.skin)
     kept = np.zeros(len(human.space.names), np.bool_)
     return FittedBody(fit, camera, kept, crossed)
+
+
+def fit_best(figures: Sequence[Figure], mask: NDArray[np.bool_]) -> FittedBody:
+    """Fit to each of several looks at one person (`engine.character.fit.second_look`); the fit that agrees best with its
+    landmarks and covers the mask (H, W) best."""
+    fits = [fit_figure(figure, mask) for figure in figures]
+    if len(fits) == 1:
+        return fits[0]
+    height = float(np.ptp(np.flatnonzero(mask.any(1))))
+    return max(fits, key=lambda fitted: _overlap(fitted, mask) - OFF_COUNTS * fitted.fit.reprojection / height)
+
+
+def _overlap(fitted: FittedBody, mask: NDArray[np.bool_]) -> float:
+    """Intersection over union of the bare template and the mask (H, W)."""
+    scale = min(1.0, COMPARED_AT / max(mask.shape))
+    size = max(1, round(mask.shape[0] * scale)), max(1, round(mask.shape[1] * scale))
+    small = cv2.resize(mask.astype(np.uint8), size[::-1], interpolation=cv2.INTER_NEAREST_EXACT) > 0
+    template = pose_template(fitted, fitted.picture_camera(), load_human())
+    half = np.array([0.5, 0.5, 0.0])
+    vertices = (template.vertices + half) * scale - half
+    covered = rasterise(vertices, template.triangles, size).triangle >= 0
+    return float((covered & small).sum() / (covered | small).sum())
 
 
 def pose_template(fitted: FittedBody, camera: PictureCamera, human: Human) -> PosedTemplate:
@@ -163,6 +199,13 @@ def arms_before_the_trunk(figure: Figure) -> NDArray[np.float32]:
             if figure.confidence[at] > SEEN and cv2.pointPolygonTest(trunk, (x, y), False) > 0:
                 world[at, 2] = max(world[at, 2], float(depths.mean()) + BEFORE)
     return world
+
+
+def forearms_back(limbs: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Directions (8, 3) of `DIRECTED_LIMBS` with forearms as far back as perception has them too near the viewer."""
+    forearms = limbs[1:4:2] - [0, 0, FOREARMS_NEAR]
+    forearms = forearms / np.maximum(np.linalg.norm(forearms, axis=1, keepdims=True), 1e-6)
+    return np.concatenate([limbs[:1], forearms[:1], limbs[2:3], forearms[1:], limbs[4:]])
 
 
 def legs_apart(limbs: NDArray[np.floating], front: NDArray[np.floating]) -> NDArray[np.floating]:

@@ -9,10 +9,11 @@ import pytest
 
 from engine.body import load_template
 from engine.body.body_space import load_body_space
-from engine.body.fitting.body_fitting import CROSSING_DEPTH, fit_body
+from engine.body.fitting.body_fitting import fit_body
 from engine.body.fitting.first_guess import first_guess
 from engine.body.fitting.observation import DIRECTED_LIMBS, Crossing, Observation
 from engine.body.fitting.posing import FITTED_JOINTS, SHAPE_COEFFICIENTS, forward, rotation_matrices
+from engine.body.fitting.residuals import CROSSING_DEPTH
 from engine.body.landmarks import landmark_model
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig

@@ -181,7 +181,7 @@ def test_an_outline_that_goes_on_beneath_the_feet_is_made_too(figure: Figure, tm
     """An ellipse around somebody: round both legs as a skirt is, with an end that is below all of the template's legs."""
     height, width = figure.rgb.shape[:2]
     ellipse = np.zeros((height, width), np.uint8)
-    axes = (round(0.2 * width), round(0.435 * height))
+    axes = (round(0.28 * width), round(0.435 * height))
     cv2.ellipse(ellipse, (width // 2, round(0.535 * height)), axes, 0, 0, 360, 1, -1)
     own = cut_out(figure, written(tmp_path / "mask.png", ellipse > 0), (), LIMITS, None, None, quiet)
     fitted = fit_template(figure, own)
