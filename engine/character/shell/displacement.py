@@ -32,7 +32,7 @@ DOUBT = 0.035
 """Share of the height from which on a match is doubted."""
 POINT = 3.0
 """What a known point counts, in points of an outline."""
-STEPS, ENOUGH = 40, 1e-4
+STEPS, ENOUGH = 40, 1e-3
 """Of conjugate gradients, at most; and the share of the error that may be left."""
 
 
