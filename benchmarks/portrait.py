@@ -1,6 +1,6 @@
 """The figures of the portrait system, printed as the tables of `docs/figures.md`.
 
-python benchmarks/portrait.py speed|fidelity|ablations|stillness|lag|turn|pair|mouths|memory|all
+python benchmarks/portrait.py speed|fidelity|ablations|stillness|lag|turn|solidity|pair|mouths|memory|all
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from benchmarks.portrait_figures import fidelity, memory, mouths_and_eyes, speed, steadiness, turn
+from benchmarks.portrait_figures import fidelity, memory, mouths_and_eyes, solidity, speed, steadiness, turn
 from benchmarks.tables import machine
 
-TABLES = ("speed", "fidelity", "ablations", "stillness", "lag", "turn", "pair", "mouths", "memory")
+TABLES = ("speed", "fidelity", "ablations", "stillness", "lag", "turn", "solidity", "pair", "mouths", "memory")
 
 
 def main() -> None:
@@ -40,6 +40,8 @@ def main() -> None:
             steadiness.lag(given.clips)
         elif name == "turn":
             turn.turn(given.pictures)
+        elif name == "solidity":
+            solidity.solidity()
         elif name == "pair":
             fidelity.pair(given.pictures)
         elif name == "mouths":

@@ -30,6 +30,9 @@ AIM_HEIGHT = 0.17
 NECK_HEIGHTS = (-0.28, -0.08)
 """Heights of the scan above its middle between which the neck twists: the shoulders below do not turn."""
 
+HIDDEN_HEIGHTS = 0.01
+"""Heights of the scan by which a vertex lies behind what is seen, to be hidden."""
+
 
 @dataclass(frozen=True)
 class HeadScan:
@@ -65,13 +68,7 @@ def render_head(
     """
     height = float(np.ptp(scan.vertices[:, 1]))
     vertices = _turned(scan.vertices, np.deg2rad(yaw), height, shoulders) - (0, AIM_HEIGHT * height, 0)
-    width_px, height_px = size
-    camera = Camera(
-        eye=(0.0, 0.0, CAMERA_DISTANCE * height),
-        focal=zoom * 0.8 * height_px * CAMERA_DISTANCE,
-        centre=((width_px - 1) / 2, (height_px - 1) / 2),
-        size=(height_px, width_px),
-    ).scaled(SUPERSAMPLING)
+    camera = _camera(height, size, zoom).scaled(SUPERSAMPLING)
     raster = rasterise(camera.project(vertices), scan.triangles, camera.size, perspective=True)
     covered = raster.triangle >= 0
     colours = sample_texture(scan.texture, interpolate(scan.uv, scan.triangles, raster), covered)
@@ -83,6 +80,33 @@ def render_head(
     behind = np.asarray(BACKGROUND_RGB if background is None else background, np.float32)
     picture = premultiplied + (1 - alpha[..., None]) * behind
     return np.clip(picture + 0.5, 0, 255).astype(np.uint8), np.asarray(alpha, np.float32)
+
+
+def project_scan(
+    scan: HeadScan, yaw: float, size: tuple[int, int], zoom: float = 1.0
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Where the scan's vertices are in the picture that `render_head` draws: (V, 2) pixels; and how well each is seen: (V,) the
+    cosine between its surface and the line of sight, 0 where something is before it."""
+    height = float(np.ptp(scan.vertices[:, 1]))
+    vertices = _turned(scan.vertices, np.deg2rad(yaw), height, False) - (0, AIM_HEIGHT * height, 0)
+    camera = _camera(height, size, zoom)
+    places = camera.project(vertices)
+    raster = rasterise(places, scan.triangles, camera.size, perspective=True)
+    x, y = np.clip(np.rint(places[:, :2]), 0, np.array(size) - 1).astype(int).T
+    hidden = places[:, 2] > raster.depth[y, x] + HIDDEN_HEIGHTS * height
+    towards = np.array(camera.eye) - vertices
+    cosine = (vertex_normals(vertices, scan.triangles) * towards).sum(axis=1) / np.linalg.norm(towards, axis=1)
+    return places[:, :2].astype(float), np.where(hidden, 0.0, cosine).astype(float)
+
+
+def _camera(height: float, size: tuple[int, int], zoom: float) -> Camera:
+    width_px, height_px = size
+    return Camera(
+        eye=(0.0, 0.0, CAMERA_DISTANCE * height),
+        focal=zoom * 0.8 * height_px * CAMERA_DISTANCE,
+        centre=((width_px - 1) / 2, (height_px - 1) / 2),
+        size=(height_px, width_px),
+    )
 
 
 def _turned(vertices: NDArray[np.float64], yaw: float, height: float, shoulders: bool) -> NDArray[np.float64]:

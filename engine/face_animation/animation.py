@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.creases.fine_details import shade
 from engine.face_animation.eyes.eyes_and_lids import EyesAndLids
+from engine.face_animation.motion_transfer.contour import rim_distance
 from engine.face_animation.motion_transfer.control_motion import ControlMotion, carry_motion
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
@@ -27,15 +28,18 @@ from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.mouth.target_mouth import target_mouth
 from engine.face_animation.rig import Rig
 from engine.face_animation.target_face import TargetFace
-from engine.face_animation.warping.layers import Layers
+from engine.face_animation.warping.layers import Layers, beyond_border
+from engine.face_animation.warping.unfold import unfold
 from engine.imaging.composite import composite_over, upsample_twice, warp_layer
 from engine.imaging.warping.fold_edges import smooth_folds
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.landmarks import MESH_SIZE
+from engine.perception.landmarks import MESH_SIZE, eye_distance
 
 FRAMES_AHEAD = 2
 """Frames in the making for each thread: keeps all cores busy, holds little memory."""
 
+FREE_RIM_EYE_DISTANCES = 0.3
+"""Eye distances inside the contour up to which the face gives way where the picture would fold."""
 FOLD_DISTANCE = 8.0
 """Pixels of the enlarged picture by which neighbours are apart where lips or lids fold over the skin beside them."""
 
@@ -114,11 +118,16 @@ class FaceAnimation:
         self._target, self._rig, self._track, self._neutral = face, target.rig, track, neutral
         self._options, self._residuals = options, driver.residuals
         opaque = np.full(face.rgb.shape[:2], 255, np.uint8)
-        self._person = upsample_twice(layers.person if parts.layers else np.dstack([face.rgb, opaque]))
+        whole, self._margin = beyond_border(layers.person if parts.layers else np.dstack([face.rgb, opaque]))
+        self._person = upsample_twice(whole)
         self._plate = layers.plate
         self._keep_alpha = layers.transparent and keep_alpha
         self._eyes = EyesAndLids(face) if parts.eyes else None
         self._mouth = (mouth or target_mouth(face)) if parts.hidden else None
+        self._held = np.zeros(len(target.rig.mesh.vertices), bool)
+        inside = np.flatnonzero(target.rig.control.usable[:MESH_SIZE])
+        depth = -rim_distance(face.mesh, face.mesh[inside, :2]) / float(eye_distance(face.mesh[:, :2]))
+        self._held[: len(inside)] = depth > FREE_RIM_EYE_DISTANCES
         self._landing = target.rig.details.origin(track.in_crop(neutral))
         moves = set(options.follow) - {"head"}
         self._creases = min(options.strength, 1.0) if parts.details and moves else 0.0
@@ -144,16 +153,23 @@ class FaceAnimation:
         """(478, 2) where a motion puts the face's points, pixels."""
         return np.asarray(self._rig.control.points[:MESH_SIZE] + motion.offsets[:MESH_SIZE], np.float32)
 
+    def moved(self, motion: ControlMotion) -> NDArray[np.float32]:
+        """(V, 3) by how much a motion moves the vertices of the picture's mesh, pixels, and their depth."""
+        mesh = self._rig.mesh
+        moved = mesh.offsets(np.column_stack([motion.offsets, motion.depth]))
+        unfold(moved, mesh.vertices, mesh.triangles, self._held)
+        return moved
+
     def draw(
         self, motion: ControlMotion, ratio: NDArray[np.float32], window: Window | None = None
     ) -> NDArray[np.uint8]:
         """One frame, or a `window` of it that holds the face; `ratio` (*CROP,) float32 is the driver's ratio image there."""
         window = window or Window(0, 0, *self._plate.shape[1::-1])
         corner = np.array([window.left, window.top], np.float32)
-        moved = self._rig.mesh.offsets(np.column_stack([motion.offsets, motion.depth]))
+        moved = self.moved(motion)
         moved[:, :2] -= corner
         origin = self._rig.mesh.inverse_map(moved[:, :2], moved[:, 2], 2, window.shape)
-        layer = warp_layer(self._person, origin)
+        layer = warp_layer(self._person, origin + np.float32(2 * self._margin))
         frame = composite_over(layer, np.ascontiguousarray(self._plate[window.pixels]))
         smooth_folds(frame, origin, FOLD_DISTANCE, self._rig.mesh.vertices + moved[:, :2], self._rig.mesh.triangles)
         face = self.face(motion) - corner

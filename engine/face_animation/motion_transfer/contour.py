@@ -36,6 +36,15 @@ CONTOUR_FALLOFF = 0.3
 SMOOTHING_ROUNDS = 2
 """How often the way that the contour goes out is evened out along it."""
 
+EVEN_BAND_EYE_DISTANCES = 0.5
+"""Eye distances inside the contour up to which what the face does beside the head's motion is evened out along it."""
+DEPTH_BAND_EYE_DISTANCES = 0.15
+"""The same for its depth."""
+EVEN_SPREAD_EYE_DISTANCES = 0.25
+"""Eye distances over which it is: about those between the contour's vertices."""
+JAW_CHIN_LENGTHS = (0.4, 0.9)
+"""Lengths from eyes to chin below the eyes between which the contour becomes the jaw's, which expressions move."""
+
 EAR_VERTICES = (234, 454)
 """The contour beside the ears, right one first."""
 
@@ -78,6 +87,46 @@ def beside_contour(mesh: NDArray[np.floating], seen: NDArray[np.bool_]) -> NDArr
     beside = _nearest(mesh, seen, cheeks)[2] < CONTOUR_MARGIN_EYE_DISTANCES * eye_distance(mesh[:, :2])
     beside[list(FACE_OVAL)] = False
     return np.asarray(beside)
+
+
+def even_depth(mesh: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Depth (478,) of a face's vertices (478, 3); beside the contour and outside of it the contour's own, evened out along it.
+
+    Where the surface goes out of sight it is steep: neighbours in the picture differ much in depth, and turned they would part
+    into a serrated edge.
+    """
+    share = _even_band(mesh, DEPTH_BAND_EYE_DISTANCES)[:, 0]
+    contour = _neighbours(mesh, np.isin(np.arange(len(mesh)), FACE_OVAL)) @ mesh[:, 2]
+    return np.asarray(share * contour + (1 - share) * mesh[:, 2])
+
+
+def even_expression(mesh: NDArray[np.floating], usable: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """(478, 478) evens what a face's vertices do beside the motion of their head out: products with (478, ...).
+
+    Where a face goes out of sight its tracked vertices slide along the contour, each by itself; carried over as they are, the
+    outline gets teeth. So there each of them does what its neighbours in the picture do together: nothing from the forehead to
+    the cheekbones, which belong to the skull, all of it at the jaw. `usable` (478,) are those that count.
+    """
+    share = _even_band(mesh, EVEN_BAND_EYE_DISTANCES)
+    eyes, chin = mesh[[33, 133, 263, 362], :2].mean(axis=0), mesh[152, :2]
+    below = (mesh[:, :2] - eyes) @ (chin - eyes) / float((chin - eyes) @ (chin - eyes))
+    t = np.clip((below - JAW_CHIN_LENGTHS[0]) / (JAW_CHIN_LENGTHS[1] - JAW_CHIN_LENGTHS[0]), 0, 1)
+    jaw = (t * t * (3 - 2 * t))[:, None]
+    return np.asarray(share * jaw * _neighbours(mesh, usable) + (1 - share) * np.eye(len(mesh)))
+
+
+def _neighbours(mesh: NDArray[np.floating], usable: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """(478, 478) means over the usable vertices around each."""
+    apart = np.linalg.norm(mesh[:, None, :2].astype(float) - mesh[None, :, :2], axis=2) / eye_distance(mesh[:, :2])
+    near = np.exp(-0.5 * (apart / EVEN_SPREAD_EYE_DISTANCES) ** 2) * usable
+    return np.asarray(near / near.sum(axis=1, keepdims=True))
+
+
+def _even_band(mesh: NDArray[np.floating], band: float) -> NDArray[np.float64]:
+    """(478, 1) how far each vertex lies beside the contour, within `band` eye distances, or outside of it."""
+    unit = float(eye_distance(mesh[:, :2]))
+    inside = np.clip(-rim_distance(mesh, mesh[:, :2]) / unit / band, 0, 1)
+    return np.asarray(1 - inside * inside * (3 - 2 * inside))[:, None]
 
 
 def keep_inside(faces: NDArray[np.floating], rest: NDArray[np.floating], seen: NDArray[np.bool_]) -> None:

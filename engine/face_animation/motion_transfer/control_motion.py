@@ -12,11 +12,19 @@ from numpy.typing import NDArray
 from engine.face_animation.acting_options import ActingOptions, Part
 from engine.face_animation.eyes.eyes import gaze_offsets
 from engine.face_animation.motion_transfer.alignment import align
-from engine.face_animation.motion_transfer.contour import keep_inside, rim_distance
+from engine.face_animation.motion_transfer.body_motion import (
+    body_share,
+    body_shift,
+    hair_share,
+    tracked_body,
+    tracked_hair,
+)
+from engine.face_animation.motion_transfer.contour import even_expression, keep_inside, rim_distance
 from engine.face_animation.motion_transfer.control_points import ControlPoints, carry_fiducials, carry_periphery
 from engine.face_animation.motion_transfer.expression_transfer import carry_expression, local_maps
 from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_motion, turn_angles
-from engine.face_animation.motion_transfer.head_proxy import HeadProxy, build_head_proxy, move_head
+from engine.face_animation.motion_transfer.head_proxy import HeadProxy, chin_length, move_head
+from engine.face_animation.motion_transfer.head_room import hold_back, skull_shift
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
 from engine.face_animation.motion_transfer.lids_and_lips import (
     close_lips,
@@ -28,7 +36,7 @@ from engine.face_animation.mouth.lips_and_skin import keep_lips_off_skin, philtr
 from engine.geometry.registration.rigid import Similarity
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import MESH_SIZE, eye_distance
+from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, eye_distance
 
 PLANE_SHARE = 0.65
 """Inside a face that the picture shows turned, the paper's plane counts this much beside the proxy turned in space:
@@ -37,14 +45,6 @@ PLANE_TURN_DEGREES = (3.0, 10.0)
 """Degrees by which the picture's face is turned from which the plane begins to count so, and fully."""
 PLANE_RISE_EYE_DISTANCES = 0.12
 """Eye distances inside the contour over which the plane's share rises to the full one."""
-FULL_CORRECTION_EYE_DISTANCES = 0.3
-"""Eye distances from the face's rim at which tracked points correct the proxy fully."""
-TRUSTED_TURN_DEGREES = 15.0
-"""Degrees of turn up to which tracked points of the head are trusted."""
-LOST_TURN_DEGREES = 30.0
-"""Degrees of turn from which on tracked points of the head are trusted no more."""
-MAX_CORRECTION = 0.6
-"""Largest correction of a point of the head, in eye distances."""
 CHUNK_FRAMES = 32
 """Frames whose control points are computed together: enough for vectorised work, little memory."""
 
@@ -99,7 +99,7 @@ class MotionTransfer:
         self._unit = float(eye_distance(target[:, :2]))
         self._maps = local_maps(self._phi, self._rest, target, float(eye_distance(self._rest[:, :2])))
         self._follow = part_weights(options.follow)
-        self._rim = rim_distance(target, control.points[control.periphery]) / self._unit
+        self._even = even_expression(target, control.usable[:MESH_SIZE])
         self._strength = options.strength
         self._head = options.strength if "head" in options.follow else 0.0
         self._eyes = options.strength if "eyes" in options.follow else 0.0
@@ -111,18 +111,33 @@ class MotionTransfer:
         rest, target, control, proxy, phi = self._rest, self._target, self._control, self._proxy, self._phi
         motion = split_motion(frames.meshes, rest)
         expression, look = self._acted(motion)
-        around = self._carried_around(frames, motion)
+        scaled = scale_motion(motion, self._head)
+        offsets = np.zeros((len(frames.meshes), len(control.points), 2), np.float32)
+        depths = np.zeros(offsets.shape[:2], np.float32)
         if proxy is None:
-            moved = _in_plane(phi, motion, expression, around, target, control, self._head)
+            offsets[:, :MESH_SIZE] = _face_in_plane(phi, scaled, expression, target)
+            placed = self._corrected(frames, control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE])
+            offsets[:, control.periphery] = self._carried_around(frames)
         else:
-            moved = _in_space(phi, motion, expression, around, target, control, proxy, self._head)
-        offsets, depths = (np.stack(each) for each in zip(*moved, strict=True))
-        placed = control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE]
-        if self._residuals is not None:
-            placed += self._correct[:, None] * self._residuals.corrections(frames.faces, placed)
-        keep_inside(placed, target, control.usable[:MESH_SIZE])
+            held = hold_back(scaled, phi, control.room)
+            solid = move_head(proxy, held, target)
+            face = move_head(proxy, held, target, expression)[:, :MESH_SIZE]
+            depths = solid[..., 2]
+            depths[:, :MESH_SIZE] = face[..., 2]
+            plane = _face_in_plane(phi, held, expression, target) + target[:, :2] - face[..., :2]
+            placed = self._corrected(frames, face[..., :2] + plane_share(target)[:, None] * plane)
+            rigid = solid[:, :MESH_SIZE, :2]
+            placed = rigid + self._even @ (placed - rigid)
+            offsets[:, MESH_SIZE:] = self._around_face(frames, motion, held, proxy, solid[..., :2], placed)
         offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
         return offsets, depths, look
+
+    def _corrected(self, frames: DriverFrames, placed: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Faces (N, 478, 2), pixels, by what the second look found; and kept inside their contour."""
+        if self._residuals is not None:
+            placed = placed + self._correct[:, None] * self._residuals.corrections(frames.faces, placed)
+        keep_inside(placed, self._target, self._control.usable[:MESH_SIZE])
+        return placed
 
     def _acted(self, motion: HeadMotion) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
         """The expression on the target's upright face, (N, 478, 3) offsets, and where its irises look."""
@@ -136,21 +151,33 @@ class MotionTransfer:
         look = self._eyes * gaze_offsets(upright, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
         return expression, look.astype(np.float32)
 
-    def _carried_around(self, frames: DriverFrames, motion: HeadMotion) -> NDArray[np.floating]:
+    def _carried_around(self, frames: DriverFrames) -> NDArray[np.floating]:
         """(N, P, 2) what the driver's tracked points around the face say of the target's peripheral points, pixels."""
-        control, proxy = self._control, self._proxy
-        places = control.points[control.periphery]
+        places = self._control.points[self._control.periphery]
         if not frames.periphery.shape[1]:
             return np.zeros((len(frames.meshes), len(places), 2), np.float32)
-        around = frames.periphery - self._around
-        if proxy is not None:
-            around = around - proxy_offsets(motion, self._around)
-        around = self._head * carry_periphery(
-            self._phi, self._around, around, frames.trust * self._trust, places, self._unit
-        )
-        if proxy is not None:
-            around = tracked_correction(around, proxy.share[control.periphery], self._rim, motion, self._unit)
-        return around
+        around, trust = frames.periphery - self._around, frames.trust * self._trust
+        return self._head * carry_periphery(self._phi, self._around, around, trust, places, self._unit)
+
+    def _around_face(
+        self, frames: DriverFrames, motion: HeadMotion, held: HeadMotion, proxy: HeadProxy,
+        solid: NDArray[np.floating], faces: NDArray[np.floating],
+    ) -> NDArray[np.float32]:  # fmt: skip
+        """(N, C - 478, 2) what the points around the face do: the head's with the skull, the body's with the shoulders, the
+        neck's between them; and what the face's contour does beyond the skull.
+
+        solid : (N, C, 2) where the skull, `held` back, carries all points. faces : (N, 478, 2) where the face's are; pixels.
+        """
+        target, phi, oval = self._target, self._phi, list(FACE_OVAL)
+        points, share = self._control.points[MESH_SIZE:], proxy.share[MESH_SIZE:, None]
+        around, trust = frames.periphery - self._around, frames.trust * self._trust
+        body = self._head * phi.offsets(tracked_body(self._rest, self._around, around, trust))
+        body = body_shift(phi.offsets(skull_shift(held)[:, :2]), body, chin_length(target))
+        hair = self._head * phi.offsets(tracked_hair(motion, self._around, around, trust))
+        above = solid[:, MESH_SIZE:] - points + hair_share(target, points)[:, None] * hair[:, None]
+        below = body_share(target, points)[:, None] * body[:, None]
+        beyond = proxy.contour @ (faces[:, oval] - solid[:, oval])
+        return np.asarray(share * above + (1 - share) * below + beyond, np.float32)
 
 
 def carry_motion(
@@ -176,73 +203,11 @@ def carry_motion(
             yield ControlMotion(start + k, offsets, depth, look)
 
 
-def _in_plane(
-    phi: Similarity, motion: HeadMotion, expression: NDArray, around: NDArray,
-    target: NDArray, control: ControlPoints, head: float,
-) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float32]]]:  # fmt: skip
-    """The paper's own form: the rigid part is carried as offsets in the plane, like everything else."""
-    face = _face_in_plane(phi, motion, expression, target, head)
-    for k in range(len(around)):
-        offsets = np.zeros((len(control.points), 2), np.float32)
-        offsets[:MESH_SIZE] = face[k]
-        offsets[control.periphery] = around[k]
-        yield offsets, np.zeros(len(offsets), np.float32)
-
-
-def _face_in_plane(
-    phi: Similarity, motion: HeadMotion, expression: NDArray, target: NDArray, head: float
-) -> NDArray[np.float64]:
-    """Equation 1 for the rigid motion, and the expression: (N, 478, 2) offsets."""
-    scaled = scale_motion(motion, head)
-    turned = np.einsum("nij,vj->nvi", scaled.rotation, motion.neutral)
-    rigid = scaled.scale[:, None, None] * turned + scaled.shift[:, None]
+def _face_in_plane(phi: Similarity, motion: HeadMotion, expression: NDArray, target: NDArray) -> NDArray[np.float64]:
+    """Equation 1, the paper's own form, for the rigid motion, and the expression: (N, 478, 2) offsets."""
+    turned = np.einsum("nij,vj->nvi", motion.rotation, motion.neutral)
+    rigid = motion.scale[:, None, None] * turned + motion.shift[:, None]
     return carry_fiducials(phi, rigid, motion.neutral, target) - target[:, :2] + expression[..., :2]
-
-
-def proxy_offsets(motion: HeadMotion, points: NDArray[np.floating]) -> NDArray[np.float64]:
-    """What a proxy of the driver's own head says of its tracked points (K, 2): offsets (N, K, 2), pixels."""
-    neutral = motion.neutral
-    proxy = build_head_proxy(np.concatenate([neutral[:, :2], points]), neutral)
-    moved = move_head(proxy, motion, neutral)[:, MESH_SIZE:, :2]
-    return np.asarray(proxy.share[MESH_SIZE:, None] * (moved - points), float)
-
-
-def tracked_correction(
-    carried: NDArray[np.floating],
-    share: NDArray[np.floating],
-    rim: NDArray[np.floating],
-    motion: HeadMotion,
-    unit: float,
-) -> NDArray[np.float64]:
-    """What the driver's tracked points may correct of the proxy: (N, P, 2) offsets, pixels.
-
-    Beside the face the mesh knows better, and in a head that turns far the tracked points slip; there, in
-    proportion to each point's `share` in the head, the correction fades. `rim` (P,) eye distances from the face.
-    """
-    beside = np.clip(rim / FULL_CORRECTION_EYE_DISTANCES, 0, 1) ** 2
-    turn = np.rad2deg(np.arccos(np.clip(motion.rotation[:, 2, 2], -1, 1)))
-    trust = np.clip((LOST_TURN_DEGREES - turn) / (LOST_TURN_DEGREES - TRUSTED_TURN_DEGREES), 0, 1)
-    size = np.linalg.norm(carried, axis=-1)
-    limited = np.minimum(1.0, MAX_CORRECTION * unit / np.maximum(size, 1e-6))
-    kept = (1 - share) + share * beside * trust[:, None] * limited
-    return np.asarray(kept[..., None] * carried, float)
-
-
-def _in_space(
-    phi: Similarity, motion: HeadMotion, expression: NDArray, around: NDArray,
-    target: NDArray, control: ControlPoints, proxy: HeadProxy, head: float,
-) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float32]]]:  # fmt: skip
-    """The head turned in space; the features of a target that is turned itself, partly as equation 1 has them."""
-    moved = move_head(proxy, scale_motion(motion, head), target, expression)
-    share = proxy.share[:, None].astype(np.float32)
-    face = _face_in_plane(phi, motion, expression, target, head)
-    plane = plane_share(target)
-    for k in range(len(around)):
-        offsets = share * (moved[k, :, :2] - proxy.points[:, :2])
-        offsets[:MESH_SIZE] += plane[:, None] * (face[k] - offsets[:MESH_SIZE])
-        offsets[control.periphery] += around[k]
-        offsets[control.border] = 0.0
-        yield offsets.astype(np.float32), moved[k, :, 2]
 
 
 def plane_share(target: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.contour import beside_contour
+from engine.face_animation.motion_transfer.head_room import head_room
 from engine.geometry.registration.rigid import Similarity
 from engine.geometry.surface import area_vectors, summed_at_corners
 from engine.imaging.warping.delaunay import delaunay
@@ -40,11 +41,13 @@ class ControlPoints:
     usable : (C,) bool, False for three kinds of points of the face: those that the picture sees from behind, where they say
         nothing about the pixels there; those beside its contour, which carries them; and the irises, which stay behind the
         lids that move over them.
+    room : (2, 2) how far the head may go, pixels, see `head_room`.
     """
 
     points: NDArray[np.float64]
     peripheral: int
     usable: NDArray[np.bool_]
+    room: NDArray[np.float64]
 
     @property
     def periphery(self) -> slice:
@@ -88,7 +91,7 @@ def place_control_points(mesh: NDArray[np.floating], person: NDArray[np.floating
     seen = facing(mesh)
     usable = np.concatenate([seen & ~beside_contour(mesh, seen), np.ones(len(points) - MESH_SIZE, bool)])
     usable[list(RIGHT_IRIS + LEFT_IRIS)] = False
-    return ControlPoints(points, len(grid), usable)
+    return ControlPoints(points, len(grid), usable, head_room(mesh, person))
 
 
 def facing(mesh: NDArray[np.floating]) -> NDArray[np.bool_]:

@@ -1,111 +1,148 @@
-"""Head turns by a 3D proxy: the face mesh, carried on to ears, hair and neck.
+"""The head as one solid: the face mesh, carried on over ears and hair, turned in space.
 
-The paper warps in the plane and names turns of the head as its limit (section 7.3); its outlook is "to map
-the face over a template 3D face". Here every control point of the head has a depth, the driver's motion is
-split into the head's rigid motion and the expression, and the rigid part moves the points in 3D. Towards
-the shoulders it hands over to the 2D warp. The driver's tracked points correct the proxy: what they do
-beyond its prediction for the driver's own head is carried over in the plane.
+The paper warps in the plane and names turns of the head as its limit (section 7.3); its outlook is "to map the face over a
+template 3D face". Here every control point of the head has a depth: the mesh's own on the face, a paraboloid's around it. The
+driver's motion is split into the head's rigid motion and the expression, and the rigid part moves all of the head in space.
+What the skull's outline shows is another part of it after a turn, and as wide: it goes along and turns in the plane alone.
+Towards the shoulders the head hands over to the body (`body_motion`).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.motion_transfer.head_motion import SOFT_WEIGHT, HeadMotion, turn_angles
+from engine.face_animation.motion_transfer.contour import even_depth
+from engine.face_animation.motion_transfer.head_motion import SOFT_WEIGHT, HeadMotion
+from engine.face_animation.motion_transfer.head_room import skull_centre, skull_shift
 from engine.geometry.registration.rigid import fit_similarities
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES, eye_distance
+from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES
 
-LARGEST_TURN = np.deg2rad(25.0)
-"""Turns beyond are held back to this."""
-NECK_FADE_CHIN_LENGTHS = (0.9, 2.0)
+NECK_FADE_CHIN_LENGTHS = (0.9, 1.7)
 """The head's rigid motion fades out between these distances below the eyes, in lengths from eyes to chin."""
-CONTOUR_BLEND_EYE_DISTANCES = 0.07
-"""Within this distance of the contour, in eye distances, the face's depth passes over into the contour's."""
-MAX_DEPTH_SLOPE = 2.0
-"""In a face that the picture shows turned, its depth departs from the contour's by no more than this times the
-distance: the far cheek, of which little is seen, would part into flaps where the driver turns it to the front."""
-SLOPE_BOUND_TURN_DEGREES = (14.0, 18.0)
-"""Degrees of turn, in the picture, from which and to which that bound takes hold."""
-BACK_OF_HAIR = 0.35
-"""Outside the face the surface falls back to the ears' depth within this share of the face's width."""
+SHOULDER_FADE, BESIDE_NECK = (0.6, 1.0), (0.7, 1.2)
+"""Lengths from eyes to chin: where shoulders begin beside the neck, below the eyes, and how far aside they do."""
+CONTOUR_REACH, CONTOUR_SPREAD = 0.5, 0.15
+"""Lengths from eyes to chin: as far from the contour what it does beyond the head has faded; and how far along it points
+beside it take part in each other's."""
+RIM_TO_SKULL = 0.12
+"""Outside the face its rim passes over into the skull within this share of the face's width."""
+SKULL_HALF_WIDTH, SKULL_HEIGHT = 0.56, 1.5
+"""Half axes of the skull seen from the front: in widths of the face, and in lengths from eyes to chin."""
+OUTLINE_RADII = (0.85, 1.15)
+"""Radii of the skull between which its front passes over into its outline."""
+NOSE_BRIDGE = 168
 
 
 @dataclass(frozen=True)
 class HeadProxy:
-    """`points` (C, 3) control points with depth, pixels; `share` (C,) how far each belongs to the head [0, 1]."""
+    """points : (C, 3) control points with depth, pixels.
+    share : (C,) how far each belongs to the head [0, 1].
+    outline : (C,) how far each moves as the skull's outline does [0, 1]: 0 on the face.
+    contour : (C - 478, 36) how far those around the face follow what the face's contour, `FACE_OVAL`, does beyond the head.
+    """
 
     points: NDArray[np.float64]
     share: NDArray[np.float64]
+    outline: NDArray[np.float64]
+    contour: NDArray[np.float64]
 
 
 def build_head_proxy(points: NDArray[np.floating], mesh: NDArray[np.floating]) -> HeadProxy:
     """Depth and belonging of points (C, 2) around a face: the mesh's own 478 first, then any others."""
     others = points[MESH_SIZE:]
-    depth = np.concatenate([_joined_rim(mesh), surface_depth(mesh, others)])
+    face = even_depth(mesh)
+    depth = np.concatenate([face, surface_depth(mesh, others)])
     share = np.concatenate([np.ones(MESH_SIZE), head_share(mesh, others)])
-    return HeadProxy(np.column_stack([points, depth]), share)
+    outline = np.concatenate([np.zeros(MESH_SIZE), outline_share(mesh, others)])
+    return HeadProxy(np.column_stack([points, depth]), share, outline, contour_weights(mesh, others))
 
 
-def _joined_rim(mesh: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Depth (478,) of the face's vertices; those that the picture shows on its contour have the contour's own.
+def contour_weights(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(P, 36) how much points (P, 2) around a face follow each vertex of its contour: the nearest, and with the distance ever
+    more of them, ever less, so that a jaw which opens squeezes the neck evenly instead of folding over it."""
+    oval = mesh[list(FACE_OVAL), :2].astype(float)
+    length = chin_length(mesh)
+    apart = np.linalg.norm(oval[None] - points[:, None], axis=2)
+    nearest = apart.min(axis=1, keepdims=True)
+    near = np.exp(-0.5 * ((apart - nearest) / (CONTOUR_SPREAD * length + 0.5 * nearest)) ** 2)
+    t = np.clip(nearest / (CONTOUR_REACH * length), 0, 1)
+    return np.asarray((1 - t * t * (3 - 2 * t)) * near / near.sum(axis=1, keepdims=True))
 
-    Where the surface goes out of sight it is steep: neighbours in the picture differ much in depth, and turned
-    they would part into a serrated edge.
-    """
-    mesh = mesh.astype(float)
-    oval = mesh[list(FACE_OVAL)]
-    following = np.roll(oval, -1, axis=0)
-    way = (following - oval)[:, :2]
-    along = ((mesh[:, None, :2] - oval[:, :2]) * way).sum(axis=2) / (way**2).sum(axis=1)
-    along = np.clip(along, 0, 1)[..., None]
-    nearest = oval + along * (following - oval)
-    apart = np.linalg.norm(mesh[:, None, :2] - nearest[..., :2], axis=2)
-    closest = apart.argmin(axis=1)
-    rim = np.take_along_axis(nearest[..., 2], closest[:, None], axis=1)[:, 0]
-    inside = apart.min(axis=1)
-    t = np.clip(inside / (CONTOUR_BLEND_EYE_DISTANCES * float(eye_distance(mesh[:, :2]))), 0, 1)
-    rise = t * t * (3 - 2 * t) * (mesh[:, 2] - rim)
-    slant = np.rad2deg(turn_angles(mesh[None], canonical_face())[0])
-    bound = np.clip(
-        (slant - SLOPE_BOUND_TURN_DEGREES[0]) / (SLOPE_BOUND_TURN_DEGREES[1] - SLOPE_BOUND_TURN_DEGREES[0]), 0, 1
-    )
-    return np.asarray(
-        rim + rise + bound * (np.clip(rise, -MAX_DEPTH_SLOPE * inside, MAX_DEPTH_SLOPE * inside) - rise), float
-    )
+
+def chin_length(mesh: NDArray[np.floating]) -> float:
+    """From the eyes to the chin of a face (478, 2 or 3), pixels."""
+    return float(np.linalg.norm(mesh[152, :2] - mesh[[33, 133, 263, 362], :2].mean(axis=0)))
+
+
+def chin_lengths_below(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(P,) how far below the eyes, down the face, points (P, 2) lie, in lengths from eyes to chin."""
+    eyes = mesh[[33, 133, 263, 362], :2].mean(axis=0)
+    down = mesh[152, :2] - eyes
+    return np.asarray((points - eyes) @ down / float(down @ down), float)
+
+
+def outline_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(P,) how far points (P, 2) outside the face move as the skull's outline does: none on its front, all beyond it."""
+    oval = mesh[list(FACE_OVAL), :2].astype(float)
+    nearest = np.linalg.norm(oval[None] - points[:, None], axis=2).min(axis=1)
+    begin, end = OUTLINE_RADII
+    share = _smooth_step((skull_radius(mesh, points) - begin) / (end - begin))
+    return share * _smooth_step(nearest / (RIM_TO_SKULL * _face_width(mesh)))
 
 
 def surface_depth(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Depth (P,) at points outside the face: the face's rim, falling back to the ears' depth, pixels.
+    """Depth (P,) at points outside the face: the face's rim, passing over into the skull's, pixels.
 
-    In a turned head the ears' depths differ: between and beside them it is interpolated.
+    The skull is a paraboloid around its middle, as deep as the bridge of the nose lies before that: no steeper anywhere than
+    what the largest turn would fold.
     """
     mesh = mesh.astype(float)
     oval = mesh[list(FACE_OVAL)]
-    width = float(np.linalg.norm(mesh[454, :2] - mesh[234, :2]))
-    right, left = mesh[[127, 234, 93]].mean(axis=0), mesh[[356, 454, 323]].mean(axis=0)
-    axis = left[:2] - right[:2]
-    along = np.clip((points - right[:2]) @ axis / float(axis @ axis), -0.2, 1.2)
-    back = right[2] + along * (left[2] - right[2])
+    width = _face_width(mesh)
+    centre = skull_centre(mesh)
+    front = centre[2] - mesh[NOSE_BRIDGE, 2]
+    skull = centre[2] - front * np.clip(1 - skull_radius(mesh, points) ** 2, 0, 1)
     apart = np.linalg.norm(oval[None, :, :2] - points[:, None], axis=2)
     nearest = apart.min(axis=1)
     near = np.exp(-0.5 * ((apart - nearest[:, None]) / (0.1 * width)) ** 2)
     rim = near @ oval[:, 2] / near.sum(axis=1)
-    t = np.clip(nearest / (BACK_OF_HAIR * width), 0, 1)
-    return np.asarray((1 - t) * rim + t * back, float)
+    return np.asarray(rim + _smooth_step(nearest / (RIM_TO_SKULL * width)) * (skull - rim), float)
+
+
+def skull_radius(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(P,) how far points (P, 2) lie from the skull's middle, 1 on the outline of a skull without hair."""
+    right, left = mesh[[127, 234, 93], :2].mean(axis=0), mesh[[356, 454, 323], :2].mean(axis=0)
+    across = (left - right) / np.linalg.norm(left - right)
+    apart = points - skull_centre(mesh)[:2]
+    aside, along = apart @ across, apart @ (across[::-1] * (-1, 1))
+    return np.asarray(
+        np.hypot(aside / (SKULL_HALF_WIDTH * _face_width(mesh)), along / (SKULL_HEIGHT * chin_length(mesh)))
+    )
+
+
+def _face_width(mesh: NDArray[np.floating]) -> float:
+    return float(np.linalg.norm(mesh[454, :2] - mesh[234, :2]))
+
+
+def _smooth_step(t: NDArray[np.floating]) -> NDArray[np.float64]:
+    t = np.clip(t, 0, 1)
+    return np.asarray(t * t * (3 - 2 * t), float)
 
 
 def head_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
-    """How far points (P, 2) belong to the head: 1 above the chin, fading to 0 down the neck."""
+    """How far points (P, 2) belong to the head: 1 above the chin, fading to 0 down the neck, and aside of it, where shoulders are."""
+    below = chin_lengths_below(mesh, points)
     eyes = mesh[[33, 133, 263, 362], :2].mean(axis=0)
-    down = mesh[152, :2] - eyes
-    below = (points - eyes) @ down / float(down @ down)
-    t = np.clip((below - NECK_FADE_CHIN_LENGTHS[0]) / (NECK_FADE_CHIN_LENGTHS[1] - NECK_FADE_CHIN_LENGTHS[0]), 0, 1)
-    return np.asarray(1 - t * t * (3 - 2 * t), float)
+    down = (mesh[152, :2] - eyes) / chin_length(mesh)
+    aside = np.abs((points - eyes) @ (down[::-1] * (1, -1))) / chin_length(mesh)
+    begin, end = NECK_FADE_CHIN_LENGTHS
+    fading = _smooth_step((below - begin) / (end - begin))
+    shoulder = _smooth_step((below - SHOULDER_FADE[0]) / (SHOULDER_FADE[1] - SHOULDER_FADE[0]))
+    beside = _smooth_step((aside - BESIDE_NECK[0]) / (BESIDE_NECK[1] - BESIDE_NECK[0]))
+    return np.asarray((1 - fading) * (1 - shoulder * beside), float)
 
 
 def move_head(
@@ -120,32 +157,30 @@ def move_head(
 
     Returns
     -------
-    (N, C, 3) positions, pixels; points that do not belong to the head move rigidly too, see `share`.
+    (N, C, 3) positions, pixels; points that do not belong to the head move rigidly too, see `share`. Those of the outline
+    go with the skull's middle and turn in the plane alone: a skull that turns shows another outline, as wide as the last.
     """
     weights = np.full(MESH_SIZE, SOFT_WEIGHT)
     weights[list(RIGID_VERTICES)] = 1.0
     size, between, _ = fit_similarities(motion.neutral, target[None].astype(float), weights)
-    rotation = limit_rotation(between[0] @ motion.rotation @ between[0].T)
-    pivot_driver = motion.neutral[list(RIGID_VERTICES)].mean(axis=0)
-    pivot = target[list(RIGID_VERTICES)].astype(float).mean(axis=0)
-    moved = motion.scale[:, None] * (motion.rotation @ pivot_driver) + motion.shift - pivot_driver
-    shift = size[0] * moved @ between[0].T
+    rotation = between[0] @ motion.rotation @ between[0].T
+    pivot = skull_centre(target)
+    shift = size[0] * skull_shift(motion) @ between[0].T
     points = np.repeat(proxy.points[None], len(rotation), axis=0)
     if expression is not None:
         points[:, :MESH_SIZE] += expression
-    turned = np.einsum("nij,ncj->nci", rotation, points - pivot)
+    arm = points - pivot
+    turned = np.einsum("nij,ncj->nci", rotation, arm)
+    rolled = np.einsum("nij,ncj->nci", _roll(rotation), arm)
+    turned[..., :2] += proxy.outline[:, None] * (rolled - turned)[..., :2]
     return np.asarray(motion.scale[:, None, None] * turned + pivot + shift[:, None], np.float32)
 
 
-def limit_rotation(rotation: NDArray[np.float64], largest: float = LARGEST_TURN) -> NDArray[np.float64]:
-    """Rotations (N, 3, 3) with turns out of the picture plane held back softly to `largest` radians."""
-    limited = rotation.copy()
-    for i, r in enumerate(rotation):
-        vector = cv2.Rodrigues(r)[0][:, 0]
-        turn = float(np.hypot(vector[0], vector[1]))
-        if turn > 0.8 * largest:
-            start = 0.8 * largest
-            held = start + (largest - start) * np.tanh((turn - start) / (largest - start))
-            vector[:2] *= held / turn
-            limited[i] = cv2.Rodrigues(vector)[0]
-    return limited
+def _roll(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+    """What rotations (N, 3, 3) turn within the picture plane, as rotations."""
+    angle = np.arctan2(rotation[:, 1, 0] - rotation[:, 0, 1], rotation[:, 0, 0] + rotation[:, 1, 1])
+    out = np.tile(np.eye(3), (len(rotation), 1, 1))
+    out[:, 0, 0] = out[:, 1, 1] = np.cos(angle)
+    out[:, 1, 0] = np.sin(angle)
+    out[:, 0, 1] = -out[:, 1, 0]
+    return out

@@ -26,6 +26,8 @@ FALLOFF_DIAGONALS = 0.15
 """Distance from the face, in diagonals, where the largest disk is reached. The paper leaves it open."""
 VERTICES_ON_DIAGONAL = 64
 """Vertices of the mesh's regular part along the diagonal; finer ones change the field by < 0.1 px."""
+BEYOND_BORDER = 0.5
+"""Diagonals by which the mesh reaches beyond the image."""
 INSIDE_TOLERANCE = 1e-9
 """Pixels and weights by which a point may lie beside a triangle and still counts as inside."""
 
@@ -104,7 +106,8 @@ def build_warp_mesh(
         down = np.linspace(0, height - 1, int(np.ceil(2 * height / spacing)) + 1)
         samples = np.stack(np.meshgrid(across, down), axis=-1).reshape(-1, 2)
         corners, weights = interpolation(control[used], triangles, samples)
-        reach = np.maximum(radii[smooth], 0.75 * spacing)
+        inside = np.minimum(vertices[smooth], (width - 1, height - 1) - vertices[smooth]).min(axis=1)
+        reach = np.maximum(np.minimum(radii[smooth], inside), 0.75 * spacing)
         matrix[smooth] = _disk_average(vertices[smooth], reach, across, down, used[corners], weights, len(control))
     entries = matrix != 0
     return WarpMesh(
@@ -118,10 +121,14 @@ def build_warp_mesh(
 
 
 def _grid_around(face: NDArray[np.floating], shape: tuple[int, int], spacing: float) -> NDArray[np.float64]:
-    """A regular grid outside the face's contour that reaches the image's corners."""
+    """A regular grid outside the face's contour that reaches the image's corners, and one ring of vertices beyond its
+    border: what it brings into the picture repeats the image's border."""
     height, width = shape
-    xs = np.linspace(0, width - 1, int(np.ceil(width / spacing)) + 1)
-    ys = np.linspace(0, height - 1, int(np.ceil(height / spacing)) + 1)
+    beyond = BEYOND_BORDER * float(np.hypot(height, width))
+    xs, ys = (
+        np.concatenate([[-beyond], np.linspace(0, side - 1, int(np.ceil(side / spacing)) + 1), [side - 1 + beyond]])
+        for side in (width, height)
+    )
     grid = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)
     oval = face[list(FACE_OVAL), :2].astype(np.float32)
     distance = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in grid])

@@ -8,9 +8,13 @@ from made_face import placed
 from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.contour import (
+    DEPTH_BAND_EYE_DISTANCES,
     EAR_VERTICES,
+    EVEN_BAND_EYE_DISTANCES,
     MAX_GAIN,
     beside_contour,
+    even_depth,
+    even_expression,
     keep_inside,
     rim_distance,
 )
@@ -87,3 +91,26 @@ def test_what_lies_beside_the_cheeks_contour_is_told_from_the_contour(mesh: NDAr
     assert beside[[177, 215, 401, 435]].all()
     assert not beside[list(FACE_OVAL)].any()
     assert not beside[[4, 10, 151, 13, 17, 152, 33, 263]].any()
+
+
+def test_beside_the_contour_neighbours_do_the_same_and_the_jaw_follows() -> None:
+    """Restless vertices give no teeth; above the cheekbones nothing is left of them, further in nothing is changed."""
+    face = placed(50.0, (150.0, 150.0))
+    even = even_expression(face, np.ones(MESH_SIZE, bool))
+    inside = rim_distance(face, face[:, :2]) < -EVEN_BAND_EYE_DISTANCES * 50
+    np.testing.assert_allclose(even[inside], np.eye(MESH_SIZE)[inside], atol=1e-12)
+    down = np.zeros((MESH_SIZE, 2))
+    down[face[:, 1] > face[14, 1]] = (0.0, 9.0)
+    opened = even @ down
+    assert opened[152, 1] > 8 and not opened[[10, 127, 356, 54, 284]].any()
+    restless = even @ np.random.default_rng(0).normal(0, 5, (MESH_SIZE, 2))
+    oval = restless[list(FACE_OVAL)]
+    assert np.abs(oval - np.roll(oval, 1, axis=0)).max() < 3
+
+
+def test_depth_on_the_contour_is_its_own_and_inside_the_face_s() -> None:
+    face = placed(50.0, (150.0, 150.0))
+    depth = even_depth(face)
+    inside = rim_distance(face, face[:, :2]) < -DEPTH_BAND_EYE_DISTANCES * 50
+    np.testing.assert_allclose(depth[inside], face[inside, 2])
+    assert np.abs(depth[list(FACE_OVAL)] - face[list(FACE_OVAL), 2]).max() < 0.15 * 50

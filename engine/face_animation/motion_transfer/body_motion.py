@@ -1,0 +1,99 @@
+"""What the body does under a head that moves.
+
+The neck holds a head within a little of where it rests on the shoulders, and it keeps its length. Whatever a head does
+beyond that, its body does too: people who lean aside take their shoulders along. How much of it the driver's shoulders
+really do is what its tracked points say; where they say nothing, the neck alone decides.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.motion_transfer.contour import rim_distance
+from engine.face_animation.motion_transfer.head_motion import HeadMotion
+from engine.face_animation.motion_transfer.head_proxy import (
+    build_head_proxy,
+    chin_length,
+    chin_lengths_below,
+    head_share,
+    move_head,
+)
+from engine.face_animation.motion_transfer.head_room import soft_limit
+from engine.perception.landmarks import MESH_SIZE
+
+NECK_ROOM = (0.35, (0.18, 0.25))
+"""How far a head goes from its place on the shoulders, in lengths from eyes to chin: to either side; up and down."""
+SHOULDERS, WAIST = 2.2, 6.2
+"""Lengths from eyes to chin below the eyes: from the shoulders, which move most, to where a body that leans stays."""
+BODY_SHARE = 0.6
+"""Tracked points that belong to the head by less say what the body does, the less they do the more."""
+HAIR_BEGINS, HAIR_ROOM = 0.3, 0.1
+"""Lengths from eyes to chin: from the face's rim to where hair is followed fully, and how
+far away its points are still believed: further away they have slipped."""
+MIN_TRUSTED_POINTS = 5.0
+"""With fewer trusted points of the body, or of the hair, what they say fades."""
+
+
+def tracked_body(
+    neutral: NDArray[np.floating],
+    places: NDArray[np.floating],
+    moved: NDArray[np.floating],
+    trust: NDArray[np.floating],
+) -> NDArray[np.float64]:
+    """(N, 2) how far the driver's body went, pixels of the driver.
+
+    Parameters
+    ----------
+    neutral : (478, 3) its face at rest. places : (K, 2) its tracked points at rest. moved : (N, K, 2) their offsets.
+    trust : (N, K) [0, 1].
+    """
+    return _trusted_mean(moved, trust * np.maximum(1 - head_share(neutral, places) / BODY_SHARE, 0))
+
+
+def tracked_hair(
+    motion: HeadMotion, places: NDArray[np.floating], moved: NDArray[np.floating], trust: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """(N, 2) by how much the driver's hair went elsewhere than its face's motion carries it, pixels of the driver; parameters
+    as of `tracked_body`.
+
+    A tracker sees turns of the face too small, and the skull lies far behind: what the face alone says of it errs by that.
+    """
+    neutral = motion.neutral
+    proxy = build_head_proxy(np.concatenate([neutral[:, :2], places]), neutral)
+    carried = move_head(proxy, motion, neutral)[:, MESH_SIZE:, :2] - places
+    hair = proxy.share[MESH_SIZE:] * hair_share(neutral, places)
+    away = _trusted_mean(moved - carried, trust * hair)
+    size = np.linalg.norm(away, axis=1, keepdims=True) / (HAIR_ROOM * chin_length(neutral))
+    return np.asarray(away * np.exp(-(size**2)))
+
+
+def hair_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(P,) how far points (P, 2) outside the face belong to hair and skull: rising from 0 at the face's rim to 1."""
+    t = np.clip(rim_distance(mesh, points) / (HAIR_BEGINS * chin_length(mesh)), 0, 1)
+    return np.asarray(t * t * (3 - 2 * t))
+
+
+def _trusted_mean(values: NDArray[np.floating], weight: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N, 2) means of values (N, K, 2); they fade where fewer than `MIN_TRUSTED_POINTS` are left."""
+    total = weight.sum(axis=1)
+    mean = np.einsum("nk,nkd->nd", weight, values) / np.maximum(total, 1e-9)[:, None]
+    return np.asarray(np.minimum(total / MIN_TRUSTED_POINTS, 1)[:, None] * mean)
+
+
+def body_shift(skull: NDArray[np.floating], body: NDArray[np.floating], chin_length: float) -> NDArray[np.float64]:
+    """(N, 2) how far the target's shoulders go.
+
+    Parameters
+    ----------
+    skull : (N, 2) how far the middle of its skull does, pixels. body : (N, 2) what the driver's body does, pixels of the
+    target. chin_length : from the eyes to the chin, pixels.
+    """
+    side, (up, down) = NECK_ROOM
+    low, high = chin_length * np.array([-side, -up]), chin_length * np.array([side, down])
+    return np.asarray(skull - soft_limit(skull - body, low, high))
+
+
+def body_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(P,) how much of the shoulders' shift points (P, 2) take: all of it down to the shoulders, none at the waist."""
+    return np.asarray(np.clip((WAIST - chin_lengths_below(mesh, points)) / (WAIST - SHOULDERS), 0, 1))

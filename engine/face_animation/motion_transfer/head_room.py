@@ -1,0 +1,118 @@
+"""How far the picture lets a head go, and motion held back to that.
+
+A head that its picture's border cuts has nothing to show beyond the cut, and a face that leaves the picture is none. What
+the driver does is carried over as it is while there is room; nearing the end of the room it is held back, smoothly, by what
+is needed and no more. The same holds for turns out of the picture plane and for coming nearer: beyond what a picture from
+the front can show they saturate.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.motion_transfer.head_motion import HeadMotion
+from engine.geometry.registration.rigid import Similarity
+from engine.perception.landmarks import FACE_OVAL
+
+FREE_SHARE = 0.5
+"""Share of the room over which nothing is held back."""
+LEAST_ROOM = 0.08
+"""Room that there always is, in lengths from eyes to chin."""
+CUT_HAIR_SHARE = 0.35
+"""Share of the hair between face and border that may come down from a border that cuts it."""
+LARGEST_TURN = np.deg2rad(25.0)
+"""Turns out of the picture plane beyond are held back to this."""
+LARGEST_APPROACH = 0.3
+"""Logarithm of the largest change of the head's size."""
+EDGE_SHARE = 0.02
+"""Share of the picture's shorter side within which its border is: a thin frame may lie along it."""
+SKULL_BEHIND_EARS = 0.35
+"""By how much the skull's middle lies behind that between the ears, in lengths from the tip of the nose to there."""
+NOSE_TIP = 4
+SEEN = 0.5
+"""Of a person's mask, from which on a pixel shows it."""
+
+
+def head_room(mesh: NDArray[np.floating], person: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(2, 2) by how much a head may move: (left, up), both negative, and (right, down), pixels.
+
+    Parameters
+    ----------
+    mesh : (478, 2 or 3) the face, pixels. person : (H, W) mask [0, 1].
+    """
+    height, width = person.shape
+    oval = mesh[list(FACE_OVAL), :2]
+    low, high = oval.min(axis=0), oval.max(axis=0)
+    eyes, chin = mesh[[33, 133, 263, 362], :2].mean(axis=0), mesh[152, :2]
+    least = LEAST_ROOM * float(np.linalg.norm(chin - eyes))
+    (left_most, top), (right_most, eye_line) = (
+        np.clip(place, 0, (width - 1, height - 1)).astype(int) for place in (low, (high[0], eyes[1]))
+    )
+    rows, columns = slice(top, eye_line + 1), slice(left_most, right_most + 1)
+    before, behind = low, np.array([width - 1, height - 1]) - high
+    edge = max(1, round(EDGE_SHARE * min(person.shape)))
+    sides = person[rows, :edge], person[rows, -edge:], person[:edge, columns].T
+    left, right, above = (float(np.mean(side.max(axis=1) > SEEN)) for side in sides)
+    cut = np.array([[right, 0.0], [left, above]])  # a move leaves the border behind that lies opposite
+    cut_room = CUT_HAIR_SHARE * np.array([behind, before])
+    free = np.array([before, behind])
+    room = np.maximum(np.minimum(free, cut * cut_room + (1 - cut) * free), least)
+    return np.asarray(room * [[-1], [1]], float)
+
+
+def soft_limit(
+    values: NDArray[np.floating], low: NDArray[np.floating], high: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """Values as they are over `FREE_SHARE` of the way to `low` < 0 and `high` > 0, then ever less, never reaching them."""
+    end = np.where(values < 0, -np.asarray(low), high)
+    begin = FREE_SHARE * end
+    beyond = np.maximum(np.abs(values) - begin, 0)
+    return np.asarray(
+        np.sign(values) * (np.minimum(np.abs(values), begin) + (end - begin) * np.tanh(beyond / (end - begin)))
+    )
+
+
+def limit_rotation(rotation: NDArray[np.float64], largest: float = LARGEST_TURN) -> NDArray[np.float64]:
+    """Rotations (N, 3, 3) with turns out of the picture plane held back softly to `largest` radians."""
+    limited = rotation.copy()
+    for i, r in enumerate(rotation):
+        vector = cv2.Rodrigues(r)[0][:, 0]
+        turn = float(np.hypot(vector[0], vector[1]))
+        if turn > 0.8 * largest:
+            start = 0.8 * largest
+            held = start + (largest - start) * np.tanh((turn - start) / (largest - start))
+            vector[:2] *= held / turn
+            limited[i] = cv2.Rodrigues(vector)[0]
+    return limited
+
+
+def skull_centre(mesh: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(3,) the middle of the skull, which a head turns about more nearly than about its face: behind the middle between the
+    ears, seen from the nose."""
+    ears = mesh[[127, 234, 93, 356, 454, 323]].mean(axis=0)
+    return np.asarray(ears + SKULL_BEHIND_EARS * (ears - mesh[NOSE_TIP]), float)
+
+
+def skull_shift(motion: HeadMotion) -> NDArray[np.float64]:
+    """(N, 3) how far the middle of a driver's skull goes, pixels of the driver."""
+    centre = skull_centre(motion.neutral)
+    return np.asarray(motion.scale[:, None] * (motion.rotation @ centre) + motion.shift - centre)
+
+
+def hold_back(motion: HeadMotion, phi: Similarity, room: NDArray[np.floating]) -> HeadMotion:
+    """A driver's motion as far as the target can follow it: the skull's shift within `room` (2, 2), pixels of the target.
+
+    phi : from the driver's neutral frame to the target, in the plane.
+    """
+    centre = skull_centre(motion.neutral)
+    moved = skull_shift(motion)
+    moved[:, :2] = phi.inverse().offsets(soft_limit(phi.offsets(moved[:, :2]), room[0], room[1]))
+    end = np.array(LARGEST_APPROACH)
+    scale = np.exp(soft_limit(np.log(motion.scale), -end, end))
+    rotation = limit_rotation(motion.rotation)
+    shift = centre + moved - scale[:, None] * (rotation @ centre)
+    return replace(motion, scale=scale, rotation=rotation, shift=shift)

@@ -1,0 +1,63 @@
+"""A sheet that cannot tear: where a warp would fold it, its vertices give way.
+
+Where head, neck and body meet, and where a jaw opens onto a neck, neighbours may be carried past each other: the picture then
+shows the edge of a fold, which looks torn. So no triangle beside or outside the face keeps less than a share of its area. Each that
+would is brought back to it by the smallest move of its free vertices, round after round (position-based dynamics: M. Mueller
+and others, 2007, "Position Based Dynamics", section 3.3, with the area as the constraint). What is within bounds stays, and
+the moves grow with the violation, so frame follows frame evenly.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from engine.compiled import njit
+
+LEAST_AREA = 0.2
+"""Share of its area that a triangle keeps."""
+TOLERANCE = 0.05
+"""Share of its area by which a triangle may fall short of that."""
+ROUNDS = 40
+"""After so many rounds what is left folded stays so: where the face itself leaves no room."""
+
+
+@njit(fastmath=True, nogil=True)
+def unfold(offsets, rest, triangles, held):  # type: ignore[no-untyped-def]
+    """Change offsets (V, 2 or more) of vertices `rest` (V, 2), in place, until no triangle (T, 3) with a free one keeps less than
+    `LEAST_AREA` of its area; those that are `held` (V,) stay. Returns the rounds that it took."""
+    place, gradient = np.zeros((3, 2)), np.zeros((3, 2))
+    for turn in range(ROUNDS):
+        clean = True
+        for t in range(len(triangles)):
+            a, b, c = triangles[t]
+            if held[a] and held[b] and held[c]:
+                continue
+            for k in range(3):
+                v = triangles[t, k]
+                for d in range(2):
+                    place[k, d] = rest[v, d] + offsets[v, d]
+            whole = (rest[b, 0] - rest[a, 0]) * (rest[c, 1] - rest[a, 1]) - (rest[b, 1] - rest[a, 1]) * (
+                rest[c, 0] - rest[a, 0]
+            )
+            sign = 1.0 if whole > 0 else -1.0
+            area = (place[1, 0] - place[0, 0]) * (place[2, 1] - place[0, 1]) - (place[1, 1] - place[0, 1]) * (
+                place[2, 0] - place[0, 0]
+            )
+            lack = sign * (LEAST_AREA * whole - area)
+            if lack <= TOLERANCE * sign * whole:
+                continue
+            clean = False
+            total = 1e-6
+            for k in range(3):
+                one, other = place[(k + 1) % 3], place[(k + 2) % 3]
+                gradient[k] = sign * (one[1] - other[1]), sign * (other[0] - one[0])
+                if not held[triangles[t, k]]:
+                    total += gradient[k, 0] ** 2 + gradient[k, 1] ** 2
+            for k in range(3):
+                v = triangles[t, k]
+                if not held[v]:
+                    for d in range(2):
+                        offsets[v, d] += lack / total * gradient[k, d]
+        if clean:
+            return turn
+    return ROUNDS

@@ -1,0 +1,63 @@
+"""The body under a head that moves: a neck of a length, and shoulders that follow."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from made_face import placed
+
+from engine.face_animation.motion_transfer.body_motion import (
+    NECK_ROOM,
+    body_share,
+    body_shift,
+    tracked_body,
+    tracked_hair,
+)
+from engine.face_animation.motion_transfer.head_motion import split_motion
+
+FACE = placed(40.0, (150.0, 120.0))
+
+
+def test_a_head_that_goes_a_little_leaves_the_shoulders() -> None:
+    skull = np.array([[0.1 * 50, -0.05 * 50]])
+    np.testing.assert_allclose(body_shift(skull, np.zeros((1, 2)), 50.0), 0, atol=1e-9)
+
+
+def test_the_neck_never_gets_longer_than_it_can() -> None:
+    skull = np.stack(np.meshgrid(np.linspace(-200, 200, 21), np.linspace(-200, 200, 21)), axis=-1).reshape(-1, 2)
+    neck = skull - body_shift(skull, np.zeros_like(skull), 50.0)
+    side, (up, down) = NECK_ROOM
+    assert np.abs(neck[:, 0]).max() <= 50 * side
+    assert neck[:, 1].min() >= -50 * up and neck[:, 1].max() <= 50 * down
+
+
+def test_who_leans_with_the_whole_body_keeps_the_neck_as_it_is() -> None:
+    leaning = np.array([[60.0, 10.0]])
+    np.testing.assert_allclose(body_shift(leaning, leaning, 50.0), leaning)
+
+
+def test_the_body_s_points_alone_tell_what_it_does() -> None:
+    """Ten on the chest go right, ten in the hair go left; with too few trusted, they say less."""
+    chest = np.column_stack([np.linspace(100, 200, 10), np.full(10, FACE[152, 1] + 120)])
+    hair = np.column_stack([np.linspace(100, 200, 10), np.full(10, FACE[10, 1] - 10)])
+    offsets = np.concatenate([np.full((10, 2), (7.0, 1.0)), np.full((10, 2), (-30.0, 0.0))])[None]
+    places, trust = np.concatenate([chest, hair]), np.ones((1, 20))
+    np.testing.assert_allclose(tracked_body(FACE, places, offsets, trust), [[7, 1]])
+    trust[0, 1:10] = 0
+    np.testing.assert_allclose(tracked_body(FACE, places, offsets, trust), [[1.4, 0.2]])
+    np.testing.assert_array_equal(tracked_body(FACE, places[:0], offsets[:, :0], trust[:, :0]), [[0, 0]])
+
+
+def test_shoulders_go_and_the_waist_stays() -> None:
+    down = np.column_stack([np.full(100, 150.0), np.linspace(0, 900, 100)])
+    share = body_share(FACE, down)
+    assert (np.diff(share) <= 0).all() and share[0] == 1 and share[-1] == 0
+
+
+@pytest.mark.parametrize(("away", "kept"), [((2.0, 0.0), 0.93), ((0.0, 60.0), 0.0)])
+def test_hair_that_goes_a_little_further_than_its_face_is_followed(away: tuple[float, float], kept: float) -> None:
+    """And points that slip off it are not."""
+    hair = np.column_stack([np.linspace(100, 200, 10), np.full(10, FACE[10, 1] - 40)])
+    motion = split_motion(FACE[None] + [5.0, 2.0, 0.0], FACE)
+    found = tracked_hair(motion, hair, np.full((1, 10, 2), (5.0, 2.0)) + away, np.ones((1, 10)))
+    assert found[0] == pytest.approx(np.array(away) * kept, abs=0.1 * max(away) * (kept > 0) + 0.05)

@@ -1,0 +1,81 @@
+"""How far a head may go in its picture, and motion held back to that."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from made_face import placed, turn
+from numpy.typing import NDArray
+
+from engine.face_animation.motion_transfer.alignment import align
+from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_motion, turn_angles
+from engine.face_animation.motion_transfer.head_room import (
+    FREE_SHARE,
+    LARGEST_TURN,
+    head_room,
+    hold_back,
+    skull_shift,
+    soft_limit,
+)
+from engine.perception.landmarks import FACE_OVAL
+
+UNIT, CENTRE = 40.0, (150.0, 150.0)
+
+
+@pytest.fixture(scope="module")
+def face() -> NDArray[np.float32]:
+    return placed(UNIT, CENTRE)
+
+
+def test_a_head_that_nothing_cuts_may_go_as_far_as_its_face_stays_in_the_picture(face: NDArray) -> None:
+    person = np.zeros((300, 340), np.float32)
+    person[40:300, 80:220] = 1
+    room = head_room(face, person)
+    oval = face[list(FACE_OVAL), :2]
+    np.testing.assert_allclose(room[0], -oval.min(axis=0), atol=1e-4)
+    np.testing.assert_allclose(room[1], np.array([339, 299]) - oval.max(axis=0), atol=1e-4)
+
+
+def test_hair_that_the_border_cuts_comes_down_by_a_part_of_it(face: NDArray) -> None:
+    free, cut = np.zeros((300, 300), np.float32), np.zeros((300, 300), np.float32)
+    free[40:, 80:220] = 1
+    cut[:, 80:220] = 1
+    cut[0] = 0  # a thin frame hides no cut
+    assert head_room(face, cut)[1, 1] < 0.5 * face[10, 1] < head_room(face, free)[1, 1]
+    np.testing.assert_array_equal(head_room(face, cut)[0], head_room(face, free)[0])
+
+
+def test_what_there_is_room_for_is_kept_and_nothing_goes_beyond() -> None:
+    low, high = np.array([-10.0]), np.array([40.0])
+    kept = np.array([[-10 * FREE_SHARE], [0.0], [40 * FREE_SHARE]])
+    np.testing.assert_allclose(soft_limit(kept, low, high), kept)
+    asked = np.linspace(-300, 300, 2001)[:, None]
+    held = soft_limit(asked, low, high)
+    assert held.min() >= -10 and held.max() <= 40
+    steps = np.diff(held[:, 0])
+    assert (steps >= 0).all() and np.abs(np.diff(steps)).max() < 0.05  # smoothly
+
+
+def moved(face: NDArray, rotation: NDArray, shift: tuple[float, float, float]) -> HeadMotion:
+    middle = face.mean(axis=0)
+    return split_motion(((face - middle) @ rotation.T + middle + np.array(shift))[None], face)
+
+
+def test_small_motion_is_not_held_back(face: NDArray) -> None:
+    motion = moved(face, turn(yaw=8, roll=5), (6, -4, 0))
+    held = hold_back(motion, align(face, face), np.array([[-90, -90], [90, 90]]))
+    np.testing.assert_allclose(held.rotation, motion.rotation, atol=1e-9)
+    np.testing.assert_allclose(held.shift, motion.shift, atol=1e-6)
+
+
+def test_large_motion_saturates_and_the_expression_stays(face: NDArray) -> None:
+    """The driver's face is half as large as the target's: room is counted in the target."""
+    driver = placed(UNIT / 2, (80.0, 80.0))
+    motion = moved(driver, turn(yaw=60), (200, -90, 0))
+    phi = align(driver, face)
+    held = hold_back(motion, phi, np.array([[-50, -20], [50, 20]]))
+    shift = phi.offsets(skull_shift(held)[0, :2])
+    assert 40 < shift[0] <= 50 and -20 <= shift[1] < -15
+    turned = held.rotation[0] @ driver.T
+    assert turn_angles(turned.T[None], driver)[0] <= LARGEST_TURN + 1e-6
+    np.testing.assert_array_equal(held.expression, motion.expression)
