@@ -42,7 +42,7 @@ def test_a_driver_that_never_moves_is_glanced_at_once(tmp_path: Path) -> None:
 
 
 def test_the_made_face_comes_nearer_to_the_driver_s_in_a_tracker_s_eyes(small, mouth_opens) -> None:
-    """Frames that were not looked at, too: where the mouth opens, lips are nearer by a tenth, seen as the driver's are seen,
+    """Frames that were not looked at, too: where the mouth opens, lips are nearer by a twentieth, seen as the driver's are seen,
     and the face as a whole is no further off. (On much smaller pictures the tracker's scatter is as large as what is amiss.)"""
     options = PortraitOptions()
     target = find_target_face(small("photo_woman_white.png", 600), options, Limits(), lambda code, message: None)
@@ -70,7 +70,7 @@ def test_the_made_face_comes_nearer_to_the_driver_s_in_a_tracker_s_eyes(small, m
                 apart.append((ours[:, :2] - carried) - (theirs[:, :2] - track.in_crop(frame)))
             left[name] = np.linalg.norm(np.array(apart) - apart[0], axis=2).mean(axis=0)
     lips = list(LIPS_OUTER + LIPS_INNER)
-    assert left["better"][lips].mean() < 0.9 * left["plain"][lips].mean()
+    assert left["better"][lips].mean() < 0.95 * left["plain"][lips].mean()
     assert left["better"].mean() < 1.02 * left["plain"].mean()
 
 
