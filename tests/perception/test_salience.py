@@ -41,11 +41,11 @@ def test_a_thing_is_somebodys_as_a_whole_if_it_reaches_their_hand(media: Callabl
     rgb = read_image(media("fullbody/woman_hat_bag.png")).rgb
     people = people_confidence(rgb, whole=True)
     scale = people.shape[0] / rgb.shape[0]
-    bag = tuple(slice(round(a * scale), round(b * scale)) for a, b in ((720, 860), (120, 200)))
+    bag = tuple(slice(round(a * scale), round(b * scale)) for a, b in ((750, 860), (135, 200)))
     none = np.zeros(rgb.shape[:2], np.bool_)
     assert people[bag].max() < 0.3
     held = with_salience(rgb, people, none, np.array([[230.0, 560.0]]))[bag]
-    assert (held > 0.6).mean() > 0.95
+    assert (held > 0.5).mean() > 0.98
     np.testing.assert_array_equal(with_salience(rgb, people, none, np.array([[470.0, 560.0]]))[bag], people[bag])
 
 
