@@ -221,10 +221,7 @@ def test_the_report_tells_coverage_and_the_files_that_they_are_synthetic(made: M
 
 
 def contents(path: Path) -> dict[str, bytes]:
-    """What a file holds; of a film its frames, which an encoder may write in more than one way; of an archive, which tells when it was
-    made, its members."""
-    if path.suffix == ".mp4":
-        return {path.name: np.stack(read_frames(path)).tobytes()}
+    """What a file holds; of an archive, which tells when it was made, its members."""
     if path.suffix != ".usdz":
         return {path.name: path.read_bytes()}
     with zipfile.ZipFile(path) as archive:
@@ -234,7 +231,10 @@ def contents(path: Path) -> dict[str, bytes]:
 def test_a_second_run_takes_all_stages_from_the_store_and_writes_the_same(made: Made, tmp_path: Path) -> None:
     assert made.again(tmp_path) == [*CAPTURE, "fit_template", "find_attachments", "stitch_texture"]
     for path in made.out.iterdir():
-        if path.name != "report.json":
+        if path.suffix == ".mp4":  # of which an encoder on a busy machine makes more than one
+            one, other = (np.stack(read_frames(film)).astype(int) for film in (path, tmp_path / path.name))
+            assert one.shape == other.shape and np.abs(one - other).mean((1, 2, 3)).max() < 0.5, path.name
+        elif path.name != "report.json":
             assert contents(path) == contents(tmp_path / path.name), path.name
     assert {**made.report, "stages": None} == {**json.loads((tmp_path / "report.json").read_text()), "stages": None}
 

@@ -145,7 +145,7 @@ const english = {
     background: 'Background',
     backdrop: {
       choose: 'Or a picture',
-      name: 'Choose a picture as the background',
+      name: 'Choose a picture to stand before',
       without: 'Back to the plain colour',
     },
     videoSize: 'Size of the video',
