@@ -34,7 +34,7 @@ ROUND = 1.3
 """Radii of what is round within which ends of the axis are no more than its bumps: hair on a head, fingers of a hand."""
 WIDER = 1.3
 """How much wider than what is around it something is that is round."""
-APART = 0.06
+TIPS_APART = 0.06
 """How far ends are apart at least, as a share of the outline's longer side."""
 MIN_LIMB, STICKS_OUT = 0.08, 1.5
 """Length of a limb on the axis, at least: as a share of the outline's longer side, and in radii of the largest disk around the place where
@@ -150,7 +150,7 @@ def _ends(axis: MedialAxis) -> _Ends:
     distance = np.linalg.norm(axis.points[:, None] - axis.points, axis=-1)
     near = distance <= 2 * axis.radius[:, None]
     largest, least = np.where(near, axis.radius, 0).max(1), np.where(near, axis.radius, np.inf).min(1)
-    wide = (axis.radius > APART * axis.size) & (axis.radius > WIDER * least)
+    wide = (axis.radius > TIPS_APART * axis.size) & (axis.radius > WIDER * least)
     round_middles = np.flatnonzero((axis.radius >= largest) & wide)
     away = np.linalg.norm(axis.points - axis.points.mean(0), axis=1) + axis.radius
     kept: list[int] = []
@@ -158,7 +158,7 @@ def _ends(axis: MedialAxis) -> _Ends:
         *sorted(round_middles.tolist(), key=lambda k: -float(axis.radius[k])),
         *sorted(np.flatnonzero(np.diff(axis.graph.indptr) == 1).tolist(), key=lambda k: -float(away[k])),
     ):
-        if all(distance[one, other] > max(ROUND * axis.radius[other], APART * axis.size) for other in kept):
+        if all(distance[one, other] > max(ROUND * axis.radius[other], TIPS_APART * axis.size) for other in kept):
             kept.append(one)
     kept = sorted(kept, key=lambda k: -float(away[k]))
     kept = kept[:MAX_ENDS]

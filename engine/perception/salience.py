@@ -29,13 +29,13 @@ SIDE = 320
 """Pixels of the square that the network looks at."""
 MEAN, DEVIATION = (0.485, 0.456, 0.406), (0.229, 0.224, 0.225)
 """Of the colours in [0, 1] that it was trained on."""
-MARGIN = 0.2
+SURROUNDINGS = 0.2
 """How much of the picture around people it looks at, as a share of their box's longer side."""
 LEAST_SEEN = 16
 """Pixels of people from which there is somebody to look at."""
 SHARE = 0.5
 """Its share in the belief."""
-BESIDE, THICK = 0.012, 0.015
+EDGE_WIDTH, THING_HALF_WIDTH = 0.012, 0.015
 """How far beside people what stands out is no more than a finer edge, and half the width from which on it is a thing beyond that, as
 shares of their height: what is thinner is a foot or a hand that the networks of people miss."""
 HELD, HAND = 0.9, 0.075
@@ -62,15 +62,15 @@ def with_salience(rgb: NDArray[np.uint8], people: Mask, limbs: NDArray[np.bool_]
     small = resized(np.ascontiguousarray(rgb), size)
     rows, columns = bounding_box(seen)
     height = rows.stop - rows.start
-    box = bounding_box(seen, round(MARGIN * max(height, columns.stop - columns.start)))
+    box = bounding_box(seen, round(SURROUNDINGS * max(height, columns.stop - columns.start)))
     salient = people.copy()
     part = np.ascontiguousarray(small[box])
     salient[box] = resized(salience(part), (part.shape[1], part.shape[0]))
     known = resized(limbs.astype(np.float32), size) > 0.5
     belief = (1 - SHARE) * people + SHARE * np.where(known, np.maximum(salient, people), salient)
     at = (np.asarray(hands, np.float64).reshape(-1, 2) + 0.5) * (np.array(size) / rgb.shape[1::-1]) - 0.5
-    things = (salient > 0.5) & (distance_to(seen) > BESIDE * height)
-    reach = max(1, round(THICK * height))
+    things = (salient > 0.5) & (distance_to(seen) > EDGE_WIDTH * height)
+    reach = max(1, round(THING_HALF_WIDTH * height))
     disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))
     thick = cv2.morphologyEx(things.astype(np.uint8), cv2.MORPH_OPEN, disk) > 0
     for thing in pieces_by_area(things, LEAST_SEEN):
@@ -81,7 +81,7 @@ def with_salience(rgb: NDArray[np.uint8], people: Mask, limbs: NDArray[np.bool_]
         within = thing[box]
         whole = not (within[[0, -1]].any() or within[:, [0, -1]].any())
         whole = whole and salient[thing].mean() > WHOLE and thing.sum() < LARGEST_HELD * seen.sum()
-        around = dilate_mask(thing, max(1, round(BESIDE * height))) & ~seen
+        around = dilate_mask(thing, max(1, round(EDGE_WIDTH * height))) & ~seen
         held = whole and away < HAND * height
         belief[around] = np.maximum(belief, HELD * salient)[around] if held else people[around]
     return np.clip(belief, 0, 1).astype(np.float32)

@@ -29,11 +29,11 @@ from engine.motion.clip import Clip
 
 THICK, ROUND = 0.012, 0.03
 """Half a cut-out's thickness, and how far from its edge it has it, as shares of the figure's height on the grid."""
-SURE = 0.9
+OPAQUE = 0.9
 """Share of a pixel that the figure covers from which on its colour is the figure's own."""
 LARGEST_TEXTURE = 2048
 """Texels of the texture's longer side, at most."""
-MARGIN = 6
+MARGIN_PIXELS = 6
 """Texels around the figure."""
 LIMBS = ("Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot")
 BONES = ("Hips", "Spine", "Spine1", "Spine2", "Neck", "Head", *(f"{side}{joint}" for side in SIDES for joint in LIMBS))
@@ -127,8 +127,8 @@ def _bones(figure: Figure, silhouette: Silhouette) -> list[NDArray[np.float64]]:
 
 def _texture(figure: Figure, silhouette: Silhouette, mesh: ClosedMesh) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """The part of the picture that shows the figure, whose colours go on beyond its edge, and each vertex's place on it (V, 2)."""
-    rows, columns = bounding_box(silhouette.alpha > 0.02, MARGIN)
-    own = silhouette.alpha[rows, columns] > SURE
+    rows, columns = bounding_box(silhouette.alpha > 0.02, MARGIN_PIXELS)
+    own = silhouette.alpha[rows, columns] > OPAQUE
     colours = continued_colours(np.ascontiguousarray(figure.rgb[rows, columns]), own)
     size = np.array(colours.shape[1::-1])
     matrix = np.asarray(cv2.invertAffineTransform(silhouette.to_grid))

@@ -20,11 +20,11 @@ from engine.perception.body import BODY_LANDMARKS, FAINT_CONFIDENCE, Body, find_
 
 GREY = 128
 """Of what is before and behind the person."""
-MARGIN = 0.15
+GREY_MARGIN = 0.15
 """Of grey around the person, as a share of the height."""
 LOOKED_AT = 512
 """Pixels of the person's height, at most, when they are looked at: the network makes less of it."""
-APART = 0.06
+LOOKS_APART = 0.06
 """How far apart two looks have a joint that both see, at most, where they agree; as a share of the height."""
 COMPARED = tuple(
     BODY_LANDMARKS.index(f"{side}{joint}")
@@ -64,7 +64,7 @@ def _look(rgb: NDArray[np.uint8], alpha: NDArray[np.floating], mirror: bool) -> 
     scale = min(1.0, LOOKED_AT / person.shape[0])
     size = (max(1, round(person.shape[1] * scale)), max(1, round(person.shape[0] * scale)))
     person = np.asarray(cv2.resize(person, size, interpolation=cv2.INTER_AREA), np.uint8)
-    margin = round(MARGIN * size[1])
+    margin = round(GREY_MARGIN * size[1])
     person = np.pad(person, ((margin, margin), (margin, margin), (0, 0)), constant_values=GREY)
     body = find_body(person[:, ::-1] if mirror else person, FAINT_CONFIDENCE)
     if body is None:
@@ -101,7 +101,7 @@ def _in_agreement(looks: Sequence[Figure], height: float) -> list[Figure]:
 def _agree(one: Figure, other: Figure, height: float) -> bool:
     away = np.linalg.norm(one.points[COMPARED, :] - other.points[COMPARED, :], axis=1)
     seen = np.minimum(one.confidence, other.confidence)[list(COMPARED)] > SEEN
-    return bool((away[seen] < APART * height).all())
+    return bool((away[seen] < LOOKS_APART * height).all())
 
 
 def _mean(group: Sequence[Figure]) -> Figure:

@@ -21,7 +21,7 @@ from engine.imaging.masks.mask_pieces import bounding_box
 
 INSIDE = 1.5
 """Pixels of the grid within the outline from which on its colours are the person's alone."""
-MARGIN = 4
+CROP_MARGIN_PIXELS = 4
 """Pixels of the picture around the person that go into the texture."""
 
 
@@ -82,9 +82,9 @@ class _Beside:
         within = distance_transform_edt(silhouette.alpha > 0.5) > INSIDE / float(silhouette.to_grid[0, 0])
         nearest = distance_transform_edt(~within, return_distances=False, return_indices=True)
         rows, columns = bounding_box(silhouette.alpha > 0.5)
-        self.first = np.array([max(columns.start - MARGIN, 0), max(rows.start - MARGIN, 0)])
+        self.first = np.array([max(columns.start - CROP_MARGIN_PIXELS, 0), max(rows.start - CROP_MARGIN_PIXELS, 0)])
         spread = figure.rgb[nearest[0], nearest[1]][
-            self.first[1] : rows.stop + MARGIN, self.first[0] : columns.stop + MARGIN
+            self.first[1] : rows.stop + CROP_MARGIN_PIXELS, self.first[0] : columns.stop + CROP_MARGIN_PIXELS
         ]
         height, width = chart.shape[:2]
         self.scale = min(1.0, height / spread.shape[0], width / spread.shape[1])

@@ -20,7 +20,7 @@ from engine.character.shell.template_mesh import TemplateMesh
 from engine.geometry.deformation.cotangent_laplacian import cotangent_laplacian
 from engine.geometry.surface import vertex_areas, vertex_normals
 
-ROUNDS = ((400.0, 0.05), (100.0, 0.06), (25.0, 0.07), (6.0, 0.07), (2.0, 0.06), (0.5, 0.05))
+STIFFNESS_SCHEDULE = ((400.0, 0.05), (100.0, 0.06), (25.0, 0.07), (6.0, 0.07), (2.0, 0.06), (0.5, 0.05))
 """How stiff the surface is in each round, and how far within the outline its rim may be, as a share of the person's height."""
 EXTREMITY, HEAD_STIFFER = 25.0, 3.0
 """By how much more hands and feet, and the head, are stiff."""
@@ -59,7 +59,7 @@ def displace(mesh: TemplateMesh, template: NDArray[np.float64], outlines: Outlin
     pictured = template.copy()
     move = np.zeros((len(template), 2))
     vertex = point = np.zeros(0, np.intp)
-    for stiffness, inwards in ROUNDS:
+    for stiffness, inwards in STIFFNESS_SCHEDULE:
         normals = -vertex_normals(pictured, mesh.triangles).astype(np.float64)
         vertex, point = match_outlines(mesh, template, pictured, normals, outlines, inwards)
         outward = outlines.normals[point]

@@ -14,7 +14,7 @@ from engine.character.parts.labels import ARMS, LEGS
 from engine.character.shell.outlines import HEAD, TRUNK, Outlines
 from engine.character.shell.template_mesh import TemplateMesh
 
-RIM = 0.5
+MAX_RIM_NORMAL_DEPTH = 0.5
 """Of a unit normal towards the viewer, at most, on a rim."""
 ALIKE = 0.7
 """Cosine between an outline's normal and that of a rim that may be its."""
@@ -51,7 +51,7 @@ def match_outlines(
     `template` and `pictured` (V, 3): vertices as they were and as they are; `normals` (V, 3) of these, z towards the viewer;
     `inwards`: how far within the outline, as a share of the person's height, a vertex may be.
     """
-    rim = np.flatnonzero((np.abs(normals[:, 2]) < RIM) & ~mesh.eye & ~mesh.ear)
+    rim = np.flatnonzero((np.abs(normals[:, 2]) < MAX_RIM_NORMAL_DEPTH) & ~mesh.eye & ~mesh.ear)
     along = np.arange(-OUTWARDS * HEIGHT, inwards * HEIGHT + STEP, STEP)
     places = outlines.points[:, None] - along[None, :, None] * outlines.normals[:, None]
     tree = cKDTree(pictured[rim, :2])

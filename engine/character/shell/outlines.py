@@ -18,13 +18,13 @@ from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARMS, LEGS
 
 TRUNK, HEAD = BODY_PARTS.index("torso"), BODY_PARTS.index("head")
-LEAST = 60
+LEAST_PART_PIXELS = 60
 """Pixels of a part whose border is looked at."""
 SHORT = 30
 """Pixels of a border that is worth following."""
 SMOOTH = 2.5
 """Pixels over which a border's direction is smoothed."""
-BESIDE = 3.0
+NEIGHBOUR_PIXELS = 3.0
 """Pixels beyond a border at which is looked what is beside it."""
 ABOVE_CROTCH = 0.075
 """How far above the crotch, as a share of the person's height, cloth that hangs is no more the body's."""
@@ -64,10 +64,10 @@ def part_outlines(labels: Labels) -> Outlines:
     found = []
     for part in range(len(BODY_PARTS)):
         own = map_ == part
-        if own.sum() < LEAST:
+        if own.sum() < LEAST_PART_PIXELS:
             continue
         points, normals = border_points(own)
-        x, y = np.rint(points + BESIDE * normals).astype(int).T
+        x, y = np.rint(points + NEIGHBOUR_PIXELS * normals).astype(int).T
         beside = map_[np.clip(y, 0, height - 1), np.clip(x, 0, width - 1)]
         weight, hidden = np.where(beside < 0, 1.0, 0.0), np.zeros(len(points), np.bool_)
         if part in ARMS:

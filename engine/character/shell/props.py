@@ -23,13 +23,13 @@ from engine.render.rasteriser import rasterise
 
 STEP = 2
 """Pixels between the vertices of a piece."""
-LEAST, SMALLEST = 110, 50
+LEAST_SOFT_PIXELS, LEAST_PIXELS = 110, 50
 """Pixels of what is worth being a piece; and of what a hand holds or is on a head."""
 FAR, FAR_FROM_HEAD = 6.0, 3.0
 """How far, in pixels, the furthest of a piece is from the shell at least; the same of a head's, for hair is all around it."""
 WITHIN = 8
 """Pixels by which a piece goes on beneath the shell."""
-RIM = 0.45
+MAX_RIM_NORMAL_DEPTH = 0.45
 """Of a unit normal towards the viewer, at most, on a rim."""
 HELD, WORN, AT_FOOT = 0.35, 0.5, 0.4
 """Share of the rim's nearest vertices that are a hand's, the head's or a foot's where a piece is theirs. At feet nothing is: what is left
@@ -79,12 +79,12 @@ def props_of(
     count, pieces, stats, _ = cv2.connectedComponentsWithStats(rest, connectivity=4)
     away = distance_transform_edt(~covered)
     normals = vertex_normals(pictured, mesh.triangles)
-    rim = np.flatnonzero((np.abs(normals[:, 2]) < RIM) & ~mesh.eye)
+    rim = np.flatnonzero((np.abs(normals[:, 2]) < MAX_RIM_NORMAL_DEPTH) & ~mesh.eye)
     tree = cKDTree(pictured[rim, :2])
     found = []
     for number in range(1, count):
         own = pieces == number
-        if stats[number, cv2.CC_STAT_AREA] < SMALLEST:
+        if stats[number, cv2.CC_STAT_AREA] < LEAST_PIXELS:
             continue
         y, x = np.nonzero(own)
         near = rim[np.asarray(tree.query(np.stack([x, y], 1)[::3])[1])]
@@ -92,7 +92,7 @@ def props_of(
         furthest = float(away[own].max())
         if carrier is None or furthest < (FAR_FROM_HEAD if carrier == "Head" else FAR):
             continue
-        if carrier == "soft" and stats[number, cv2.CC_STAT_AREA] < LEAST:
+        if carrier == "soft" and stats[number, cv2.CC_STAT_AREA] < LEAST_SOFT_PIXELS:
             continue
         reach = (cv2.dilate(own.astype(np.uint8), _disk(WITHIN)) > 0) & mask
         piece = _lens(mesh, pictured, (rim, tree), silhouette, reach, covered, carrier, furthest)

@@ -17,7 +17,7 @@ LEAST_AREA = 0.2
 """Share of its area that a triangle keeps."""
 TOLERANCE = 0.05
 """Share of its area by which a triangle may fall short of that."""
-ROUNDS = 40
+MOST_ROUNDS = 40
 """After so many rounds what is left folded stays so: where the face itself leaves no room."""
 
 
@@ -26,7 +26,7 @@ def unfold(offsets, rest, triangles, held):  # type: ignore[no-untyped-def]
     """Change offsets (V, 2 or more) of vertices `rest` (V, 2), in place, until no triangle (T, 3) with a free one keeps less than
     `LEAST_AREA` of its area; those that are `held` (V,) stay. Returns the rounds that it took."""
     place, gradient = np.zeros((3, 2)), np.zeros((3, 2))
-    for turn in range(ROUNDS):
+    for turn in range(MOST_ROUNDS):
         clean = True
         for t in range(len(triangles)):
             a, b, c = triangles[t]
@@ -60,4 +60,4 @@ def unfold(offsets, rest, triangles, held):  # type: ignore[no-untyped-def]
                         offsets[v, d] += lack / total * gradient[k, d]
         if clean:
             return turn
-    return ROUNDS
+    return MOST_ROUNDS

@@ -11,7 +11,7 @@ import pytest
 from engine.body.fitting.observation import DIRECTED_LIMBS
 from engine.character.figure.figure import Choice, Figure, find_figure
 from engine.character.figure.silhouette import Silhouette, cut_out
-from engine.character.fit.second_look import APART, COMPARED, MIRRORED, look_again
+from engine.character.fit.second_look import COMPARED, LOOKS_APART, MIRRORED, look_again
 from engine.character.fit.template_fit import FOREARMS_NEAR, fit_best, forearms_back
 from engine.character.sample import sample_picture
 from engine.media.image import write_image
@@ -43,7 +43,7 @@ def test_one_who_is_seen_well_is_seen_alike_without_surroundings(seen: Seen) -> 
     looks = look_again(figure, silhouette.alpha)
     assert len(looks) == 1
     away = np.linalg.norm(looks[0].points - figure.points, axis=1)[list(COMPARED)]
-    assert (away < APART * height(silhouette)).all()
+    assert (away < LOOKS_APART * height(silhouette)).all()
 
 
 def test_one_who_was_seen_wrongly_is_fitted_as_they_are_seen_cut_out(seen: Seen) -> None:

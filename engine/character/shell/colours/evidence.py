@@ -36,7 +36,7 @@ BESIDE_ARM, SURE_BESIDE_ARM, LEG_BESIDE_ARM = 2.0, 4.0, 7.0
 """Pixels of the grid from an arm that passes before; a hand's shadow lies on the thigh."""
 OWN = 0.9
 """Alpha from which a pixel's colour is the person's own."""
-RIM, BEYOND = 8.0, 3.0
+RIM_PIXELS, WALL_PIXELS = 8.0, 3.0
 """Pixels of the grid from the outline inward in which there may be wall, and outward from which on there surely is."""
 LIKE, UNLIKE = 0.5, 15.0
 """How much nearer to the wall's colour than to the person's that of a wall is; CIE Lab distance from which both can be told apart."""
@@ -130,7 +130,7 @@ def _walls(silhouette: Silhouette, labels: NDArray[np.integer]) -> NDArray[np.bo
     """The pixels (h, w) near the outline of head and trunk that are like what is beyond it and unlike what is within: where
     the mask takes in some of the wall, between strands of hair above all. Limbs are too thin to have a within."""
     depth, away = distance_inside(silhouette.mask), distance_to(silhouette.mask)
-    within, beyond = depth > RIM, (away > BEYOND) & (away < 3 * RIM)
+    within, beyond = depth > RIM_PIXELS, (away > WALL_PIXELS) & (away < 3 * RIM_PIXELS)
     if not within.any() or not beyond.any():
         return np.zeros_like(silhouette.mask)
     lab = cv2.cvtColor(cv2.GaussianBlur(silhouette.rgb, (0, 0), 1).astype(np.float32) / 255, cv2.COLOR_RGB2LAB)
@@ -138,7 +138,7 @@ def _walls(silhouette: Silhouette, labels: NDArray[np.integer]) -> NDArray[np.bo
     like_wall, like_person = (np.linalg.norm(lab - one, axis=-1) for one in (wall, person))
     apart = np.linalg.norm(wall - person, axis=-1) > UNLIKE
     big = np.isin(labels, (BODY_PARTS.index("head"), BODY_PARTS.index("torso")))
-    return np.asarray(big & (depth <= RIM) & apart & (like_wall < LIKE * like_person))
+    return np.asarray(big & (depth <= RIM_PIXELS) & apart & (like_wall < LIKE * like_person))
 
 
 def _labels_around(labels: NDArray[np.integer], size: int) -> NDArray[np.uint8]:

@@ -31,7 +31,7 @@ HAIRLINE = 0.25
 """How far above the brows hair begins at the earliest, as a share of the way to the crown."""
 HAIR_BEGINS = {"nape": 2.5, "nose": 2.0, "eyes": 1.8, "brow": 1.4, "forehead": 1.0, "crown": 0.0}
 """Radians from the face's middle beyond which hair is, by the height: in front of the nape is the neck, before it the ear."""
-APART = 14.0
+HAIR_FROM_SKIN = 14.0
 """CIE Lab distance, lightness counting 0.7 and hues 1.5, from which hair can be told from skin."""
 NOT_SKIN = 25.0
 """The same, from which a colour is no skin of this face ..."""
@@ -112,7 +112,7 @@ def head_round(
     if cheeks.sum() > FEW and top.sum() > FEW:
         skin, hair = np.median(lab[cheeks], 0), np.median(lab[top], 0)
         from_skin, from_hair = (np.linalg.norm((lab - one) * WEIGHT, axis=-1) for one in (skin, hair))
-        if np.linalg.norm((skin - hair) * WEIGHT) > APART:
+        if np.linalg.norm((skin - hair) * WEIGHT) > HAIR_FROM_SKIN:
             darker = np.minimum(lab - skin, [LIGHTER, np.inf, np.inf])
             bare = (from_skin < from_hair) & (np.linalg.norm(darker * WEIGHT, axis=-1) < NOT_SKIN)
             sides = source & (head.angle > 0.9) & (head.height < level["nose"]) & (head.height > level["chin"])

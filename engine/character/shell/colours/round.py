@@ -44,7 +44,7 @@ ENOUGH = 6.0
 """Cells, as well seen as can be, from which on a row's side is known; with fewer, the nearest row that is says the rest."""
 UNLIKE = 40.0
 """sRGB levels from the mean of a side beyond which a colour counts little in it."""
-ROUNDS = 3
+ROBUST_ROUNDS = 3
 """Times by which a side's mean is freed from what is unlike it."""
 ACROSS = 0.15
 """Metres along a part that are as far as its other side."""
@@ -132,7 +132,7 @@ def _side(seen: NDArray[np.floating], weight: NDArray[np.floating]) -> tuple[NDA
     seen, weight, aside = seen[:, told], weight[:, told], np.abs(SIDEWAYS[told])
     trust = np.asarray(weight, np.float64)
     mean = np.zeros((len(seen), 3))
-    for _ in range(ROUNDS):
+    for _ in range(ROBUST_ROUNDS):
         count = _blurred(trust.sum(1), ROW)
         mean[:] = _blurred(np.einsum("an,anc->ac", trust, seen), ROW) / np.maximum(count, 1e-6)[:, None]
         off = seen - mean[:, None]
