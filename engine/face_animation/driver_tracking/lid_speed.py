@@ -19,25 +19,28 @@ FALLS_SECONDS, RISES_SECONDS = 0.1, 0.2
 
 def slow_lids(meshes: NDArray[np.floating], neutral: int, fps: float) -> None:
     """Hold the lids of meshes (N, 478, 3) to these speeds, in place: upper lids go down to where they have to be, and the skin above them half
-    the way."""
+    the way. The `neutral` frame stays as it is: all others are measured by it."""
     upper, lower = np.array(LID_PAIRS).T
     gap = np.linalg.norm(meshes[:, upper, :2] - meshes[:, lower, :2], axis=-1)
     share = gap / np.maximum(gap[neutral], 1e-6)
     openness = np.stack([share[:, eye + 2 : eye + 5].mean(axis=1) for eye in (0, len(LID_PAIRS) // 2)], axis=1)
-    held = held_openness(openness, fps)
+    held = held_openness(openness, neutral, fps)
     closed = np.repeat(1 - held / np.maximum(openness, 1e-6), len(LID_PAIRS) // 2, axis=1)[..., None]
     way = (closed * (meshes[:, lower] - meshes[:, upper])).astype(meshes.dtype)
     meshes[:, [skin for skin, _ in LID_SKIN]] += 0.5 * way
     meshes[:, upper] += way
 
 
-def held_openness(openness: NDArray[np.floating], fps: float) -> NDArray[np.float64]:
-    """The largest (N, K) below the openness (N, K) of lids, of which 1 is as usual and `CLOSED_GAP_SHARE` is shut, that does not change faster."""
+def held_openness(openness: NDArray[np.floating], neutral: int, fps: float) -> NDArray[np.float64]:
+    """The largest (N, K) below the openness (N, K) of lids, of which 1 is as usual and `CLOSED_GAP_SHARE` is shut, that does not change faster;
+    but for a blink right beside the `neutral` frame, where they are open as they were seen."""
     whole = np.asarray(openness, np.float64)
     frames = np.arange(len(whole))[:, None]
     falls, rises = ((1 - CLOSED_GAP_SHARE) / (seconds * fps) for seconds in (FALLS_SECONDS, RISES_SECONDS))
     shut = np.maximum(np.minimum(whole, 1), CLOSED_GAP_SHARE)  # wide eyes narrow, and shut ones settle, as they do
     before = np.minimum.accumulate((shut + falls * frames)[::-1])[::-1] - falls * frames
     after = np.minimum.accumulate(shut - rises * frames) + rises * frames
-    held = np.minimum(before, after)
+    beside = frames - neutral
+    open_still = 1 - np.where(beside > 0, falls, rises) * np.abs(beside)
+    held = np.maximum(np.minimum(before, after), np.minimum(shut, open_still))
     return np.where(held < shut - 1e-9, held * np.minimum(whole / shut, 1), whole)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.mouth.lip_contours import MIN_TEETH_OPENING
+from engine.face_animation.mouth.lip_contours import LUMINANCE_WEIGHTS, MIN_TEETH_OPENING
 from engine.face_animation.mouth.modelled.modelled_mouth import ModelledMouth
 from engine.face_animation.mouth.modelled.mouth_colours import mouth_colours
 from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
@@ -18,6 +18,7 @@ from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth, appearing_opening, teeth_gain
 from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
 from engine.face_animation.mouth.pictured.teeth_strip import teeth_strip
+from engine.face_animation.skin_colour import skin_colour
 from engine.face_animation.target_face import TargetFace
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
@@ -25,16 +26,21 @@ from engine.perception.landmarks import eye_distance, mouth_opening
 
 
 def target_mouth(target: TargetFace) -> MouthInterior:
-    """The inside of a target's mouth. Where its picture shows crowns of upper teeth, these are it; where it shows anything else, its
-    own is seen until the mouth opens further than in the picture."""
+    """The inside of a target's mouth. Where its picture shows crowns of upper teeth, which are lighter than skin, these are it; where it
+    shows anything else, a tongue or teeth in the dark, its own is seen until the mouth opens further than in the picture."""
     rgb, mesh = target.rgb, target.mesh
     general = frontalise(canonical_face()[None].astype(np.float64))[0]
     at = resting_mouth(frontalise(mesh[None])[0], general)
     if float(mouth_opening(mesh)) > MIN_TEETH_OPENING:
         photo = PicturedFace(rgb, mesh)
         strip = teeth_strip(photo, float(eye_distance(mesh[:, :2])))
-        if strip.has_crowns:
+        if strip.has_crowns and _lightness(strip.usual(), rgb, mesh) > 1:
             colours = mouth_colours(rgb, mesh, strip.usual() * teeth_gain(rgb, mesh, photo, strip))
             none: NDArray[np.float32] = np.zeros((0, *mesh[:, :2].shape), np.float32)  # as large as in the picture
             return PhotoTeeth(at, rgb, mesh, photo, ModelledMouth(at, colours, False), none)
     return ModelledMouth(at, mouth_colours(rgb, mesh), True, appearing_opening(mesh))
+
+
+def _lightness(colour: NDArray[np.floating], rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:
+    """The luminance of a colour (3,), as a share of the skin's."""
+    return float(colour @ LUMINANCE_WEIGHTS) / max(float(skin_colour(rgb, mesh) @ LUMINANCE_WEIGHTS), 1.0)

@@ -14,7 +14,7 @@ from engine.face_animation.motion_transfer.lids_and_lips import CLOSED_GAP_SHARE
 def test_a_blink_of_one_frame_falls_and_rises_as_a_lid_does(fps: float) -> None:
     seen = np.ones((80, 1))
     seen[40] = CLOSED_GAP_SHARE
-    held = held_openness(seen, fps)[:, 0]
+    held = held_openness(seen, 0, fps)[:, 0]
     assert held[40] == pytest.approx(CLOSED_GAP_SHARE)
     moving = np.flatnonzero(held < 1 - 1e-9)
     assert 40 - moving[0] == pytest.approx(FALLS_SECONDS * fps, abs=1)
@@ -25,9 +25,19 @@ def test_a_blink_of_one_frame_falls_and_rises_as_a_lid_does(fps: float) -> None:
 
 def test_what_is_slow_enough_stays_as_it_is() -> None:
     slow = 1 - 0.4 * np.sin(np.linspace(0, np.pi, 60))[:, None] ** 2
-    np.testing.assert_allclose(held_openness(slow, 25.0), slow)
+    np.testing.assert_allclose(held_openness(slow, 0, 25.0), slow)
     wide = np.where(np.arange(60) < 30, 1.4, 1.0)[:, None]
-    np.testing.assert_allclose(held_openness(wide, 25.0), wide, err_msg="eyes that were wide may narrow at once")
+    np.testing.assert_allclose(held_openness(wide, 0, 25.0), wide, err_msg="eyes that were wide may narrow at once")
+
+
+@pytest.mark.parametrize("away", [-3, -1, 1, 3])
+def test_the_frame_that_all_are_measured_by_stays_though_a_blink_is_beside_it(away: int) -> None:
+    seen = np.ones((80, 1))
+    seen[40] = CLOSED_GAP_SHARE
+    held = held_openness(seen, 40 + away, 30.0)[:, 0]
+    assert held[40 + away] == 1 and held[40] == pytest.approx(CLOSED_GAP_SHARE)
+    beyond = np.flatnonzero(held < 1 - 1e-9)
+    assert beyond[-1] > 43 or beyond[0] < 38, "on the other side the lid takes its time"
 
 
 def test_lids_of_meshes_go_down_earlier_and_up_later_and_nothing_else_moves() -> None:
