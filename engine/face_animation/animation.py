@@ -12,7 +12,6 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +31,7 @@ from engine.face_animation.warping.layers import Layers, beyond_border
 from engine.face_animation.warping.unfold import unfold
 from engine.imaging.composite import composite_over, upsample_twice, warp_layer
 from engine.imaging.warping.fold_edges import smooth_folds
+from engine.imaging.window import Window
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import MESH_SIZE, eye_distance
 
@@ -55,23 +55,6 @@ class Parts:
 
 
 ALL_PARTS = Parts()
-
-
-class Window(NamedTuple):
-    """A part of the frame, in pixels; `right` and `bottom` are the first beyond it."""
-
-    left: int
-    top: int
-    right: int
-    bottom: int
-
-    @property
-    def shape(self) -> tuple[int, int]:
-        return self.bottom - self.top, self.right - self.left
-
-    @property
-    def pixels(self) -> tuple[slice, slice]:
-        return slice(self.top, self.bottom), slice(self.left, self.right)
 
 
 @dataclass(frozen=True)
@@ -118,9 +101,11 @@ class FaceAnimation:
         self._target, self._rig, self._track, self._neutral = face, target.rig, track, neutral
         self._options, self._residuals = options, driver.residuals
         opaque = np.full(face.rgb.shape[:2], 255, np.uint8)
-        whole, self._margin = beyond_border(layers.person if parts.layers else np.dstack([face.rgb, opaque]))
+        whole, self._margin = beyond_border(
+            layers.person if parts.layers else np.dstack([face.rgb, opaque]), layers.inner
+        )
         self._person = upsample_twice(whole)
-        self._plate = layers.plate
+        self._plate, self._inner = layers.plate, layers.inner
         self._keep_alpha = layers.transparent and keep_alpha
         self._eyes = EyesAndLids(face) if parts.eyes else None
         self._mouth = (mouth or target_mouth(face)) if parts.hidden else None
@@ -179,7 +164,17 @@ class FaceAnimation:
             self._eyes.draw(frame, face, motion.look)
         if self._mouth is not None:
             self._mouth.draw(frame, face, motion.frame)
+        if self._inner is not None:
+            self._put_frame_before(frame, window, self._inner)
         return np.dstack([frame, layer[..., 3]]) if self._keep_alpha else frame
+
+    def _put_frame_before(self, frame: NDArray[np.uint8], window: Window, inner: Window) -> None:
+        """Whatever moved out of the inner picture is behind what frames it, in a `frame` (h, w, 3) that is a window of the result."""
+        still = self._target.rgb[window.pixels]
+        left, top = max(inner.left - window.left, 0), max(inner.top - window.top, 0)
+        right, bottom = max(inner.right - window.left, 0), max(inner.bottom - window.top, 0)
+        for side in (np.s_[:top], np.s_[bottom:], np.s_[:, :left], np.s_[:, right:]):
+            frame[side] = still[side]
 
 
 def draw_in_order(

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions
-from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget, Window
+from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget
 from engine.face_animation.creases.fine_details import DetailRegion, RatioStrip
 from engine.face_animation.motion_transfer.landmark_residuals import (
     LandmarkResiduals,
@@ -30,6 +30,7 @@ from engine.face_animation.motion_transfer.landmark_residuals import (
 from engine.face_animation.rig import rig_target
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.layers import single_layer
+from engine.imaging.window import Window
 from engine.perception.face_track.face_crop import CROP_SHAPE, crop_place
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.faces import FaceTracker

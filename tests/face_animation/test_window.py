@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 from made_clip import OPENS
 
-from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget, Window
+from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget
 from engine.face_animation.creases.fine_details import keep_ratio_images
 from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.rig import rig_target
 from engine.face_animation.warping.layers import separate_layers
+from engine.imaging.window import Window
 from engine.media.excerpt import Excerpt
 from engine.media.limits import Limits
 from engine.portrait.options import PortraitOptions

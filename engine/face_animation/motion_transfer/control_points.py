@@ -17,6 +17,7 @@ from engine.face_animation.motion_transfer.head_room import head_room
 from engine.geometry.registration.rigid import Similarity
 from engine.geometry.surface import area_vectors, summed_at_corners
 from engine.imaging.warping.delaunay import delaunay
+from engine.imaging.window import Window
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
 
@@ -58,14 +59,17 @@ class ControlPoints:
         return slice(MESH_SIZE + self.peripheral, len(self.points))
 
 
-def place_control_points(mesh: NDArray[np.floating], person: NDArray[np.floating]) -> ControlPoints:
+def place_control_points(
+    mesh: NDArray[np.floating], person: NDArray[np.floating], inner: Window | None = None
+) -> ControlPoints:
     """Control points for a target.
 
     Parameters
     ----------
-    mesh : (478, 3) the target's face, pixels. person : (H, W) mask [0, 1].
+    mesh : (478, 3) the target's face, pixels. person : (H, W) mask [0, 1]. inner : the picture within a frame, which cuts the person.
     """
     height, width = person.shape
+    shown = inner or Window(0, 0, width, height)
     unit = float(eye_distance(mesh[:, :2]))
     spacing = max(PERIPHERY_SPACING * unit, float(np.hypot(height, width)) / 40)
     ys, xs = np.meshgrid(
@@ -91,7 +95,8 @@ def place_control_points(mesh: NDArray[np.floating], person: NDArray[np.floating
     seen = facing(mesh)
     usable = np.concatenate([seen & ~beside_contour(mesh, seen), np.ones(len(points) - MESH_SIZE, bool)])
     usable[list(RIGHT_IRIS + LEFT_IRIS)] = False
-    return ControlPoints(points, len(grid), usable, head_room(mesh, person))
+    room = head_room(mesh[:, :2] - np.array([shown.left, shown.top]), person[shown.pixels])
+    return ControlPoints(points, len(grid), usable, room)
 
 
 def facing(mesh: NDArray[np.floating]) -> NDArray[np.bool_]:

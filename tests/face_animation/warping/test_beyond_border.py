@@ -8,6 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from engine.face_animation.warping.layers import beyond_border
+from engine.imaging.window import Window
 
 
 def head(top: int, colour: tuple[int, int, int] = (90, 60, 30)) -> NDArray[np.uint8]:
@@ -43,3 +44,21 @@ def test_what_is_cut_at_both_corners_goes_on_over_the_whole_width() -> None:
     more, _ = beyond_border(layer)
     assert (more[..., 3] == 255).all()
     assert (more[..., :3] == layer[0, 0, :3]).all()
+
+
+def test_within_a_frame_it_goes_on_from_the_inner_picture() -> None:
+    layer = head(-12)
+    framed = cv2.copyMakeBorder(layer, 25, 15, 3, 2, cv2.BORDER_CONSTANT, value=(255, 255, 255, 0))
+    inner = Window(3, 25, 3 + 200, 25 + 240)
+    alone, beside = beyond_border(layer)
+    more, margin = beyond_border(framed, inner)
+    shift = margin + 25 - beside, margin + 3 - beside
+    np.testing.assert_array_equal(more[shift[0] :, shift[1] :][: len(alone), : alone.shape[1]], alone)
+
+
+def test_lace_in_the_hair_that_is_cut_leaves_no_gap_in_the_cap() -> None:
+    laced = head(-25)
+    laced[:4, 118:122, 3] = 0
+    more, margin = beyond_border(laced)
+    whole, _ = beyond_border(head(-25))
+    np.testing.assert_array_equal(more[: margin - 2], whole[: margin - 2])
