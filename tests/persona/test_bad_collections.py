@@ -20,7 +20,7 @@ from engine.persona.pipeline import make_persona
 from engine.run import Run
 from engine.store import StageStore
 
-OPTIONS = PersonaOptions(size=(96, 120), composite="none")
+OPTIONS = PersonaOptions(size=(96, 120), composite="none", texture_width=97)
 STRANGER = Path(__file__).resolve().parents[2] / "web/public/samples/eileen-collins.jpg"
 
 
