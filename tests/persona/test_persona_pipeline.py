@@ -26,7 +26,9 @@ from engine.run import Run
 from engine.store import StageStore
 
 Collection = tuple[np.ndarray, list[np.ndarray]]
-OPTIONS = PersonaOptions(size=(160, 200), trim=(0.5, 1.1), fps=15, background=(200, 20, 20), composite="none")
+OPTIONS = PersonaOptions(
+    size=(160, 200), trim=(0.5, 1.1), fps=15, background=(200, 20, 20), composite="none", texture_width=97
+)
 
 
 @pytest.fixture(scope="module")
