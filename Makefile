@@ -37,9 +37,11 @@ imports:  ## which package may import which
 PYTEST := OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder --disable-warnings
 
 # Once for all three, which would compile the same at the same time. Python's own, too: where the environment forbids to
-# write it by the way (PYTHONDONTWRITEBYTECODE), each of some hundred services would compile itself anew.
+# write it by the way (PYTHONDONTWRITEBYTECODE), each of some hundred services would compile itself anew, and each of the
+# three all tests, whose assertions pytest rewrites first. What cannot be collected is told where tests are run.
 compiled:
 	@$(BIN)/python -m compileall -q engine galatea galatea_client service shell worker tests
+	@PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --collect-only >/dev/null || true
 	@$(BIN)/python -m scripts.compiled
 
 unit: compiled  ## pytest: engine, service, worker, shell

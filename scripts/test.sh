@@ -22,7 +22,7 @@ for check in lint types imports web-unit; do begin "$check"; done
 for check in lint types imports web-unit compiled; do finish "$check"; done
 begin web-browser
 heading unit
-make --no-print-directory unit || failed+=(unit)
+make --no-print-directory --old-file=compiled unit || failed+=(unit)
 finish web-browser
 
 printf '\n'

@@ -16,7 +16,7 @@ from running import Running
 
 from engine.character.sample import sample_picture
 
-OPTIONS = {"seconds": 1, "vrm": True, "lit": True}
+OPTIONS = {"seconds": 1, "fps": 12, "triangles": 10_000, "vrm": True, "lit": True}
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from running import Running, eventually
 
 from engine.persona.sample import write_sample_photos
 
-OPTIONS = {"size": [160, 200], "trim": [0.5, 0.8], "fps": 10}
+OPTIONS = {"size": [160, 200], "trim": [0.5, 0.8], "fps": 10, "texture_width": 97}
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +92,7 @@ def test_a_persona_of_something_else_is_refused(service: Running, archive: Path)
 def test_a_killed_job_goes_on_from_the_stage_that_is_stored(service: Running, archive: Path) -> None:
     upload = {"file": ("album.zip", archive.read_bytes(), "application/zip")}
     file = service.client.post("/v1/files", files=upload).raise_for_status().json()
-    job = ordered(service, {**OPTIONS, "texture_width": 240}, photos=[file["id"]], driver="happy")
+    job = ordered(service, {**OPTIONS, "texture_width": 160}, photos=[file["id"]], driver="happy")
     eventually(lambda: service.job(job)["progress"]["stage"] == "learn_persona", "its faces are found", seconds=300)
     before = {found: found.stat() for found in (service.data_dir / "jobs" / job / "stages").glob("[!.]*")}
     processes = service.processes("worker.job_process.child")
