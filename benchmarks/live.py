@@ -13,13 +13,13 @@ import json
 import threading
 import time
 from pathlib import Path
-from urllib.parse import urlsplit
 
 import cv2
 import httpx
 import numpy as np
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
 
-from benchmarks.websocket_client import Closed, WebSocket
 from engine.media.video import read_video
 
 CAMERA_SIDE = 640
@@ -45,18 +45,16 @@ def drive(url: str, image: Path, clip: Path, fps: float, seconds: float, keep: P
     with httpx.Client(base_url=url, timeout=60) as client:
         file = client.post("/v1/files", files={"file": (image.name, image.read_bytes())}).raise_for_status().json()
         live = client.post("/v1/live", json={"image": file["id"]}).raise_for_status().json()
-    place = urlsplit(url)
-    assert place.hostname is not None and place.port is not None
     sent: dict[int, float] = {}
     got: list[tuple[float, int]] = []
     ready = threading.Event()
     live_at = [0.0]
-    with WebSocket(place.hostname, place.port, live["stream"], 120) as line:
+    with connect(url.replace("http", "ws", 1) + live["stream"], compression=None, max_size=None, proxy=None) as line:
 
         def take() -> None:
             try:
                 while True:
-                    message = line.receive()
+                    message = line.recv()
                     if isinstance(message, str):
                         event = json.loads(message)
                         print(f"{time.monotonic() - began:6.1f} s {message}")
@@ -69,7 +67,7 @@ def drive(url: str, image: Path, clip: Path, fps: float, seconds: float, keep: P
                     got.append((time.monotonic(), number))
                     if keep is not None:
                         (keep / f"{number:05d}.jpg").write_bytes(message[4:])
-            except (Closed, OSError, ValueError):
+            except ConnectionClosed:
                 ready.set()
 
         began = time.monotonic()

@@ -14,25 +14,11 @@ from typing import Any, cast
 
 import structlog
 from starlette.types import ASGIApp, Scope
+from websockets.frames import CloseCode, Frame, Opcode
+from websockets.protocol import OPEN, Protocol, Side
+from websockets.utils import accept_key
 
 from service.connections.transport import Transport
-from service.connections.websocket_frames import (
-    BINARY,
-    CLOSE,
-    FAILED,
-    NO_STATUS,
-    NORMAL,
-    PING,
-    PONG,
-    PROTOCOL_ERROR,
-    RESTART,
-    TEXT,
-    Message,
-    MessageReader,
-    Violation,
-    accept_key,
-    encoded,
-)
 from service.http import browser
 from service.problems import Problem, phrase
 
@@ -50,7 +36,8 @@ class WebSocketConnection(asyncio.Protocol):
     def __init__(self, app: ASGIApp, scope: Scope, transport: Transport, lost: Callable[[Exception | None], None]):
         """`scope` is that of the HTTP request; `lost` is told when the connection is."""
         self._app, self._http, self._transport, self._lost = app, scope, transport, lost
-        self._reader = MessageReader(MAX_MESSAGE_BYTES)
+        self._protocol = Protocol(Side.SERVER, max_size=MAX_MESSAGE_BYTES)
+        self._opcode, self._parts = Opcode.TEXT, bytearray()  # of the message that comes in
         self._queue: asyncio.Queue[dict[str, Any]] = asyncio.Queue()
         self._state = "asked"  # then open, closing, closed
         self._writable = asyncio.Event()
@@ -69,16 +56,23 @@ class WebSocketConnection(asyncio.Protocol):
             if self._state == "asked":
                 self._give_up()  # nobody may speak before the handshake is answered
             return
-        try:
-            for message in self._reader.feed(data):
-                self._take(message)
-        except Violation as violation:
-            self._end(violation.code, violation.reason)
+        self._protocol.receive_data(data)
+        for frame in self._protocol.events_received():
+            if self._state == "open" and isinstance(frame, Frame):
+                self._take(frame)
+        self._flush()
+        if (
+            self._state == "open" and self._protocol.state is not OPEN
+        ):  # the other side's goodbye, or what breaks the protocol
+            said = self._protocol.close_rcvd or self._protocol.close_sent
+            self._disconnected(int(said.code) if said is not None else CloseCode.ABNORMAL_CLOSURE)
+            self._state = "closing"
+            self._writable.set()
         if self._queue.qsize() >= MAX_WAITING:
             self._transport.pause_reading()
 
     def connection_lost(self, error: Exception | None) -> None:
-        self._disconnected(1006)
+        self._disconnected(CloseCode.ABNORMAL_CLOSURE)
         self._state = "closed"
         self._writable.set()
         self._lost(error)
@@ -94,7 +88,7 @@ class WebSocketConnection(asyncio.Protocol):
     def shutdown(self) -> None:
         """End with the service."""
         if self._state == "open":
-            self._end(RESTART, "the service ends")
+            self._end(CloseCode.SERVICE_RESTART, "the service ends")
         else:
             self._transport.close()
 
@@ -119,12 +113,12 @@ class WebSocketConnection(asyncio.Protocol):
         except Exception:
             structlog.get_logger().exception("websocket_failed")
             if self._state == "open":
-                self._end(FAILED, "internal error")
+                self._end(CloseCode.INTERNAL_ERROR, "internal error")
         finally:
             if self._state == "asked":
                 self._refuse(Problem(500, "internal_error", "The service met a fault of the program."))
             elif self._state == "open":
-                self._end(NORMAL, "")
+                self._end(CloseCode.NORMAL_CLOSURE, "")
 
     async def _receive(self) -> dict[str, Any]:
         message = await self._queue.get()
@@ -145,19 +139,23 @@ class WebSocketConnection(asyncio.Protocol):
         elif kind == "websocket.close" and self._state == "asked":
             self._refuse(Problem(403, "websocket_refused", "The WebSocket was refused."))
         elif kind == "websocket.close" and self._state == "open":
-            self._end(message.get("code", NORMAL), message.get("reason") or "")
+            self._end(message.get("code", CloseCode.NORMAL_CLOSURE), message.get("reason") or "")
 
     async def _write(self, message: dict[str, Any]) -> None:
         await self._writable.wait()
         if self._state != "open":
             return
         data = message.get("bytes")
-        self._transport.write(encoded(TEXT, message["text"].encode()) if data is None else encoded(BINARY, data))
+        if data is None:
+            self._protocol.send_text(message["text"].encode())
+        else:
+            self._protocol.send_binary(data)
+        self._flush()
 
     def _accept(self) -> None:
-        key = dict(self._http["headers"])[b"sec-websocket-key"]
+        answer = accept_key(dict(self._http["headers"])[b"sec-websocket-key"].decode()).encode()
         head = (b"HTTP/1.1 101 Switching Protocols", b"Upgrade: websocket", b"Connection: Upgrade")
-        self._transport.write(b"\r\n".join((*head, b"Sec-WebSocket-Accept: " + accept_key(key), b"", b"")))
+        self._transport.write(b"\r\n".join((*head, b"Sec-WebSocket-Accept: " + answer, b"", b"")))
         self._state = "open"
 
     def _refuse(self, problem: Problem) -> None:
@@ -175,37 +173,50 @@ class WebSocketConnection(asyncio.Protocol):
         self._state = "closed"
         self._transport.close()
 
-    def _take(self, message: Message) -> None:
-        if message.opcode == CLOSE:
-            if self._state == "open":
-                code = int.from_bytes(message.data[:2], "big") if len(message.data) >= 2 else NO_STATUS
-                self._transport.write(encoded(CLOSE, message.data[:2]))
-                self._disconnected(code)
-            self._state = "closed"
-            self._transport.close()
-        elif self._state == "open" and message.opcode == PING:
-            self._transport.write(encoded(PONG, message.data))
-        elif self._state == "open" and message.opcode in (TEXT, BINARY):
-            content = {"text": message.data.decode()} if message.opcode == TEXT else {"bytes": message.data}
-            self._queue.put_nowait({"type": "websocket.receive", **content})
+    def _take(self, frame: Frame) -> None:
+        """Put a message together; pings and goodbyes are answered already."""
+        if frame.opcode in (Opcode.TEXT, Opcode.BINARY):
+            self._opcode, self._parts = frame.opcode, bytearray(frame.data)
+        elif frame.opcode is Opcode.CONT:
+            self._parts += bytes(frame.data)
+        if frame.opcode not in (Opcode.TEXT, Opcode.BINARY, Opcode.CONT) or not frame.fin:
+            return
+        content: dict[str, Any] = {"bytes": bytes(self._parts)}
+        if self._opcode is Opcode.TEXT:
+            try:
+                content = {"text": self._parts.decode()}
+            except UnicodeDecodeError:
+                self._end(CloseCode.INVALID_DATA, "texts are UTF-8")
+                return
+        self._queue.put_nowait({"type": "websocket.receive", **content})
+
+    def _flush(self) -> None:
+        """Write what the protocol has to say, and end the line where it ends."""
+        for data in self._protocol.data_to_send():
+            if data:
+                self._transport.write(data)
+            else:
+                self._state = "closed" if self._state == "closing" else self._state
+                self._transport.close()
 
     def _end(self, code: int, reason: str) -> None:
         """Say goodbye, and wait a moment for the answer."""
         if self._state != "open":
             return
-        self._transport.write(encoded(CLOSE, code.to_bytes(2, "big") + reason.encode()[:120]))
+        self._protocol.send_close(code, reason.encode()[:120].decode(errors="ignore"))
+        self._flush()
         self._state = "closing"
         self._disconnected(code)
         self._writable.set()
         self._transport.resume_reading()
-        asyncio.get_running_loop().call_later(CLOSE_SECONDS if code != PROTOCOL_ERROR else 0, self._transport.close)
+        asyncio.get_running_loop().call_later(CLOSE_SECONDS, self._transport.close)
 
     def _disconnected(self, code: int) -> None:
         self._queue.put_nowait({"type": "websocket.disconnect", "code": code})
 
     def _give_up(self) -> None:
         self._state = "closed"
-        self._disconnected(PROTOCOL_ERROR)
+        self._disconnected(CloseCode.PROTOCOL_ERROR)
         self._transport.abort()
 
 

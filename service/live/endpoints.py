@@ -12,9 +12,9 @@ from anyio.to_thread import run_sync
 from fastapi import APIRouter, Depends, Request, WebSocket
 from starlette.responses import Response
 from starlette.websockets import WebSocketState
+from websockets.frames import CloseCode
 
 from service.auth.caller import Reader, Submitter, caller_of
-from service.connections.websocket_frames import FAILED, NORMAL, RESTART, TOO_LARGE, UNSUPPORTED
 from service.context import Context
 from service.http.json_bodies import RequestModelRoute
 from service.live.outlet import Outlet
@@ -33,10 +33,10 @@ MAX_VIEWERS = 8
 Feed = Callable[[bytes], None]
 """Takes a message of the camera."""
 CLOSE_CODES = {
-    "live_frame_too_large": TOO_LARGE,
-    "live_frame_unreadable": UNSUPPORTED,
-    "live_failed": FAILED,
-    "service_stopping": RESTART,
+    "live_frame_too_large": CloseCode.MESSAGE_TOO_BIG,
+    "live_frame_unreadable": CloseCode.UNSUPPORTED_DATA,
+    "live_failed": CloseCode.INTERNAL_ERROR,
+    "service_stopping": CloseCode.SERVICE_RESTART,
 }
 """With which code of a WebSocket a session's end closes it; all others are in order."""
 
@@ -134,7 +134,7 @@ async def _send(websocket: WebSocket, outlet: Outlet) -> None:
             continue
         await websocket.send_text(json.dumps(message))
         if message["event"] == "ended":
-            await websocket.close(CLOSE_CODES.get(message["code"], NORMAL), message["code"])
+            await websocket.close(CLOSE_CODES.get(message["code"], CloseCode.NORMAL_CLOSURE), message["code"])
             return
 
 

@@ -7,15 +7,16 @@ from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlsplit
 
 import cv2
 import httpx
 import pytest
 from PIL import Image
 from running import Running, eventually
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import ClientConnection
+from websockets.sync.client import connect as open_websocket
 
-from benchmarks.websocket_client import Closed, Refused, WebSocket
 from engine.export.synthetic import XMP_PACKET
 from engine.media.video import read_video
 from engine.performances import video as performance
@@ -52,23 +53,23 @@ def live(service: Running, target: str) -> Iterator[dict[str, Any]]:
     eventually(lambda: not service.processes("worker.live.child"), "its process has ended")
 
 
-def connect(service: Running, path: str, **headers: str) -> WebSocket:
-    place = urlsplit(str(service.client.base_url))
-    assert place.hostname is not None and place.port is not None
-    return WebSocket(place.hostname, place.port, path, 120, **headers)
+def connect(service: Running, path: str, **headers: str) -> ClientConnection:
+    given = {name.replace("_", "-"): value for name, value in headers.items()}
+    address = str(service.client.base_url).replace("http", "ws", 1).rstrip("/") + path
+    return open_websocket(address, additional_headers=given, compression=None, open_timeout=120, proxy=None)
 
 
 def refused(service: Running, path: str, **headers: str) -> tuple[int, str]:
-    with pytest.raises(Refused) as answer:
+    with pytest.raises(InvalidStatus) as answer:
         connect(service, path, **headers)
-    return answer.value.status, json.loads(answer.value.body)["code"]
+    return answer.value.response.status_code, json.loads(answer.value.response.body)["code"]
 
 
-def events(line: WebSocket, until: str) -> list[dict[str, Any]]:
+def events(line: ClientConnection, until: str) -> list[dict[str, Any]]:
     """The events up to one of this name."""
     found: list[dict[str, Any]] = []
     while not found or found[-1]["event"] != until:
-        message = line.receive()
+        message = line.recv(120)
         if isinstance(message, str):
             found.append(json.loads(message))
     return found
@@ -81,21 +82,22 @@ def test_a_picture_follows_the_camera_and_others_look_on(service: Running, live:
         while "ready" not in shown:
             number += 1
             camera.send(number.to_bytes(4, "big") + face)
-            message = camera.receive()
+            message = camera.recv(120)
             while isinstance(message, str):
                 shown[json.loads(message)["event"]] = True
-                message = camera.receive()
+                message = camera.recv(120)
+        assert isinstance(message, bytes)
         assert message[4:6] == b"\xff\xd8" and XMP_PACKET in message
         assert int.from_bytes(message[:4], "big") <= number
         assert Image.open(BytesIO(message[4:])).size == (128, 128)
         assert events(viewer, "ready")
-        assert isinstance(viewer.receive(), bytes)
+        assert isinstance(viewer.recv(120), bytes)
         assert service.client.get(f"/v1/live/{live['id']}").json()["status"] == "live"
         camera.send(b"\0\0\0\1 no picture")
         assert events(camera, "ended")[-1]["code"] == "live_frame_unreadable"
-        with pytest.raises(Closed) as closed:
-            camera.receive()
-        assert closed.value.code == 1003
+        with pytest.raises(ConnectionClosed) as closed:
+            camera.recv(120)
+        assert closed.value.rcvd is not None and closed.value.rcvd.code == 1003
     assert service.client.get(f"/v1/live/{live['id']}").json()["code"] == "live_frame_unreadable"
 
 
@@ -173,4 +175,20 @@ def test_where_keys_are_asked_for_the_handshake_asks_for_one(tmp_path: Path, fac
             live = own.post("/v1/live", json={"image": file["id"]}).raise_for_status().json()
         assert refused(running, live["stream"]) == (401, "key_missing")
         with connect(running, live["stream"], Authorization=f"Bearer {made['token']}") as camera:
-            assert isinstance(camera.receive(), str)
+            assert isinstance(camera.recv(120), str)
+
+
+def test_a_message_in_parts_is_one_and_a_text_that_is_none_ends_it(service: Running, live: dict[str, Any]) -> None:
+    with connect(service, live["stream"]) as camera:
+        camera.send(['{"comm', 'and": "fl', 'y"}'])
+        camera.ping(b"?")
+        assert events(camera, "ended")[-1]["code"] == "live_message_unknown"
+
+
+def test_what_breaks_the_protocol_is_told_by_its_code(service: Running, live: dict[str, Any]) -> None:
+    with connect(service, live["view"]) as viewer:
+        viewer.send(b"\xff\xfe", text=True)
+        with pytest.raises(ConnectionClosed) as closed:
+            while True:
+                viewer.recv(120)
+        assert closed.value.rcvd is not None and closed.value.rcvd.code == 1007
