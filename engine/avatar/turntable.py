@@ -17,7 +17,7 @@ from engine.render.ground_shadow import GroundShadow
 
 FIELD_OF_VIEW = np.radians(28.0)
 """Along the picture's height: a long lens, as for portraits, so that what is near is not large."""
-MARGIN = 1.12
+FRAMING_MARGIN = 1.12
 """By how much more than the avatar the picture holds, in height and in width."""
 EYE_HEIGHT = 0.6
 """Of the avatar's height: where the camera is; it looks at the middle."""
@@ -57,7 +57,7 @@ def orbit_camera(posed: NDArray[np.floating], size: tuple[int, int], angle: floa
     middle = (low + high) / 2
     tall, wide = float(high[1] - low[1]), float(2 * np.hypot(*(posed - middle)[:, [0, 2]].T).max())
     focal = height / 2 / np.tan(FIELD_OF_VIEW / 2)
-    distance = MARGIN * focal * max(tall / height, wide / width) + wide / 2
+    distance = FRAMING_MARGIN * focal * max(tall / height, wide / width) + wide / 2
     away = np.array([distance * np.sin(angle), (EYE_HEIGHT - 0.5) * tall, distance * np.cos(angle)])
     lens = Camera((0.0, 0.0, 0.0), focal, ((width - 1) / 2, (height - 1) / 2), (height, width))
     return lens.aimed(middle + away, middle)

@@ -23,7 +23,14 @@ FLOAT = 5126
 COMPONENT_BYTES = {5121: 1, 5123: 2, 5125: 4, FLOAT: 4}
 COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
-STEPS = {"POSITION": -16, "NORMAL": -10, "TEXCOORD_0": -16, "translation": -16, "rotation": -15, "weights": -12}
+STEP_EXPONENTS = {
+    "POSITION": -16,
+    "NORMAL": -10,
+    "TEXCOORD_0": -16,
+    "translation": -16,
+    "rotation": -15,
+    "weights": -12,
+}
 """The power of two of which each kind of number is a multiple afterwards: 0.015 mm, 0.06 degrees, a sixteenth of a texel of a
 texture of 4096, 0.004 degrees. What is not named stays as it is to the bit."""
 
@@ -44,7 +51,7 @@ class _Use:
 def compressed(glb: bytes) -> bytes:
     """The same file, smaller, for readers that know the extension, which it then requires.
 
-    Triangles may begin at another of their vertices. Raises ValueError for numbers that are too large for `STEPS`: 128 metres.
+    Triangles may begin at another of their vertices. Raises ValueError for numbers that are too large for `STEP_EXPONENTS`: 128 metres.
     """
     length = int.from_bytes(glb[12:16], "little")
     document: Document = json.loads(glb[20 : 20 + length])
@@ -100,11 +107,13 @@ def _steps(document: Document) -> Iterator[tuple[int, int]]:
     for mesh in document.get("meshes", ()):
         for primitive in mesh["primitives"]:
             for attributes in (primitive["attributes"], *primitive.get("targets", ())):
-                yield from ((number, STEPS[name]) for name, number in attributes.items() if name in STEPS)
+                yield from (
+                    (number, STEP_EXPONENTS[name]) for name, number in attributes.items() if name in STEP_EXPONENTS
+                )
     for animation in document.get("animations", ()):
         for channel in animation["channels"]:
             sampler = animation["samplers"][channel["sampler"]]
-            yield sampler["output"], STEPS[channel["target"]["path"]]
+            yield sampler["output"], STEP_EXPONENTS[channel["target"]["path"]]
 
 
 def _triangles(document: Document) -> Iterator[int]:

@@ -9,7 +9,7 @@ from engine.perception.landmarks import eye_distance
 
 SKIN_RING = (164, 167, 393, 18, 200, 92, 322, 186, 410)
 """Vertices on the skin around the mouth."""
-REACH = 0.06
+SAMPLE_RADIUS = 0.06
 """Eye distances about each of them."""
 GREY_SATURATION = 0.06
 """Of skin, below which a picture is black and white."""
@@ -17,7 +17,7 @@ GREY_SATURATION = 0.06
 
 def skin_colour(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:
     """(3,) the mean sRGB of the skin around the mouth of a face at `mesh` (478, 2 or 3) of a picture."""
-    reach = max(round(REACH * float(eye_distance(mesh[:, :2]))), 1)
+    reach = max(round(SAMPLE_RADIUS * float(eye_distance(mesh[:, :2]))), 1)
     patches = []
     for x, y in np.rint(mesh[list(SKIN_RING), :2]).astype(int):
         patch = rgb[max(y - reach, 0) : max(y + reach + 1, 0), max(x - reach, 0) : max(x + reach + 1, 0)]

@@ -24,7 +24,7 @@ FEWEST, FEWEST_SHARE = 8, 0.35
 many as elsewhere, and beside a sheet few."""
 ASKED = 12
 """Points of a sheet that are asked about a place."""
-WIDTH = 0.7
+KERNEL_WIDTH = 0.7
 """Of the Gaussian by which they are asked, in distances of the nearest of them, where that is more than they are apart."""
 
 
@@ -42,7 +42,7 @@ class PointSheet:
         count = min(ASKED, len(self.points))
         found = cKDTree(self.points).query(places, count)
         nearest, which = (np.reshape(one, (-1, count)) for one in found)
-        width = np.maximum(WIDTH * nearest[:, :1], self.spacing)
+        width = np.maximum(KERNEL_WIDTH * nearest[:, :1], self.spacing)
         weights = np.exp((nearest[:, :1] ** 2 - nearest**2) / width**2)
         offsets = np.asarray(places)[:, None] - self.points[which]
         squares = np.einsum("nkd,nkd->nk", offsets, self.normals[which]) ** 2

@@ -25,7 +25,7 @@ Mask = NDArray[np.float32]
 MODEL_FILE = "u2netp.onnx"
 MODEL_SHA256 = "309c8469258dda742793dce0ebea8e6dd393174f89934733ecc8b14c76f4ddd8"
 
-SIDE = 320
+NETWORK_SIDE = 320
 """Pixels of the square that the network looks at."""
 MEAN, DEVIATION = (0.485, 0.456, 0.406), (0.229, 0.224, 0.225)
 """Of the colours in [0, 1] that it was trained on."""
@@ -33,12 +33,12 @@ SURROUNDINGS = 0.2
 """How much of the picture around people it looks at, as a share of their box's longer side."""
 LEAST_SEEN = 16
 """Pixels of people from which there is somebody to look at."""
-SHARE = 0.5
+SALIENCE_SHARE = 0.5
 """Its share in the belief."""
 EDGE_WIDTH, THING_HALF_WIDTH = 0.012, 0.015
 """How far beside people what stands out is no more than a finer edge, and half the width from which on it is a thing beyond that, as
 shares of their height: what is thinner is a foot or a hand that the networks of people miss."""
-HELD, HAND = 0.9, 0.075
+HELD_BELIEF, HAND_REACH = 0.9, 0.075
 """Belief that a thing is somebody's that reaches one of their hands: so far from it at most, as a share of their height."""
 LARGEST_HELD, WHOLE = 0.3, 0.7
 """Size of what is held, as a share of people's, at most, and how surely all of it stands out, in the mean. What goes on beyond what is looked
@@ -67,7 +67,7 @@ def with_salience(rgb: NDArray[np.uint8], people: Mask, limbs: NDArray[np.bool_]
     part = np.ascontiguousarray(small[box])
     salient[box] = resized(salience(part), (part.shape[1], part.shape[0]))
     known = resized(limbs.astype(np.float32), size) > 0.5
-    belief = (1 - SHARE) * people + SHARE * np.where(known, np.maximum(salient, people), salient)
+    belief = (1 - SALIENCE_SHARE) * people + SALIENCE_SHARE * np.where(known, np.maximum(salient, people), salient)
     at = (np.asarray(hands, np.float64).reshape(-1, 2) + 0.5) * (np.array(size) / rgb.shape[1::-1]) - 0.5
     things = (salient > 0.5) & (distance_to(seen) > EDGE_WIDTH * height)
     reach = max(1, round(THING_HALF_WIDTH * height))
@@ -82,14 +82,14 @@ def with_salience(rgb: NDArray[np.uint8], people: Mask, limbs: NDArray[np.bool_]
         whole = not (within[[0, -1]].any() or within[:, [0, -1]].any())
         whole = whole and salient[thing].mean() > WHOLE and thing.sum() < LARGEST_HELD * seen.sum()
         around = dilate_mask(thing, max(1, round(EDGE_WIDTH * height))) & ~seen
-        held = whole and away < HAND * height
-        belief[around] = np.maximum(belief, HELD * salient)[around] if held else people[around]
+        held = whole and away < HAND_REACH * height
+        belief[around] = np.maximum(belief, HELD_BELIEF * salient)[around] if held else people[around]
     return np.clip(belief, 0, 1).astype(np.float32)
 
 
 def salience(rgb: NDArray[np.uint8]) -> Mask:
-    """What stands out (`SIDE`, `SIDE`) of a picture (H, W, 3) that is made a square of that size; in [0, 1]."""
-    square = resized(np.ascontiguousarray(rgb), (SIDE, SIDE)).astype(np.float32) / np.float32(255)
+    """What stands out (`NETWORK_SIDE`, `NETWORK_SIDE`) of a picture (H, W, 3) that is made a square of that size; in [0, 1]."""
+    square = resized(np.ascontiguousarray(rgb), (NETWORK_SIDE, NETWORK_SIDE)).astype(np.float32) / np.float32(255)
     normal = (square - np.array(MEAN, np.float32)) / np.array(DEVIATION, np.float32)
     session = loaded_network()
     tensor = np.ascontiguousarray(normal.transpose(2, 0, 1)[None], np.float32)

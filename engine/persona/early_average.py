@@ -19,7 +19,7 @@ from engine.persona.texture.aligned_photos import align_photos
 from engine.persona.texture.bare_skin import bared
 from engine.persona.texture.texture_frame import texture_frame
 
-SIZE = (244, 194)
+AVERAGE_SIZE = (244, 194)
 """Height and width, pixels."""
 BACKGROUND = (58, 60, 64)
 """Around the face, as around the puppet."""
@@ -35,7 +35,7 @@ class EarlyAverage:
     ) -> None:
         self._out, self._publish = out, publish
         self._distances, self._choice, self._synthetic = distances, choice, synthetic
-        self._frame = texture_frame(canonical_face(), SIZE)
+        self._frame = texture_frame(canonical_face(), AVERAGE_SIZE)
         self._faces: list[PhotoFace] = []
         self._pictures: list[NDArray[np.uint8] | None] = []
         self._wanted = FIRST_SHOWN

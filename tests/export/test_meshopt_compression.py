@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from template_character import still, template_character, walk
 
 from engine.export.glb import CharacterModel, write_glb
-from engine.export.meshopt_compression import EXTENSION, STEPS
+from engine.export.meshopt_compression import EXTENSION, STEP_EXPONENTS
 from engine.geometry.morph_target import morph_target
 from engine.meshopt.attribute_codec import encode_attributes
 from engine.meshopt.filters import encode_exponential
@@ -121,7 +121,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path]:
 def test_a_compressed_character_is_the_same_to_a_hair(files: tuple[Path, Path, Path]) -> None:
     plain, _, again = (Glb(path) for path in files)
     for name in ("POSITION", "NORMAL", "TEXCOORD_0"):
-        assert np.abs(again.attribute(name) - plain.attribute(name)).max() <= 2.0 ** (STEPS[name] - 1), name
+        assert np.abs(again.attribute(name) - plain.attribute(name)).max() <= 2.0 ** (STEP_EXPONENTS[name] - 1), name
     for name in ("JOINTS_0", "WEIGHTS_0"):
         np.testing.assert_array_equal(again.attribute(name), plain.attribute(name))
     np.testing.assert_array_equal(turned_to_smallest(again.triangles()), turned_to_smallest(plain.triangles()))
@@ -129,7 +129,7 @@ def test_a_compressed_character_is_the_same_to_a_hair(files: tuple[Path, Path, P
         assert np.abs(again.posed(name, 0.4) - plain.posed(name, 0.4)).max() < 5e-4, "metres"
     for name in ("POSITION", "NORMAL"):
         one, other = (glb.array(glb.json["meshes"][0]["primitives"][0]["targets"][0][name]) for glb in (plain, again))
-        assert np.abs(one - other).max() <= 2.0 ** (STEPS[name] - 1), name
+        assert np.abs(one - other).max() <= 2.0 ** (STEP_EXPONENTS[name] - 1), name
 
 
 def test_what_is_decoded_is_valid_and_its_bounds_are_right(files: tuple[Path, Path, Path]) -> None:
@@ -140,8 +140,8 @@ def test_what_is_decoded_is_valid_and_its_bounds_are_right(files: tuple[Path, Pa
 def test_it_is_read_here_too(files: tuple[Path, Path, Path]) -> None:
     plain, small, _ = (read_gltf_motion(path, "walk") for path in files)
     assert small.names == plain.names
-    assert np.abs(small.rotations - plain.rotations).max() < 2.0 ** STEPS["rotation"]
-    assert np.abs(small.translations - plain.translations).max() < 2.0 ** STEPS["translation"]
+    assert np.abs(small.rotations - plain.rotations).max() < 2.0 ** STEP_EXPONENTS["rotation"]
+    assert np.abs(small.translations - plain.translations).max() < 2.0 ** STEP_EXPONENTS["translation"]
 
 
 def test_the_extension_is_required_and_pays(files: tuple[Path, Path, Path]) -> None:

@@ -11,7 +11,7 @@ from engine.perception.head_pose import canonical_face
 from engine.perception.identity.descriptor import IdentityDistances
 from engine.persona.collection.photo_face import PhotoFace
 from engine.persona.collection.sorting import Choice
-from engine.persona.early_average import FIRST_SHOWN, SIZE, EarlyAverage
+from engine.persona.early_average import AVERAGE_SIZE, FIRST_SHOWN, EarlyAverage
 
 GREY, OTHER = 120, 250
 PERSON, SOMEBODY = np.float32([1, 0, 0]), np.float32([0, 1, 0])
@@ -39,8 +39,10 @@ def test_it_is_shown_with_every_doubling_and_is_of_the_one_person(tmp_path: Path
     # of twelve photographs eight are the person's: shown at four and at eight of them
     assert len(shown) == 2
     for picture in shown:
-        assert picture.shape[:2] == SIZE
-        middle = picture[SIZE[0] // 2 - 20 : SIZE[0] // 2 + 20, SIZE[1] // 2 - 20 : SIZE[1] // 2 + 20]
+        assert picture.shape[:2] == AVERAGE_SIZE
+        middle = picture[
+            AVERAGE_SIZE[0] // 2 - 20 : AVERAGE_SIZE[0] // 2 + 20, AVERAGE_SIZE[1] // 2 - 20 : AVERAGE_SIZE[1] // 2 + 20
+        ]
         assert middle.min() >= GREY and middle.max() <= GREY + 1
 
 

@@ -19,7 +19,7 @@ from engine.render.sampling import bilinear
 
 SPACING = 0.005
 """Metres between points of the mosaic."""
-MARGIN = 0.5
+MOSAIC_MARGIN = 0.5
 """Metres that it reaches beyond the places that it is made around."""
 MIN_SHOWN_SHARE = 1 / 3
 """Of the frames that have a point in their picture, how many must show it free: beside a foot it is seen from half of all sides,
@@ -105,8 +105,8 @@ def floor_mosaic(
 ) -> FloorMosaic | None:
     """The mosaic around places (N, 3) near the floor; at `height`, or where about zero frames agree most. None where they show
     hardly any of it."""
-    corner = around[:, [0, 2]].min(0) - MARGIN
-    size = np.ceil((around[:, [0, 2]].max(0) + MARGIN - corner) / SPACING).astype(int) + 1
+    corner = around[:, [0, 2]].min(0) - MOSAIC_MARGIN
+    size = np.ceil((around[:, [0, 2]].max(0) + MOSAIC_MARGIN - corner) / SPACING).astype(int) + 1
     columns, rows = np.meshgrid(np.arange(size[0]), np.arange(size[1]))
     places = np.stack([corner[0] + SPACING * columns, np.zeros(columns.shape), corner[1] + SPACING * rows], -1)
     if height is None:

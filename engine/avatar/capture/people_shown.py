@@ -18,7 +18,7 @@ EXAMINED_FRAMES = 12
 """Frames of a clip in which people are looked for, spread over it."""
 POSE_SIDE = 640
 """Pixels of the longer side at which they are looked for."""
-SURE = 0.5
+KNEE_CONFIDENCE = 0.5
 """Confidence from which a knee is in the picture."""
 CLOSE_UP_SHARE, WHOLE_SHARE = 0.1, 0.4
 """Of the frames that show somebody: fewer show knees where the head is filmed, and more where the body is."""
@@ -57,7 +57,7 @@ class PeopleShown:
     def _knee(self, body: Body) -> bool:
         at = [BODY_LANDMARKS.index(f"{side}Knee") for side in SIDES]
         inside = (body.points[at] >= 0).all(1) & (body.points[at] < self.size[::-1]).all(1)
-        return bool((inside & (body.confidence[at] > SURE)).any())
+        return bool((inside & (body.confidence[at] > KNEE_CONFIDENCE)).any())
 
 
 def look_for_people(frames: Sequence[NDArray[np.uint8]]) -> PeopleShown:

@@ -14,9 +14,9 @@ from engine.avatar.landmarks.spatial import FACE_LANDMARKS, SpatialLandmarks
 from engine.avatar.landmarks.view_choice import FROM_THE_FRONT, chosen_views, most_frontal
 from engine.geometry.camera import Camera
 
-REACH = 0.005
+SIGHT_RADIUS = 0.005
 """Metres about a line of sight within which points of the cloud tell how far it goes."""
-DEPTH = 0.015
+SURFACE_DEPTH = 0.015
 """Metres behind the nearest of them within which others are of the same surface."""
 MIN_POINTS = 2
 """Points that must tell so."""
@@ -68,11 +68,11 @@ def onto_cloud(camera: Camera, pixels: NDArray[np.floating], points: NDArray[np.
     out = np.full((len(pixels), 3), np.nan)
     if not len(before):
         return out
-    reach = REACH * camera.focal / float(np.median(projected[before, 2]))
+    reach = SIGHT_RADIUS * camera.focal / float(np.median(projected[before, 2]))
     near = cKDTree(projected[before, :2]).query_ball_point(np.asarray(pixels, np.float64), reach)
     for k, some in enumerate(near):
         depths = np.sort(projected[before[some], 2])
-        surface = depths[depths < depths[0] + DEPTH] if len(depths) else depths
+        surface = depths[depths < depths[0] + SURFACE_DEPTH] if len(depths) else depths
         if len(surface) >= MIN_POINTS:
             out[k] = camera.unproject(np.asarray(pixels[k : k + 1], np.float64), np.median(surface)[None])[0]
     return out

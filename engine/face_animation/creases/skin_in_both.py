@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from engine.perception.face_track.face_crop import CROP_EYES
 from engine.perception.landmarks import FACE_OVAL, LEFT_BROW, LEFT_EYE, LIPS_OUTER, RIGHT_BROW, RIGHT_EYE
 
-STEP = 3
+CELL_PIXELS = 3
 """Pixels of the crop, along each axis, that are looked at as one."""
-UNIT = (CROP_EYES[1][0] - CROP_EYES[0][0]) / STEP
+UNIT = (CROP_EYES[1][0] - CROP_EYES[0][0]) / CELL_PIXELS
 """An eye distance of what is looked at, pixels."""
 LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114], np.float32)
 CHROMA_FLOOR = 48.0
@@ -47,7 +47,9 @@ class SkinInBoth:
         features = _filled(rest, (RIGHT_EYE, LEFT_EYE, LIPS_OUTER), small.shape[:2])
         brows = np.zeros(small.shape[:2], np.float32)
         for brow in (RIGHT_BROW, LEFT_BROW):
-            cv2.fillConvexPoly(brows, cv2.convexHull((rest[list(brow), :2] / STEP).round().astype(np.int32)), 1.0)
+            cv2.fillConvexPoly(
+                brows, cv2.convexHull((rest[list(brow), :2] / CELL_PIXELS).round().astype(np.int32)), 1.0
+            )
         features = np.maximum(
             cv2.dilate(features, _disk(BESIDE_EYE_DISTANCES)), cv2.dilate(brows, _disk(BESIDE_BROW_EYE_DISTANCES))
         )
@@ -65,8 +67,10 @@ class SkinInBoth:
         """(*CROP,) in [0, 1], how far a frame's ratio is one of skin; `origin` (*CROP, 2) is where each pixel of the neutral crop lies in the
         frame's `crop`."""
         small = _small(crop)
-        middle = origin[STEP // 2 :: STEP, STEP // 2 :: STEP][: small.shape[0], : small.shape[1]]
-        places = (middle + np.float32(0.5)) / np.float32(STEP) - np.float32(0.5)
+        middle = origin[CELL_PIXELS // 2 :: CELL_PIXELS, CELL_PIXELS // 2 :: CELL_PIXELS][
+            : small.shape[0], : small.shape[1]
+        ]
+        places = (middle + np.float32(0.5)) / np.float32(CELL_PIXELS) - np.float32(0.5)
         aligned = cv2.remap(small, places[..., 0], places[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         light = _light(np.asarray(aligned))
         ratio = (light + 12) / (self._light + 12)
@@ -94,7 +98,9 @@ def _around(value: NDArray[np.float32]) -> NDArray[np.float32]:
 
 def _small(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
     height, width = rgb.shape[:2]
-    return np.asarray(cv2.resize(rgb, (width // STEP, height // STEP), interpolation=cv2.INTER_AREA), np.uint8)
+    return np.asarray(
+        cv2.resize(rgb, (width // CELL_PIXELS, height // CELL_PIXELS), interpolation=cv2.INTER_AREA), np.uint8
+    )
 
 
 def _light(rgb: NDArray[np.uint8]) -> NDArray[np.float32]:
@@ -113,7 +119,7 @@ def _filled(
     rest: NDArray[np.floating], contours: tuple[tuple[int, ...], ...], shape: tuple[int, ...]
 ) -> NDArray[np.float32]:
     mask = np.zeros(shape, np.float32)
-    cv2.fillPoly(mask, [(rest[list(one), :2] / STEP).round().astype(np.int32) for one in contours], 1.0)
+    cv2.fillPoly(mask, [(rest[list(one), :2] / CELL_PIXELS).round().astype(np.int32) for one in contours], 1.0)
     return mask
 
 

@@ -33,7 +33,7 @@ EDGE_SHARE = 0.02
 SKULL_BEHIND_EARS = 0.35
 """By how much the skull's middle lies behind that between the ears, in lengths from the tip of the nose to there."""
 NOSE_TIP = 4
-SEEN = 0.5
+PERSON_ALPHA = 0.5
 """Of a person's mask, from which on a pixel shows it."""
 
 
@@ -56,7 +56,7 @@ def head_room(mesh: NDArray[np.floating], person: NDArray[np.floating]) -> NDArr
     before, behind = low, np.array([width - 1, height - 1]) - high
     edge = max(1, round(EDGE_SHARE * min(person.shape)))
     sides = person[rows, :edge], person[rows, -edge:], person[:edge, columns].T
-    left, right, above = (float(np.mean(side.max(axis=1) > SEEN)) for side in sides)
+    left, right, above = (float(np.mean(side.max(axis=1) > PERSON_ALPHA)) for side in sides)
     cut = np.array([[right, 0.0], [left, above]])  # a move leaves the border behind that lies opposite
     cut_room = CUT_HAIR_SHARE * np.array([behind, before])
     free = np.array([before, behind])

@@ -15,7 +15,7 @@ from engine.compiled import njit
 
 LEAST_AREA = 0.2
 """Share of its area that a triangle keeps."""
-TOLERANCE = 0.05
+AREA_TOLERANCE = 0.05
 """Share of its area by which a triangle may fall short of that."""
 MOST_ROUNDS = 40
 """After so many rounds what is left folded stays so: where the face itself leaves no room."""
@@ -44,7 +44,7 @@ def unfold(offsets, rest, triangles, held):  # type: ignore[no-untyped-def]
                 place[2, 0] - place[0, 0]
             )
             lack = sign * (LEAST_AREA * whole - area)
-            if lack <= TOLERANCE * sign * whole:
+            if lack <= AREA_TOLERANCE * sign * whole:
                 continue
             clean = False
             total = 1e-6

@@ -17,7 +17,7 @@ from engine.persona.collection.photos import Photos
 TILE = 96
 """Pixels of a face's picture."""
 COLUMNS = 16
-MARGIN = 1.3
+FACE_MARGIN = 1.3
 """Of a face's larger side that is shown."""
 
 
@@ -62,7 +62,7 @@ def write_faces(
 
 def _picture(rgb: NDArray[np.uint8], mesh: NDArray[np.float32]) -> NDArray[np.uint8]:
     low, high = mesh[:, :2].min(axis=0), mesh[:, :2].max(axis=0)
-    scale = TILE / (MARGIN * float((high - low).max()))
+    scale = TILE / (FACE_MARGIN * float((high - low).max()))
     shift = (TILE - 1) / 2 - scale * (low + high) / 2
     matrix = np.array([[scale, 0, shift[0]], [0, scale, shift[1]]])
     flags = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR

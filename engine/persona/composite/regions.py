@@ -12,7 +12,7 @@ from engine.persona.texture.texture_frame import TextureFrame
 
 NOSE = (98, 327, 2, 1, 4, 19, 94, 97, 326, 129, 358, 48, 278)
 """Its tip and wings: nostrils that are a pixel off would be doubled."""
-RIM = (4.0, 16.0)
+RIM_RAMP = (4.0, 16.0)
 """Pixels of a frame 194 wide from the face's rim, between which the skin begins and is whole."""
 EYES, WINGS, LIPS = (3.0, 2.0), (1.0, 1.5), (1.0, 1.5)
 """Pixels of such a frame by which eyes, nose and lips are drawn larger, and over which they pass into the skin."""
@@ -22,7 +22,7 @@ def retouched_skin(frame: TextureFrame) -> NDArray[np.float32]:
     """(H, W) in [0, 1] the skin of a persona's frame: the face without eyes, the nose's tip and wings, and lips, and nothing at its
     rim."""
     inside = cv2.distanceTransform(frame.face.astype(np.uint8), cv2.DIST_L2, 3) * (REFERENCE_WIDTH / frame.size[1])
-    skin = np.clip((inside - RIM[0]) / (RIM[1] - RIM[0]), 0, 1)
+    skin = np.clip((inside - RIM_RAMP[0]) / (RIM_RAMP[1] - RIM_RAMP[0]), 0, 1)
     for contour, reach in ((RIGHT_EYE, EYES), (LEFT_EYE, EYES), (NOSE, WINGS), (LIPS_OUTER, LIPS)):
         skin = skin * (1 - _grown(frame, contour, reach))
     return np.asarray(skin, np.float32)

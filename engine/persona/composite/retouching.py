@@ -27,7 +27,7 @@ from engine.persona.texture.texture_frame import TextureFrame, sampled
 
 MAX_DIFFERENCE = 45.0
 """Grey levels by which creases may change the skin."""
-BAND = (1.2, 6.0)
+DETAIL_BAND = (1.2, 6.0)
 """Pixels of a frame 194 wide: what is finer than the one and coarser than the other, contrast is not told by."""
 CONTRAST_RANGE = (0.8, 1.5)
 """Of the photograph over the persona, whose means have less of it."""
@@ -106,7 +106,7 @@ def retouching_of(persona: Persona, photo: FacePhoto, base: NDArray[np.uint8], g
 
 
 def _contrast(grey: NDArray[np.float32], where: NDArray[np.bool_], unit: float) -> float:
-    fine, coarse = (cv2.GaussianBlur(grey, (0, 0), sigma * unit) for sigma in BAND)
+    fine, coarse = (cv2.GaussianBlur(grey, (0, 0), sigma * unit) for sigma in DETAIL_BAND)
     return float((fine - coarse)[where].std()) if where.any() else 1.0
 
 

@@ -13,7 +13,7 @@ from engine.face_animation.skin_colour import skin_colour
 from engine.persona.eyes.eyeball import CAP
 from engine.persona.persona import Persona
 
-SIZE = 192
+TEXTURE_SIZE = 192
 """Pixels of its side."""
 MIN_EYE_WIDTH = 28.0
 """Pixels of a photograph's eye whose iris is more than a blot."""
@@ -50,7 +50,7 @@ def _both(
         seen = number if found[number] is not None else 1 - number
         eye = found[seen]
         if eye is None:
-            out[side] = np.full((SIZE, SIZE, 3), 128, np.uint8)
+            out[side] = np.full((TEXTURE_SIZE, TEXTURE_SIZE, 3), 128, np.uint8)
             continue
         iris = mesh[EYE_VERTICES[seen][1][0], :2] - eye.corner
         out[side] = texture_of(eye, iris, radii[side] * eye.width, gain)
@@ -59,7 +59,7 @@ def _both(
 
 def texture_of(eye: EyeLayer, iris: NDArray[np.floating], radius: float, gain: float) -> NDArray[np.uint8]:
     """`iris` (2,) : its middle in the layer, pixels. `radius` : of the eyeball, pixels of the layer."""
-    places = (np.arange(SIZE) + 0.5) / SIZE * 2 - 1
+    places = (np.arange(TEXTURE_SIZE) + 0.5) / TEXTURE_SIZE * 2 - 1
     x, y = np.meshgrid(places, places)
     share = np.hypot(x, y)
     angle = np.minimum(share, 1) * CAP

@@ -21,11 +21,11 @@ from engine.persona.texture.texture_frame import sampled
 
 GAIN_RANGE = (0.4, 2.5)
 """By which light may change."""
-REACH = 1.3
+LIGHT_FALLOFF = 1.3
 """Eye distances from the face at which a third of its change is left: hair and neck go along, a wall behind them does not."""
 LEAST_STRENGTH = 0.12
 """Of a light from a side (`DirectedLight.strength`) that is seen to come from there."""
-SPREAD = 0.35
+RIM_LIGHT_WIDTH = 0.35
 """Eye distances over which what is beside the face takes the light of its rim."""
 
 
@@ -62,8 +62,8 @@ def relit(persona: Persona, photo: FacePhoto, texture: NDArray[np.floating]) -> 
     found = cv2.remap(gain, at[..., 0], at[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     known = at[..., 0] >= 0
     unit = float(eye_distance(photo.mesh[:, :2]))
-    beside = cv2.GaussianBlur(nearest_values(np.asarray(found, np.float32), known), (0, 0), SPREAD * unit)
-    away = cv2.distanceTransform((~known).astype(np.uint8), cv2.DIST_L2, 3) / (REACH * unit)
+    beside = cv2.GaussianBlur(nearest_values(np.asarray(found, np.float32), known), (0, 0), RIM_LIGHT_WIDTH * unit)
+    away = cv2.distanceTransform((~known).astype(np.uint8), cv2.DIST_L2, 3) / (LIGHT_FALLOFF * unit)
     gains = 1 + np.exp(-(away**2))[..., None] * (np.asarray(beside) - 1)
     return np.asarray((photo.rgb + np.float32(DARK)) * gains - np.float32(DARK), np.float32)
 

@@ -21,7 +21,7 @@ from engine.perception.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE
 VERTICES = 478
 REST_GAP = 0.01
 """Eye distances: openings that are narrower at rest are shut then, and stay as they are."""
-HELD = 0.3
+ANCHOR_STIFFNESS = 0.3
 """How much a vertex is held in its place, beside a bending of one: half of a correction is gone a few vertices away."""
 HEAVY = 4.0
 """How much more lower lids and upper lips are held: lids shut from above, and jaws from below."""
@@ -61,7 +61,7 @@ def _openings() -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]
     upper, lower = np.array(pairs).T
     beside = neighbours(face_triangles(), VERTICES)
     bending = sp.diags_array(beside.sum(axis=1)) - beside
-    weight = np.full(VERTICES, HELD**2)
+    weight = np.full(VERTICES, ANCHOR_STIFFNESS**2)
     weight[np.concatenate([upper[: len(LIPS_INNER) // 2 - 1], lower[len(LIPS_INNER) // 2 - 1 :]])] *= HEAVY
     gaps = np.zeros((len(pairs), VERTICES))
     gaps[np.arange(len(pairs)), lower], gaps[np.arange(len(pairs)), upper] = 1, -1

@@ -33,7 +33,7 @@ MAX_FACTOR = 2.5
 """And its inverse: no face is so unlike another."""
 MIN_TRUST = 1e-3
 """Of points that do not move, and so tell nothing: they take the factors of those about them, not these theirs."""
-REACH = 2
+NEIGHBOURHOOD_PIXELS = 2
 """Pixels of that field about a point among which a nearer one is sought."""
 COARSENESS = 2
 """Pixels of the frame for one of the field in which factors are told."""
@@ -146,8 +146,13 @@ def _told(
             while nearer:
                 nearer = False
                 middle_row, middle_column = row, column
-                for r in range(max(middle_row - REACH, 0), min(middle_row + REACH + 1, height)):
-                    for c in range(max(middle_column - REACH, 0), min(middle_column + REACH + 1, width)):
+                for r in range(
+                    max(middle_row - NEIGHBOURHOOD_PIXELS, 0), min(middle_row + NEIGHBOURHOOD_PIXELS + 1, height)
+                ):
+                    for c in range(
+                        max(middle_column - NEIGHBOURHOOD_PIXELS, 0),
+                        min(middle_column + NEIGHBOURHOOD_PIXELS + 1, width),
+                    ):
                         apart = _squared(points, r, c, px, py, pz)
                         if covered[r, c] and apart < best:
                             row, column, best, nearer = r, c, apart, True

@@ -35,13 +35,13 @@ from engine.render.rasteriser import Raster, rasterise
 
 PIXELS_PER_METRE = 5000.0
 """Of the picture in which the template is looked at."""
-MARGIN = 0.01
+VIEW_MARGIN = 0.01
 """Metres about the laid face that it shows."""
 MOUTH_REACH = 0.012
 """Metres above and below the laid mouth within which the template's is sought."""
 LIP_STEP = 0.003
 """Metres by which an open jaw moves one lip farther than the other: where it is less, nothing parts."""
-BESIDE = 4.0
+PARTED_SKIN_PIXELS = 4.0
 """Pixels from where lids or lips part to the skin that is looked up."""
 CREVICE_PIXELS, CREVICE_DEPTH = 15, 0.015
 """Pixels about a place and metres that it is deeper than the highest there: between closed lips the throat is seen."""
@@ -87,7 +87,9 @@ def mesh_units(template: Template, space: BodySpace) -> MeshUnits:
     view = _front_view(template, space.mean.astype(np.float64), laid)
     bent = _on_their_side(view, _bent(view, view.pixels(laid)[:, :2]), 1.0)
     at = np.clip(
-        np.rint(_on_their_side(view, bent + _lids_aside(bent), BESIDE)), 0, np.array(view.shown.shape[::-1]) - 1
+        np.rint(_on_their_side(view, bent + _lids_aside(bent), PARTED_SKIN_PIXELS)),
+        0,
+        np.array(view.shown.shape[::-1]) - 1,
     ).astype(int)
     rows, columns = view.nearest_skin[:, at[:, 1], at[:, 0]]
     corners, weights = view.triangles[view.shown[rows, columns]], view.raster.barycentrics[rows, columns]
@@ -142,8 +144,8 @@ def _front_view(template: Template, mean: NDArray[np.float64], laid: NDArray[np.
     spans = [slice(*template.parts[part]) for part in ("body", *EYEBALLS)]
     triangles = triangulate(np.concatenate([template.quads[span] for span in spans]))
     eyeballs = np.concatenate([template.vertices_of(part) for part in EYEBALLS])
-    low = np.array([laid[:, 0].min() - MARGIN, laid[:, 1].max() + MARGIN])
-    size = (np.ptp(laid[:, [1, 0]], axis=0) + 2 * MARGIN) * PIXELS_PER_METRE
+    low = np.array([laid[:, 0].min() - VIEW_MARGIN, laid[:, 1].max() + VIEW_MARGIN])
+    size = (np.ptp(laid[:, [1, 0]], axis=0) + 2 * VIEW_MARGIN) * PIXELS_PER_METRE
     blank = np.zeros((0, 0))
     view = _FrontView(Raster(*[blank] * 3), triangles, low, blank, blank.astype(np.bool_))  # type: ignore[arg-type]
     raster = rasterise(view.pixels(mean), triangles, (int(size[0]), int(size[1])), cull=True)
@@ -196,8 +198,8 @@ def _lids_aside(places: NDArray[np.float64]) -> NDArray[np.float64]:
     """(478, 2) from lids onto the skin beside the opening: up from upper ones, down from lower ones."""
     out = np.zeros_like(places)
     for contour in EYES.values():
-        out[list(contour[1:8]), 1] = -BESIDE
-        out[list(contour[9:]), 1] = BESIDE
+        out[list(contour[1:8]), 1] = -PARTED_SKIN_PIXELS
+        out[list(contour[9:]), 1] = PARTED_SKIN_PIXELS
     return out
 
 

@@ -17,7 +17,7 @@ PIXELS = 64
 """Of an eye distance, in the pictures in which it is looked at."""
 HALF = 2.5
 """Eye distances from between the eyes that these show."""
-MARGIN = 0.015
+SKIN_CLEARANCE = 0.015
 """Eye distances by which everything stays behind the skin: a millimetre."""
 
 
@@ -37,7 +37,7 @@ class BehindSkin:
             inside = (rows >= 0) & (rows < len(depths)) & (columns >= 0) & (columns < len(depths))
             skin = np.where(inside, depths[rows.clip(0, len(depths) - 1), columns.clip(0, len(depths) - 1)], np.inf)
             covered = np.isfinite(skin)
-            needed[covered] = np.maximum(needed[covered], (skin + MARGIN - places[:, 2])[covered])
+            needed[covered] = np.maximum(needed[covered], (skin + SKIN_CLEARANCE - places[:, 2])[covered])
         return needed
 
     @cached_property

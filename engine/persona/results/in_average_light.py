@@ -17,7 +17,7 @@ from engine.persona.light.relighting import over_photo, regenerated, relit
 from engine.persona.persona import Persona
 from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
 
-RIM = (2.0, 14.0)
+RIM_RAMP = (2.0, 14.0)
 """Pixels of a frame 194 wide from the face's rim, between which the mixture begins and is whole."""
 OPENINGS = (RIGHT_EYE, LEFT_EYE, LIPS_INNER)
 OPENING_SIGMA = 0.015
@@ -33,7 +33,7 @@ def in_average_light(persona: Persona, photo: FacePhoto) -> NDArray[np.uint8]:
     lit = relit(persona, photo, mixed)
     face = persona.frame.face.astype(np.uint8)
     inside = cv2.distanceTransform(face, cv2.DIST_L2, 3) * (REFERENCE_WIDTH / face.shape[1])
-    share = np.clip((inside - RIM[0]) / (RIM[1] - RIM[0]), 0, 1).astype(np.float32)
+    share = np.clip((inside - RIM_RAMP[0]) / (RIM_RAMP[1] - RIM_RAMP[0]), 0, 1).astype(np.float32)
     covered = cv2.remap(share, at[..., 0], at[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
     covered = np.asarray(covered, np.float32) * (1 - _openings(photo))
     there = cv2.remap(mixed, at[..., 0], at[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)

@@ -35,7 +35,7 @@ EVEN_COLUMNS = 4
 JAW_MOVES = ("jawForward", "jawLeft", "jawRight")
 """Face units that move a jaw as it is."""
 BAG_DEEPER = 1.5
-APART = np.array([0, 0, 2e-3])
+LAYER_GAP = np.array([0, 0, 2e-3])
 """Eye distances behind the skin at which what is tied to it begins: at one place with it, both would be shaded as one surface."""
 RIM_SHARE = 0.5
 """Of the skin's light, that the rims of lids have, which lie in their shade."""
@@ -78,7 +78,7 @@ def _eyes(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
         name = f"{side.lower()}_eye"
         parts.append(InnerPart(name, ball.vertices, ball.triangles, ball.uv, textures[side], looks))
         contour = list(EYES[side][0])
-        rim, triangles = lid_rim(relief[contour] + APART)
+        rim, triangles = lid_rim(relief[contour] + LAYER_GAP)
         moves = {unit: np.tile(moved[contour], (2, 1)) for unit, moved in zip(units.names, units.moved, strict=True)}
         flat = np.broadcast_to(shade, (8, 8, 3)).copy()
         parts.append(InnerPart(f"{name}_rim", rim, triangles, np.full((len(rim), 2), 0.5, np.float32), flat, moves))
@@ -111,7 +111,7 @@ def _mouth(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
     lying = _set_back(flesh.vertices, skin, with_jaw(flesh.vertices, TONGUE_SHARE))
     out = {"tongueOut": tongue_put_out(), **with_jaw(lying, TONGUE_SHARE)}
     triangles, uv = bag_surface()
-    lips = puppet.vertices(persona.neutral)[list(LIPS_INNER)] + APART
+    lips = puppet.vertices(persona.neutral)[list(LIPS_INNER)] + LAYER_GAP
     bag = mouth_bag(lips, BAG_DEEPER)
     follows = {
         unit: mouth_bag(lips + moved[list(LIPS_INNER)], BAG_DEEPER) - bag

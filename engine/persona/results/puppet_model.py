@@ -26,7 +26,7 @@ NECK = (0.0, -0.9, 1.3)
 """About where a head turns, in eye distances from between the eyes, in the axes of pictures."""
 ROUGHNESS = 0.5
 """Of eyes, teeth and tongue, which are moist."""
-LEAST = 1e-4
+MIN_OFFSET = 1e-4
 """Metres that a unit moves a vertex by, at least."""
 
 
@@ -55,7 +55,7 @@ def write_puppet(path: Path, persona: Persona, units: FaceUnits, texture: NDArra
     morphs = []
     for unit in FACE_UNITS:
         moved = np.concatenate([part.moved.get(unit, np.zeros_like(part.vertices)) for part in parts])
-        morphs.append(morph_target(unit, moved @ metres, LEAST))
+        morphs.append(morph_target(unit, moved @ metres, MIN_OFFSET))
     materials = [Material("skin"), Material("inside", atlas, alpha="MASK", roughness=ROUGHNESS)]
     material_of = np.repeat([0, 1], [len(parts[0].triangles), sum(len(part.triangles) for part in inside)])
     model = CharacterModel(mesh, unlit=False, morphs=morphs, materials=materials, material_of=material_of)

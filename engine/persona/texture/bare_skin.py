@@ -24,7 +24,7 @@ from engine.perception.landmarks import BROWS, LEFT_EYE, LIPS_INNER, LIPS_OUTER,
 from engine.persona.texture.aligned_photos import AlignedPhotos
 from engine.persona.texture.texture_frame import TextureFrame
 
-WIDTH = 72
+MAP_WIDTH = 72
 """Pixels of the pictures in which skin is told from what is not."""
 LIGHT_VARIANCE = 9.0
 """Levels squared (CIE Lab) that both mixtures are widened by: the same matter in another light."""
@@ -103,7 +103,7 @@ class BareSkin:
         middle *= rows > min(float(brow[:, 1].min()) for brow in brows)
         beyond = frame.covered & (_grown(frame.face.astype(np.uint8), RIM_MARGIN * width) == 0)
         around = beyond & (rows < places[list(LIPS_INNER), 1].mean())
-        size = WIDTH, round(height * WIDTH / width)
+        size = MAP_WIDTH, round(height * MAP_WIDTH / width)
         return tuple(
             cv2.resize(one.astype(np.uint8), size, interpolation=cv2.INTER_NEAREST) > 0
             for one in (frame.covered, middle * (1 - features), around, middle, hairy)

@@ -10,7 +10,7 @@ from engine.body.face.face_capture import MAX_GAZE_TRAVEL
 from engine.face_animation.eyes.eyeball import prepare_eyes
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
-from engine.persona.eyes.eye_texture import SIZE, texture_of
+from engine.persona.eyes.eye_texture import TEXTURE_SIZE, texture_of
 from engine.persona.eyes.eyeball import CAP, EYES, eyeball, lid_rim
 
 FACE = frontalise(canonical_face()[None].astype(np.float64))[0]
@@ -67,9 +67,9 @@ def test_an_iris_is_completed_to_its_disk() -> None:
     ball_radius = 0.56 * eye.width
     texture = texture_of(eye, mesh[EYES["Right"][1][0], :2] - eye.corner, ball_radius, 1.0).astype(int)
     iris_radius = float(np.linalg.norm(mesh[EYES["Right"][1][1], :2] - mesh[EYES["Right"][1][0], :2]))
-    reach = np.arcsin(iris_radius / ball_radius) / CAP * SIZE / 2
+    reach = np.arcsin(iris_radius / ball_radius) / CAP * TEXTURE_SIZE / 2
     angle = np.linspace(0, 2 * np.pi, 32, endpoint=False)
     for share, green in ((0.7, True), (1.5, False)):
-        at = np.rint(SIZE / 2 + share * reach * np.column_stack([np.cos(angle), np.sin(angle)])).astype(int)
+        at = np.rint(TEXTURE_SIZE / 2 + share * reach * np.column_stack([np.cos(angle), np.sin(angle)])).astype(int)
         colours = texture[at[:, 1], at[:, 0]]
         assert ((colours[:, 1] - colours[:, 0] > 20) == green).all(), "all around, under the lids too"

@@ -17,7 +17,7 @@ ROUND_ENDS = 0.12
 """Of the width at either corner, over which rims keep the template's rounding: landmarks of lids meet there in a point."""
 WITHOUT_INNER_CORNER = 0.8
 """Of the width from the outer corner, within which the template's rims are the outline; farther in is flesh."""
-STEPS = np.linspace(ROUND_ENDS, 1 - ROUND_ENDS, 9)
+OUTLINE_SHARES = np.linspace(ROUND_ENDS, 1 - ROUND_ENDS, 9)
 """Shares of the width at which outlines are compared."""
 
 
@@ -87,8 +87,8 @@ def within(rim: NDArray[np.floating], own: EyeOutline, other: EyeOutline) -> NDA
     low, high = own.lids(share)
     height = np.clip((rim[:, 1] - low) / np.maximum(high - low, 1e-9), 0, 1)
     raised = []
-    for mine, theirs in zip(own.lids(STEPS), other.lids(STEPS), strict=True):
-        off = (theirs - other.level(STEPS)) - scale * (mine - own.level(STEPS))
-        raised.append(np.interp(share, [0, *STEPS, 1], [0, *off, 0]))
+    for mine, theirs in zip(own.lids(OUTLINE_SHARES), other.lids(OUTLINE_SHARES), strict=True):
+        off = (theirs - other.level(OUTLINE_SHARES)) - scale * (mine - own.level(OUTLINE_SHARES))
+        raised.append(np.interp(share, [0, *OUTLINE_SHARES, 1], [0, *off, 0]))
     up = other.level(share) + scale * (rim[:, 1] - own.level(share))
     return np.stack([other.outer[0] - share * other.width, up + raised[0] + height * (raised[1] - raised[0])], 1)
