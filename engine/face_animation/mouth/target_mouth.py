@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from engine.face_animation.mouth.lip_contours import LUMINANCE_WEIGHTS, MIN_TEETH_OPENING
 from engine.face_animation.mouth.modelled.modelled_mouth import ModelledMouth
 from engine.face_animation.mouth.modelled.mouth_colours import mouth_colours
+from engine.face_animation.mouth.modelled.picture_softness import picture_softness
 from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth, appearing_opening, teeth_gain
@@ -30,15 +31,15 @@ def target_mouth(target: TargetFace) -> MouthInterior:
     shows anything else, a tongue or teeth in the dark, its own is seen until the mouth opens further than in the picture."""
     rgb, mesh = target.rgb, target.mesh
     general = frontalise(canonical_face()[None].astype(np.float64))[0]
-    at = resting_mouth(frontalise(mesh[None])[0], general)
+    at, softness = resting_mouth(frontalise(mesh[None])[0], general), picture_softness(rgb, mesh)
     if float(mouth_opening(mesh)) > MIN_TEETH_OPENING:
         photo = PicturedFace(rgb, mesh)
         strip = teeth_strip(photo, float(eye_distance(mesh[:, :2])))
         if strip.has_crowns and _lightness(strip.usual(), rgb, mesh) > 1:
             colours = mouth_colours(rgb, mesh, strip.usual() * teeth_gain(rgb, mesh, photo, strip))
             none: NDArray[np.float32] = np.zeros((0, *mesh[:, :2].shape), np.float32)  # as large as in the picture
-            return PhotoTeeth(at, rgb, mesh, photo, ModelledMouth(at, colours, False), none)
-    return ModelledMouth(at, mouth_colours(rgb, mesh), True, appearing_opening(mesh))
+            return PhotoTeeth(at, rgb, mesh, photo, ModelledMouth(at, colours, False, softness=softness), none)
+    return ModelledMouth(at, mouth_colours(rgb, mesh), True, appearing_opening(mesh), softness)
 
 
 def _lightness(colour: NDArray[np.floating], rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:

@@ -51,8 +51,9 @@ class Arch:
         return np.stack([side * px, pz], -1), np.stack([side * -dz, dx], -1)
 
 
-def build_dentition(arch: Arch, detail: float = 1.0, seed: int = 3) -> Dentition:
-    """The crowns and the gum of one jaw; `detail` scales the fineness of the mesh, not its shape."""
+def build_dentition(arch: Arch, detail: float = 1.0, seed: int = 3, unevenness: float = 1.0) -> Dentition:
+    """The crowns and the gum of one jaw; `detail` scales the fineness of the mesh, not its shape, `unevenness` by how much single
+    crowns are tilted, longer and further out than their neighbours."""
     rng = np.random.default_rng(seed)
     sizes = UPPER_CROWNS if arch.up < 0 else LOWER_CROWNS
     pieces = []
@@ -61,7 +62,7 @@ def build_dentition(arch: Arch, detail: float = 1.0, seed: int = 3) -> Dentition
         for number, (width, height) in enumerate(sizes):
             middle = reached + width / 2000
             reached += width / 1000 * 0.985
-            pieces.append(_crown(arch, side * middle, width / 2000, height / 1000, number, detail, rng))
+            pieces.append(_crown(arch, side * middle, width / 2000, height / 1000, number, detail, rng, unevenness))
     pieces.append(_gum(arch, sizes, detail))
     counts = np.cumsum([0, *(len(p[0]) for p in pieces)])
     return Dentition(
@@ -76,8 +77,9 @@ Piece = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64], float
 
 
 def _crown(
-    arch: Arch, middle: float, half: float, height: float, number: int, detail: float, rng: np.random.Generator
-) -> Piece:
+    arch: Arch, middle: float, half: float, height: float, number: int, detail: float, rng: np.random.Generator,
+    unevenness: float,
+) -> Piece:  # fmt: skip
     """One crown: rounded sections stacked from under the gum to the biting edge."""
     levels, sectors = round(18 * detail), round(28 * detail)
     t = np.linspace(-0.25, 1, levels)[:, None]
@@ -100,12 +102,12 @@ def _crown(
     across = a * np.sign(cos) * np.abs(cos) ** power
     out = b * np.sign(sin) * np.abs(sin) ** power
     lean = 0.0022 * (grown - 0.35 * grown**2) - 0.0011  # crowns lean outwards and curve back to the edge
-    tilt = np.radians(rng.normal(0, 1.6))
-    height = height * (1 + rng.normal(0, 0.012))
+    tilt = np.radians(unevenness * rng.normal(0, 1.6))
+    height = height * (1 + unevenness * rng.normal(0, 0.012))
     along_height = t * height * (1 - 0.03 * (across / half) ** 2)
     across, along_height = across * np.cos(tilt) - along_height * np.sin(tilt), along_height + across * np.sin(tilt)
     place, outward = arch.place(np.array([middle]))
-    push = rng.normal(0, 0.00018)
+    push = unevenness * rng.normal(0, 0.00018)
     dx, dz = outward[0]
     distance = out - b.max() * 0.55 + lean + push
     x = place[0, 0] + distance * dx + across * dz

@@ -37,9 +37,11 @@ AMBIENT = 0.75
 DARKENING, ROW_DARKENING = 0.9, 0.45
 """Eye distances behind the upper teeth at which a third of the light is left, on the tongue and on teeth: cheeks are beside these."""
 UPPER_LIP_MIDDLE = 13
-LOWER_MIDDLE, ABOVE_LIP, BELOW_LIP = 14, 0.03, 0.03
+LOWER_MIDDLE, ABOVE_LIP, BELOW_LIP = 14, 0.03, 0.05
 """The middle of the lower inner lip, and eye distances above and below it between which lower teeth end: where a face opens its mouth farther or
 less far than its chin tells, they go along, and neither stand in the middle of a mouth nor leave it empty."""
+BARING_ANGLES = (0.12, 0.28)
+"""Radians of the jaw up to which the lower lip hides the lower teeth, as it does when people smile, and from which on it lets them be seen."""
 DEEPER = 2.5
 """The bag than in the model: a tongue lies in it wherever the jaw is."""
 FLATTENED = 0.45
@@ -62,10 +64,13 @@ CLOSED = 0.01
 
 class ModelledMouth:
     """`MouthInterior` of a person: what is modelled, in their `colours`, behind the lips of a face that rests as `at` says. `upper` :
-    whether upper teeth are modelled, too. `appearing` : the opening from which on it is seen."""
+    whether upper teeth are modelled, too. `appearing` : the opening from which on it is seen. `softness` : eye distances, the blur of its edges
+    (`picture_softness`)."""
 
-    def __init__(self, at: RestingMouth, colours: MouthColours, upper: bool, appearing: float = 0.0):
-        self._at, self._appearing = at, appearing
+    def __init__(
+        self, at: RestingMouth, colours: MouthColours, upper: bool, appearing: float = 0.0, softness: float = 0.0
+    ):
+        self._at, self._appearing, self._softness = at, appearing, softness
         rows = [(modelled_teeth(at, True), colours.upper)] if upper else []
         jaw = [(modelled_teeth(at, False), colours.lower), (tongue(at), colours.tongue)]
         parts = [*rows, *jaw]
@@ -97,8 +102,11 @@ class ModelledMouth:
         inside = np.zeros((*shape, 3), np.uint8)
         inside[:] = self._textures[-1][0, -1]
         draw_surface(inside, False, self._surface, points.astype(np.float32), Scratch(), SAMPLES, self._shade)
+        unit = float(eye_distance(face))
+        if self._softness > 0:
+            inside = np.asarray(cv2.GaussianBlur(inside, (0, 0), self._softness * unit))
         lit = inside * mouth_light(face, corner, shape)[..., None]
-        sigma = max(LEAST_SOFT_PIXELS, LIP_SOFTNESS * float(eye_distance(face)))
+        sigma = max(LEAST_SOFT_PIXELS, max(LIP_SOFTNESS, self._softness) * unit)
         mask = cv2.GaussianBlur(soft_polygon(inner - corner, shape), (0, 0), sigma)[..., None]
         part = frame[y0:y1, x0:x1]
         part[:] = np.clip(part + share * np.asarray(mask) * (lit - part) + 0.5, 0, 255).astype(np.uint8)
@@ -151,8 +159,9 @@ class ModelledMouth:
 def jaw_behind_lips(at: RestingMouth, front: NDArray[np.floating]) -> Jaw:
     """The jaw of a face that rests as `at` says and is `front` (478, 2 or 3) from the front: as its chin tells, and where its lower lip is."""
     edge = np.array([at.middle, at.edge - OVERBITE, at.depth + OVERJET])
-    lip = float(front[LOWER_MIDDLE, 1])
-    return held_between(jaw_of(front, at.shut), edge, (lip - ABOVE_LIP, lip + BELOW_LIP))
+    lip, jaw = float(front[LOWER_MIDDLE, 1]), jaw_of(front, at.shut)
+    bared = float(np.interp(jaw.angle, BARING_ANGLES, (0, 1)))
+    return held_between(jaw, edge, (lip - bared * ABOVE_LIP, lip + BELOW_LIP))
 
 
 def shown_share(face: NDArray[np.floating], appearing: float) -> float:

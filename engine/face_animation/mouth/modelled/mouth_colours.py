@@ -15,14 +15,21 @@ from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 
 ENAMEL, DENTINE = np.array([216, 209, 197.0]), np.array([198, 185, 162.0])
 GUM, TONGUE = np.array([176, 96, 95.0]), np.array([196, 110, 108.0])
-LINING, THROAT = np.array([140, 60, 58.0]), np.array([50, 17, 17.0])
+LINING, THROAT = np.array([140, 60, 58.0]), np.array([66, 24, 23.0])
 """sRGB, of mouths whose skin has the luminance `USUAL_SKIN`."""
 USUAL_SKIN = 165.0
 LIGHT_RANGE = (0.35, 1.25)
 LIPS_SHARE = 0.5
 """Of the person's lips in what is flesh."""
-TONGUE_LIT = 0.3
-"""Of the tongue's length from its tip, that is in the light."""
+TONGUE_LIT, TONGUE_DARK, SIDES_FROM = 0.15, 0.6, 0.3
+"""Of the tongue's length from its tip, that is in the light, and from which on it is not; and of its half width, from which on it turns to the
+cheeks."""
+BEHIND_SHARE = 0.9
+"""By how much back and sides of the tongue pass into what is behind them: an outline around it would make it a block."""
+WHITEST = 250.0
+"""The lightest a tooth becomes in any channel: cut off one by one, they would leave no hue of a warm light."""
+SHADES_ROOM = 0.1
+"""By how much single crowns are lighter or darker than the row."""
 LEAST_LIGHT = 1.3
 """Of a skin's luminance, that upper teeth have at least: those of smiling portraits have 1.3 to 1.7 times as much."""
 LOWER_TEETH = 0.75
@@ -58,15 +65,18 @@ def mouth_colours(
     }
     edge = light * ENAMEL * white_tint(rgb, mesh) if teeth is None else _of_a_tooth(teeth, rgb, mesh)
     edge = edge * max(LEAST_LIGHT * luminance / max(float(edge @ LUMINANCE_WEIGHTS), 1.0), 1.0)
+    edge = edge * min(1.0, WHITEST / float(edge.max()))
     root = edge * (DENTINE / ENAMEL)
     along, aside = np.linspace(0, 1, RAMP[0]), np.linspace(0, 1, RAMP[1])
     crowns = np.where(
         along[:, None] < 0.5, flesh["gum"], root + (np.clip(2 * along - 1, 0, 1) ** 0.6)[:, None] * (edge - root)
     )
-    shades = 0.9 + 0.2 * aside
+    shades = 1 - SHADES_ROOM + 2 * SHADES_ROOM * aside
     upper = shades[:, None, None] * crowns
-    back = _ramp((along - TONGUE_LIT) / (1 - TONGUE_LIT))[:, None]
-    flat = flesh["tongue"] + back * (flesh["throat"] - flesh["tongue"])
+    back = _ramp((along - TONGUE_LIT) / (TONGUE_DARK - TONGUE_LIT))
+    sides = _ramp((aside - SIDES_FROM) / (1 - SIDES_FROM))
+    behind = np.maximum(back[None], sides[:, None])[..., None]
+    flat = flesh["tongue"] + BEHIND_SHARE * behind * ((flesh["lining"] + flesh["throat"]) / 2 - flesh["tongue"])
     furrow = 1 - 0.18 * np.exp(-0.5 * (aside / 0.1) ** 2)
     deep = np.clip(along / DARK_FROM, 0, 1)[:, None] ** 0.7
     bag = flesh["lining"] + deep * (flesh["throat"] - flesh["lining"])

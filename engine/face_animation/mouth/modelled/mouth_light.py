@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.face_animation.mouth.lip_contours import UPPER_INNER_LIP
 
-LIP_SHADE, LIP_SHADE_WIDTH = 0.15, 0.1
+LIP_SHADE, LIP_SHADE_WIDTH = 0.28, 0.12
 """Of the light, that the upper lip keeps from teeth at its edge, and widths of the mouth below it up to which it does."""
-CORNER_SHADE, CORNER_SHADE_WIDTH = 0.3, 0.25
+CORNER_SHADE, CORNER_SHADE_WIDTH = 0.45, 0.3
 
 
 def mouth_light(

@@ -21,14 +21,16 @@ from engine.performances.modelling.teeth import LOWER_CROWNS, UPPER_CROWNS, Arch
 
 EYE_DISTANCE = 0.063
 """Metres between the middles of the eyes: people's mean."""
-DETAIL = 0.4
-"""Of the crowns' meshes."""
+DETAIL, UNEVENNESS = 0.4, 0.35
+"""Of the crowns' meshes; and of what sets single crowns off their row: on faces of some eighty pixels their edges would become steps."""
 OVERBITE, OVERJET = 0.03, 0.05
 """Eye distances by which lower teeth end above the upper ones' edges, and lie behind them, where the jaw is closed."""
-TONGUE_SHARES = (0.85, 0.5, 0.45)
+TONGUE_SHARES = (1.0, 0.5, 0.45)
 """Of the template's tongue, along x, y and z from its tip: so that it lies within the row of teeth, and its root within a face without a neck."""
-TONGUE_SHARE = 0.85
+TONGUE_SHARE = 0.7
 """Of the jaw's angle, by which the tongue lies lower where it opens: its back is lifted off the floor of the mouth."""
+SECTIONS = 8
+"""Of the tongue, in which its width is told."""
 UPPER_GUM, LOWER_GUM, ROW_DEPTH = 0.34, 0.2, 0.5
 """Eye distances from the crowns' edges up to which there is gum, and from their front up to which there are teeth: the face has no more room."""
 RINGS = ((0.0, 0.0, 1.0), (0.04, 0.1, 1.03), (0.15, 0.25, 1.15), (0.35, 0.28, 1.15), (0.55, 0.18, 0.9))
@@ -60,7 +62,7 @@ class MouthPart:
 def modelled_teeth(at: RestingMouth, upper: bool) -> MouthPart:
     """A row of teeth, its gum, and the wall behind them: u from the gum to the crowns' edges, v the crowns' own shades."""
     arch = Arch(gum=0.0, front=0.0, up=-1 if upper else 1)
-    row = build_dentition(arch, DETAIL, seed=3 if upper else 4)
+    row = build_dentition(arch, DETAIL, seed=3 if upper else 4, unevenness=UNEVENNESS)
     wall, wall_triangles = _backing(arch)
     places = _in_eye_distances(np.concatenate([row.vertices, wall]))
     enamel = np.concatenate([row.enamel, np.full(len(wall), 0.5)])
@@ -106,10 +108,18 @@ def tongue(at: RestingMouth) -> MouthPart:
     tip = np.array([0, places[:, 1].min(), places[:, 2].min()])
     places = tip + (places - tip) * TONGUE_SHARES
     depth = (places[:, 2] - places[:, 2].min()) / np.ptp(places[:, 2])
-    aside = np.abs(places[:, 0]) / np.abs(places[:, 0]).max()
+    aside = np.abs(places[:, 0]) / _half_width(places[:, 0], depth)
     shift = np.array([at.middle, at.edge - OVERBITE, at.depth + OVERJET])
     uv = np.column_stack([depth, aside]).astype(np.float32)
     return MouthPart(places + shift, triangulate(finer.quads), uv, np.ones(len(uv), np.float32))
+
+
+def _half_width(across: NDArray[np.floating], depth: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(V,) how wide to one side a tongue is at the `depth` (V,) in [0, 1] of each of its vertices, which lie `across` (V,) of its middle."""
+    section = np.minimum((depth * SECTIONS).astype(int), SECTIONS - 1)
+    widest = np.full(SECTIONS, 1e-6)
+    np.maximum.at(widest, section, np.abs(across))
+    return np.asarray(np.interp(depth, (np.arange(SECTIONS) + 0.5) / SECTIONS, widest), np.float64)
 
 
 def tongue_put_out() -> NDArray[np.float64]:

@@ -8,9 +8,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from engine.face_animation.mouth.modelled.jaw import CHIN, held_between, jaw_of
-from engine.face_animation.mouth.modelled.modelled_mouth import ModelledMouth
+from engine.face_animation.mouth.modelled.modelled_mouth import BARING_ANGLES, ModelledMouth, jaw_behind_lips
 from engine.face_animation.mouth.modelled.mouth_colours import mouth_colours
-from engine.face_animation.mouth.modelled.mouth_parts import modelled_teeth, mouth_bag
+from engine.face_animation.mouth.modelled.mouth_light import mouth_light
+from engine.face_animation.mouth.modelled.mouth_parts import OVERBITE, OVERJET, modelled_teeth, mouth_bag
 from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
@@ -113,3 +114,47 @@ def test_a_person_in_black_and_white_has_a_mouth_in_black_and_white() -> None:
     assert all(one.mean() < 0.7 * other.mean() for one, other in zip(dark, red, strict=True)), (
         "in the light of the skin"
     )
+
+
+def test_the_lightest_tooth_keeps_its_hue_in_a_bright_picture() -> None:
+    bright, usual = (
+        mouth_colours(picture(skin), seen(front(0.0))).upper.astype(float)[8, -1]
+        for skin in ((245, 225, 200), (190, 170, 150))
+    )
+    assert bright.max() < 255
+    np.testing.assert_allclose(bright / bright.max(), usual / usual.max(), atol=0.06)
+
+
+def test_light_falls_towards_the_corners_and_the_upper_lip() -> None:
+    face = seen(front(0.3))
+    low, high = np.floor(face[list(LIPS_INNER)].min(axis=0)).astype(int), face[list(LIPS_INNER)].max(axis=0)
+    light = mouth_light(face, low.astype(np.float32), tuple(int(one) for one in np.ceil(high - low)[::-1]))
+    row, middle = light[light.shape[0] // 2], light.shape[1] // 2
+    assert (
+        (np.diff(row[:middle]) >= -1e-6).all() and (np.diff(row[middle:]) <= 1e-6).all() and row[0] < 0.7 * row[middle]
+    )
+    assert (np.diff(light[3:, middle]) >= -1e-6).all() and light.max() <= 1
+
+
+@pytest.mark.parametrize("angle", [0.5 * BARING_ANGLES[0], 0.3 * BARING_ANGLES[1]])
+def test_the_lower_lip_hides_the_lower_teeth_unless_the_jaw_drops(angle: float) -> None:
+    at = resting_mouth(front(0.0), front(0.0))
+    edge = np.array([at.middle, at.edge - OVERBITE, at.depth + OVERJET])
+    for raised in (0.0, 0.04, 0.08):
+        face = front(angle)
+        face[14, 1] -= raised
+        assert jaw_behind_lips(at, face).moved(edge)[1] >= min(face[14, 1], edge[1]) - 1e-3
+
+
+def test_a_soft_picture_has_a_soft_mouth() -> None:
+    face, rest = seen(front(0.3)), front(0.0)
+    colours = mouth_colours(picture((190, 150, 130)), seen(rest))
+    steepest = []
+    for softness in (0.0, 0.02, 0.04):
+        frame = np.full((*SHAPE, 3), 120, np.uint8)
+        ModelledMouth(resting_mouth(rest, rest), colours, True, softness=softness).draw(frame, face, 0)
+        deep = np.zeros(SHAPE, np.uint8)
+        cv2.fillPoly(deep, [np.rint(face[list(LIPS_INNER)]).astype(np.int32)], 1)
+        slope = np.hypot(*np.gradient(frame.mean(axis=-1)))
+        steepest.append(float(slope[cv2.erode(deep, np.ones((11, 11), np.uint8)) > 0].max()))
+    assert steepest[0] > 1.3 * steepest[1] > 1.3**2 * steepest[2]
