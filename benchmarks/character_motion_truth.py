@@ -255,7 +255,7 @@ def main() -> None:
     parser.add_argument("--only", default="", metavar="WORD")
     parser.add_argument("--clip", default="walk", choices=sorted(CLIPS))
     parser.add_argument("--back", default="see_through", choices=get_args(BackTexture))
-    parser.add_argument("--surface", default="relief", choices=("relief", "shell"))
+    parser.add_argument("--surface", default="relief", choices=("relief", "shell", "hybrid"))
     parser.add_argument("--sheet", type=Path)
     asked = parser.parse_args()
     print(machine())

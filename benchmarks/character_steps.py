@@ -11,13 +11,21 @@ from benchmarks.shared_media import media
 from engine.character.figure.figure import Choice, Figure, find_figure
 from engine.character.figure.silhouette import Silhouette, cut_out
 from engine.character.fit.template_fit import FittedBody
+from engine.character.hybrid.hybrid import make_hybrid
 from engine.character.options import CharacterOptions
 from engine.character.parts.label_map import Labels
 from engine.character.parts.unseen_limbs import with_limbs_hidden
 from engine.character.rig.rigging import Character
 from engine.character.shell.extremities import with_relaxed_hands
 from engine.character.shell.shell import make_shell
-from engine.character.stages import build_mesh, fit_template, label, make_character, make_shell_character
+from engine.character.stages import (
+    build_mesh,
+    fit_template,
+    label,
+    make_character,
+    make_hybrid_character,
+    make_shell_character,
+)
 from engine.media.limits import Limits
 
 BY_HAND: Mapping[str, Mapping[str, tuple[float, float]]] = {
@@ -60,11 +68,12 @@ def wake(photo: Path, options: Mapping[str, Any]) -> Woken:
     fitted = fit_template(figure, silhouette)
     labels = label(figure, silhouette, fitted, None, asked.label_strokes, Limits(), lambda code, message: None)
     fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.picture_camera()), labels, lambda code, message: None)
-    if asked.surface == "shell":
+    painted = (asked.triangles, asked.back_texture)
+    if asked.surface != "relief":
         fitted = with_relaxed_hands(fitted)
-        shell = make_shell(figure, silhouette, fitted, labels)
-        made = make_shell_character(figure, silhouette, fitted, labels, shell, asked.triangles, asked.back_texture)
-        return Woken(figure, silhouette, fitted, labels, made)
-    mesh = build_mesh(figure, silhouette, fitted, labels)
-    character = make_character(figure, silhouette, fitted, labels, mesh, asked.triangles, asked.back_texture)
-    return Woken(figure, silhouette, fitted, labels, character)
+    found = (figure, silhouette, fitted, labels)
+    if asked.surface == "shell":
+        return Woken(*found, make_shell_character(*found, make_shell(*found), *painted))
+    if asked.surface == "hybrid":
+        return Woken(*found, make_hybrid_character(*found, make_hybrid(*found), *painted))
+    return Woken(*found, make_character(*found, build_mesh(*found), *painted))

@@ -18,6 +18,7 @@ from engine.character.film.findings import character_names, write_findings
 from engine.character.film.lit import lit_picture
 from engine.character.film.motions import motion_in_use
 from engine.character.film.person import Person
+from engine.character.hybrid.hybrid import make_hybrid
 from engine.character.options import CharacterOptions
 from engine.character.parts.unseen_limbs import with_limbs_hidden
 from engine.character.rig.left_out import warn_of_silhouette
@@ -35,6 +36,7 @@ from engine.character.stages import (
     label_drawn,
     make_character,
     make_drawn,
+    make_hybrid_character,
     make_shell_character,
 )
 from engine.errors import InputError
@@ -210,18 +212,18 @@ def reconstruct(
             "hand_in_pocket", "A hand is in a pocket, or behind cloth: the template's is shown where it comes out."
         )
     fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.picture_camera()), labels, run.warn)
-    if options.surface == "shell":
+    painted = (options.triangles, options.back_texture)
+    if options.surface != "relief":
         fitted = with_relaxed_hands(fitted)
-        shell = run.stage("build_mesh", make_shell, figure, silhouette, fitted, labels)
-        made = (figure, silhouette, fitted, labels, shell, options.triangles, options.back_texture)
-        return Person(figure, silhouette, fitted, labels, run.stage("make_character", make_shell_character, *made))
-    mesh = run.stage("build_mesh", build_mesh, figure, silhouette, fitted, labels)
-    character = run.stage(
-        "make_character",
-        make_character,
-        *(figure, silhouette, fitted, labels, mesh, options.triangles, options.back_texture),
-    )
-    return Person(figure, silhouette, fitted, labels, character)
+    found = (figure, silhouette, fitted, labels)
+    if options.surface == "shell":
+        shell = run.stage("build_mesh", make_shell, *found)
+        return Person(*found, run.stage("make_character", make_shell_character, *found, shell, *painted))
+    if options.surface == "hybrid":
+        hybrid = run.stage("build_mesh", make_hybrid, *found)
+        return Person(*found, run.stage("make_character", make_hybrid_character, *found, hybrid, *painted))
+    mesh = run.stage("build_mesh", build_mesh, *found)
+    return Person(*found, run.stage("make_character", make_character, *found, mesh, *painted))
 
 
 def reconstruct_drawing(

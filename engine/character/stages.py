@@ -24,6 +24,9 @@ from engine.character.fit.hands import turn_hands
 from engine.character.fit.head import turn_head
 from engine.character.fit.second_look import look_again
 from engine.character.fit.template_fit import FittedBody, fit_best, load_human, pose_template
+from engine.character.hybrid.behind_limbs import mirrored_behind
+from engine.character.hybrid.hybrid import Hybrid, limbs_alone
+from engine.character.hybrid.two_surfaces import together
 from engine.character.options import LabelStroke
 from engine.character.parts.crossed_labels import label_crossed
 from engine.character.parts.hem import with_cloth
@@ -38,18 +41,18 @@ from engine.character.rig.shell_binding import bind_shell
 from engine.character.rig.turned_over import without_backs_in_view
 from engine.character.shell.colours.paint import paint_shell
 from engine.character.shell.shell import Shell
-from engine.character.surface.face_warp import JAW, Face
+from engine.character.surface.face_warp import seen_face
 from engine.character.surface.layers import build_layers
 from engine.character.surface.sheets import ClosedMesh, close
 from engine.character.texture.head_sides import with_round_sides
 from engine.character.texture.limb_texture import LimbSurfaces
-from engine.character.texture.texture import BackTexture, PictureOnGrid, atlas, paint_tiles
+from engine.character.texture.texture import SURE, BackTexture, PictureOnGrid, atlas, paint_tiles
 from engine.geometry.simplification.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.imaging.filling.background_plate import background_plate
+from engine.imaging.masks.mask_distance import dilate_mask
 from engine.media.image import is_cut_out, over_white
 from engine.media.limits import Limits
-from engine.perception.landmarks import fiducials
 
 CHEEK = np.array([1, 1, 1.1, 1.1, 1])
 """How much larger than its oval a face may be."""
@@ -61,6 +64,8 @@ WRIST = 0.3
 """Share in what moves an arm from which on it is moved by the hand."""
 FACE_COUNTS = 6.0
 """How much more a triangle of the head counts where triangles are saved."""
+AROUND = 6
+"""Pixels around the trunk within which it is painted behind limbs."""
 SHADOW = 0.012
 """How far the hole behind the person reaches beyond the mask, as a share of the picture's longer side: hair and the
 shadow at the feet are not in the mask."""
@@ -179,12 +184,7 @@ def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, label
     labels = labels.layered
     human = load_human()
     posed = pose_template(fitted, silhouette.camera(fitted.picture_camera()), human)
-    face = None
-    if figure.face is not None and not in_profile(figure):
-        seen = fiducials(figure.face[:, :2])[JAW:].astype(np.float64)
-        on_grid = seen @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
-        laid = posed.vertices[human.face[JAW:], :2]
-        face = Face(on_grid, laid, labels.labels == BODY_PARTS.index("head"))
+    face = seen_face(figure, silhouette, posed, human.face, labels)
     return close(
         build_layers(labels, posed, human.rig, face), silhouette.soft, limb_borders(figure, silhouette, labels)
     )
@@ -213,15 +213,29 @@ def make_character(
 ) -> Character:
     """The mesh textured, bound in T-pose and brought down to a number of triangles (section 5)."""
     labels = labels.layered
-    head = labels.labels == BODY_PARTS.index("head")
-    face = face_ellipse(figure, silhouette.to_grid, head)
     reach = mesh.pixels(np.flatnonzero(mesh.layer > 0), labels.labels.shape)
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
     along = _along_with_arms(mesh, labels)
     sleeves = {arm: _sleeve(mesh, arm, labels) for arm in ARMS if arm in labels.apart}
+    limbs = LimbSurfaces(reach, shown, along, sleeves)
+    return _made_of(figure, silhouette, fitted, labels, mesh, limbs, triangles, back)
+
+
+def _made_of(
+    figure: Figure,
+    silhouette: Silhouette,
+    fitted: FittedBody,
+    labels: Labels,
+    mesh: ClosedMesh,
+    limbs: LimbSurfaces,
+    triangles: int,
+    back: BackTexture,
+) -> Character:
+    head = labels.labels == BODY_PARTS.index("head")
+    face = face_ellipse(figure, silhouette.to_grid, head)
     turned = None if in_profile(figure) else face_turn(figure)
     picture = PictureOnGrid(figure.rgb, silhouette.alpha, silhouette.to_grid)
-    tiles = paint_tiles(picture, labels, LimbSurfaces(reach, shown, along, sleeves), face, back, turned)
+    tiles = paint_tiles(picture, labels, limbs, face, back, turned)
     if face is not None and turned is not None:  # where a turned face ends at the outline, a cheek goes on beyond it
         mesh = with_round_sides(mesh, head, within_oval(face * CHEEK, head.shape), 0)
     texture, uv = atlas(tiles, mesh, 0)
@@ -246,6 +260,37 @@ def make_shell_character(
     texture = paint_shell(figure.rgb, silhouette, labels, shell, back)
     character = bind_shell(shell, figure, silhouette, fitted, texture)
     return replace(character, mesh=fewer_triangles(character, triangles))
+
+
+def make_hybrid_character(
+    figure: Figure,
+    silhouette: Silhouette,
+    fitted: FittedBody,
+    labels: Labels,
+    hybrid: Hybrid,
+    triangles: int,
+    back: BackTexture,
+) -> Character:
+    """Both surfaces painted, bound in T-pose, put together and brought down to a number of triangles."""
+    own, trunk = hybrid.labels, hybrid.trunk
+    limbs = np.isin(own.labels, own.apart)
+    around = dilate_mask(trunk.pixels(np.arange(len(trunk.vertices)), limbs.shape), AROUND)
+    gone, behind = (_in_the_picture(one, silhouette) for one in (limbs & ~around, limbs & around))
+    alone = replace(silhouette, alpha=silhouette.alpha * (1 - gone))
+    seen = mirrored_behind(figure.rgb, behind > 0, (silhouette.alpha > SURE) & (gone == 0))
+    nothing = LimbSurfaces(np.zeros_like(limbs), np.zeros_like(limbs))
+    relief = _made_of(replace(figure, rgb=seen), alone, fitted, own, trunk, nothing, triangles, back)
+    texture = paint_shell(figure.rgb, silhouette, labels, hybrid.shell, "inpaint" if back == "inpaint" else "mirror")
+    shell = bind_shell(limbs_alone(hybrid), figure, silhouette, fitted, texture)
+    character = together(shell, relief)
+    return replace(character, mesh=fewer_triangles(character, triangles))
+
+
+def _in_the_picture(mask: NDArray[np.bool_], silhouette: Silhouette) -> NDArray[np.float32]:
+    """A mask (h, w) of the grid in the picture, (H, W) from 0 to 1."""
+    size = (silhouette.alpha.shape[1], silhouette.alpha.shape[0])
+    flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+    return np.asarray(cv2.warpAffine(mask.astype(np.float32), silhouette.to_grid, size, flags=flags))
 
 
 def _along_with_arms(mesh: ClosedMesh, labels: Labels) -> NDArray[np.bool_]:

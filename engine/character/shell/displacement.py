@@ -26,6 +26,8 @@ EXTREMITY, HEAD_STIFFER = 25.0, 3.0
 """By how much more hands and feet, and the head, are stiff."""
 HELD = 6.0
 """What a stretched hand or foot costs: without it both are drawn out linearly for nothing."""
+LOOSE, LOOSE_ROUNDS = (1.0, 0.6), 2
+"""The same two for some last rounds: what is left to go is the shape of shoes, cuffs and fingers, not where they are."""
 STAY, EAR_STAYS, HAND_STAYS, FOOT_STAYS = 1e-5, 0.02, 5e-4, 1e-4
 """What a square pixel of surface costs for staying not where it was: everywhere, and of ears, hands and feet."""
 DOUBT = 0.035
@@ -55,11 +57,14 @@ class Displaced:
 
 def displace(mesh: TemplateMesh, template: NDArray[np.float64], outlines: Outlines, known: KnownPoints) -> Displaced:
     """Displace `template` (V, 3) in picture space, so that the rims of its parts come to lie on their outlines."""
-    energy = _Energy(mesh, template)
+    tight, loose = _Energy(mesh, template, EXTREMITY, HELD), _Energy(mesh, template, *LOOSE)
     pictured = template.copy()
     move = np.zeros((len(template), 2))
     vertex = point = np.zeros(0, np.intp)
-    for stiffness, inwards in STIFFNESS_SCHEDULE:
+    for energy, stiffness, inwards in (
+        *((tight, *each) for each in STIFFNESS_SCHEDULE),
+        *((loose, *STIFFNESS_SCHEDULE[-1]),) * LOOSE_ROUNDS,
+    ):
         normals = -vertex_normals(pictured, mesh.triangles).astype(np.float64)
         vertex, point = match_outlines(mesh, template, pictured, normals, outlines, inwards)
         outward = outlines.normals[point]
@@ -84,18 +89,18 @@ class _Lines:
 class _Energy:
     """What a displacement of the template costs."""
 
-    def __init__(self, mesh: TemplateMesh, template: NDArray[np.float64]) -> None:
+    def __init__(self, mesh: TemplateMesh, template: NDArray[np.float64], stiffer: float, held: float) -> None:
         self.template, count = template, len(template)
         laplacian = cotangent_laplacian(template, mesh.triangles)
         area = vertex_areas(template, mesh.triangles)
         area = np.maximum(area, 0.02 * np.median(area))
         extremity = np.clip(1.5 * mesh.hand, 0, 1) + np.clip(1.5 * mesh.foot, 0, 1)
-        stiff = np.where(mesh.head > 0.5, HEAD_STIFFER, 1.0) * (1 + EXTREMITY * extremity)
+        stiff = np.where(mesh.head > 0.5, HEAD_STIFFER, 1.0) * (1 + stiffer * extremity)
         self.bending = sp.csc_array(laplacian @ sp.diags_array(stiff / area) @ laplacian)
         own = extremity[mesh.triangles].min(1) > 0.5
         stays = STAY + EAR_STAYS * mesh.ear + HAND_STAYS * (mesh.hand > 0.5) + FOOT_STAYS * (mesh.foot > 0.5)
         self.staying = sp.csc_array(
-            HELD * cotangent_laplacian(template, mesh.triangles[own]) + sp.diags_array(stays * area)
+            held * cotangent_laplacian(template, mesh.triangles[own]) + sp.diags_array(stays * area)
         )
         self.count = count
 

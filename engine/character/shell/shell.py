@@ -6,6 +6,7 @@ right; here every part is whole before the picture is looked at, and only its sh
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,8 +52,27 @@ class Shell:
     pieces: tuple[Piece, ...] = ()
 
 
+@dataclass(frozen=True)
+class Shape:
+    """What a shell is made of, (V, 3) each: the template `straight` in T-pose, in its shoes if it wears any, metres; as the fit has
+    it, `template`, and `pictured`, as in `Shell`."""
+
+    straight: NDArray[np.float64]
+    template: NDArray[np.float64]
+    pictured: NDArray[np.float64]
+
+
 def make_shell(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Shell:
     """The shell of a person: `figure` and `silhouette` as they were found, the `fitted` template, and the `labels` of its parts."""
+    mesh, shape = template_mesh(), shaped(figure, silhouette, fitted, labels)
+    skirt = skirt_of(mesh, shape.pictured, labels)
+    pieces = [] if skirt is None else [skirt]
+    pieces += props_of(mesh, shape.pictured, silhouette, pieces)
+    return shell_of(mesh, shape, silhouette, fitted, pieces)
+
+
+def shaped(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Shape:
+    """The template in its shoes, displaced to the outlines."""
     mesh, human = template_mesh(), load_human()
     camera = silhouette.camera(fitted.picture_camera())
     straight = human.space.vertices(fitted.fit.coefficients)[mesh.ids].astype(np.float64)
@@ -61,12 +81,16 @@ def make_shell(figure: Figure, silhouette: Silhouette, fitted: FittedBody, label
         straight = in_shoes(straight)
         template = camera.to_picture(posed(mesh, straight, fitted))
     displaced = displace(mesh, template, part_outlines(labels.layered), face_points(figure, silhouette, mesh))
-    pictured = thickened(mesh, template, displaced)
-    rest = shell_at_rest(mesh, straight, template, pictured, camera, fitted)
-    skirt = skirt_of(mesh, pictured, labels)
-    pieces = [] if skirt is None else [skirt]
-    pieces += props_of(mesh, pictured, silhouette, pieces)
-    return Shell(mesh, template, pictured, rest, tuple(pieces))
+    return Shape(straight, template, thickened(mesh, template, displaced))
+
+
+def shell_of(
+    mesh: TemplateMesh, shape: Shape, silhouette: Silhouette, fitted: FittedBody, pieces: Sequence[Piece]
+) -> Shell:
+    """The shell of a shape, with what is beside it."""
+    camera = silhouette.camera(fitted.picture_camera())
+    rest = shell_at_rest(mesh, shape.straight, shape.template, shape.pictured, camera, fitted)
+    return Shell(mesh, shape.template, shape.pictured, rest, tuple(pieces))
 
 
 def posed(mesh: TemplateMesh, straight: NDArray[np.floating], fitted: FittedBody) -> NDArray[np.float32]:

@@ -9,7 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import RBFInterpolator
 
+from engine.body.parts import BODY_PARTS
+from engine.character.figure.face_region import in_profile
+from engine.character.figure.figure import Figure
+from engine.character.figure.silhouette import Silhouette
+from engine.character.fit.posed_template import PosedTemplate
+from engine.character.parts.label_map import Labels
 from engine.character.surface.part_surface import Warp
+from engine.perception.landmarks import fiducials
 
 APART = 8
 """Pixels between the points of the head's border that stay."""
@@ -48,3 +55,15 @@ def with_face(warp: Warp, face: Face) -> Warp:
     places = warp.places.copy()
     places[ys, xs] += moved(np.stack([xs, ys], 1).astype(np.float64)).astype(np.float32)
     return replace(warp, places=places)
+
+
+def seen_face(
+    figure: Figure, silhouette: Silhouette, template: PosedTemplate, points: NDArray[np.intp], labels: Labels
+) -> Face | None:
+    """The face of a `figure` on the grid of its `silhouette` and `labels`; None where none is seen, or it is in profile. `points` (68,): the
+    `template`'s vertices at a face's points."""
+    if figure.face is None or in_profile(figure):
+        return None
+    seen = fiducials(figure.face[:, :2])[JAW:].astype(np.float64)
+    on_grid = seen @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
+    return Face(on_grid, template.vertices[points[JAW:], :2], labels.labels == BODY_PARTS.index("head"))

@@ -56,7 +56,7 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
     cloth = labels.cloth
     parting = labels.parting & (not any(limb in LEGS for limb in apart))
     parting[: cloth.rings[-1].row + 1 if cloth else 0] = False
-    body = replace(_layer(region, template, rig, face), cut=cut_along(labels.labels, parting))
+    body = replace(layer_of(region, template, rig, face), cut=cut_along(labels.labels, parting))
     body = each_by_its_own(body, labels.labels, parting, rig)
     if cloth:
         body = moved_by_both(drape(body, cloth), cloth, rig)
@@ -65,7 +65,7 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
     for leg in beneath:
         own = labels.labels == leg.limb
         below = leg.mask & (cloth.legs >= 0) if cloth and cloth.legs is not None else own
-        under = overlap_beneath(going_with(_layer(leg, template, rig), body, below), body, own)
+        under = overlap_beneath(going_with(layer_of(leg, template, rig), body, below), body, own)
         layers.append(replace(under, limb=leg.limb))
     if cloth and cloth.before is not None:
         layers = _leg_behind(layers, cloth.before, labels)
@@ -74,7 +74,7 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
         if one.limb in solid and not (labels.hidden == one.limb).any():
             limb = _solid_layer(solid_limb(one.triangles, one.mask, template, rig, own))
         else:
-            limb = hand_beneath(_layer(one, template, rig), body, labels.hidden == one.limb)
+            limb = hand_beneath(layer_of(one, template, rig), body, labels.hidden == one.limb)
         body = body_behind(body, limb, own)
         if one.limb in LEGS:
             body = body_within(body, limb, own & one.joint)
@@ -112,7 +112,7 @@ def _leg_behind(legs: Sequence[Layer], before: int, labels: Labels) -> list[Laye
     return [leg if leg.limb == before or not front else limb_behind(leg, front[0], shown) for leg in legs]
 
 
-def _layer(region: Region, template: PosedTemplate, rig: Rig, face: Face | None = None) -> Layer:
+def layer_of(region: Region, template: PosedTemplate, rig: Rig, face: Face | None = None) -> Layer:
     """A region's front and back. `face` changes the front's warp."""
     sides = template.sides(region.triangles, region.mask.shape)
     warp = warp_part(region.mask, sides.front.mask)

@@ -1796,11 +1796,11 @@ export interface components {
              */
             back_texture?: "see_through" | "mirror" | "inpaint";
             /**
-             * @description What the character is made of: the picture cut into parts that are given their depth (the paper's way), which is the sharper at the outline; or the human template displaced to the outline, a shell that is whole from every side and where parts touch.
+             * @description What the character is made of: the picture cut into parts that are given their depth (relief, the paper's way); the human template displaced to the outline, a shell that is whole from every side and where parts touch; or both (hybrid): trunk, head and hanging cloth of the relief, arms and legs of the shell.
              * @default relief
              * @enum {string}
              */
-            surface?: "relief" | "shell";
+            surface?: "hybrid" | "relief" | "shell";
         };
         /** @description One field that is wrong. */
         FieldError: {

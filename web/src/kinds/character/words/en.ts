@@ -115,7 +115,11 @@ const english = {
     levels: 'Levels of detail (LOD)',
     noLevels: 'None',
     surface: 'Surface',
-    surfaces: { relief: 'The picture in relief', shell: 'A body, shaped to the outline' },
+    surfaces: {
+      hybrid: 'The picture in relief, with limbs of a body',
+      relief: 'The picture in relief',
+      shell: 'A body, shaped to the outline',
+    },
     back: 'Back of the character',
     backs: { see_through: 'Front, without what only fronts have', mirror: 'Front, mirrored', inpaint: 'Inpainted' },
     partial: 'Accept a person who is cut off or hidden below the chest',

@@ -1,0 +1,63 @@
+"""The character of two surfaces: trunk, head and cloth that hangs are the picture's relief, arms and legs the displaced template.
+
+Beyond the paper, in which every part is cut out of the picture and given its depth. That is the sharper where the picture shows a
+surface whole, and fails where parts touch or hide one another, as legs that pass; the template is whole there, and has neither
+hair nor clothes. So each is what it is good at, and limbs reach into the trunk: no place is left at which anything could gape.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from engine.character.figure.figure import Figure
+from engine.character.figure.silhouette import Silhouette
+from engine.character.fit.template_fit import FittedBody, load_human, pose_template
+from engine.character.hybrid.limbs import Limbs, cut_off, joined_in_depth, limbs_of
+from engine.character.hybrid.trunk import trunk_labels, trunk_layer
+from engine.character.parts.label_map import Labels
+from engine.character.shell.piece import Piece
+from engine.character.shell.props import props_of
+from engine.character.shell.shell import Shell, shaped, shell_of
+from engine.character.shell.template_mesh import template_mesh
+from engine.character.surface.face_warp import seen_face
+from engine.character.surface.sheets import ClosedMesh, close
+
+
+@dataclass(frozen=True)
+class Hybrid:
+    """Both surfaces in the pictured pose.
+
+    shell : the whole shell, its limbs where they are to the trunk.
+    limbs : which of it is shown.
+    trunk : the relief.
+    labels : what each pixel shows, as the trunk is made of them.
+    """
+
+    shell: Shell
+    limbs: Limbs
+    trunk: ClosedMesh
+    labels: Labels
+
+
+def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Hybrid:
+    """Both surfaces of a person: `figure` and `silhouette` as they were found, the `fitted` template, and the `labels` of its parts."""
+    mesh, human = template_mesh(), load_human()
+    camera = silhouette.camera(fitted.picture_camera())
+    own = trunk_labels(labels)
+    template = pose_template(fitted, camera, human)
+    layer = trunk_layer(own, template, human.rig, seen_face(figure, silhouette, template, human.face, own))
+    shape = shaped(figure, silhouette, fitted, labels)
+    limbs = limbs_of(mesh, shape.pictured, own, fitted)
+    pictured, layer = joined_in_depth(mesh, shape.pictured, limbs, layer, own)
+    trunk = close([layer], silhouette.soft)
+    covering = Piece("trunk", trunk.vertices, trunk.triangles, trunk.bones.astype(np.intp), trunk.weights)
+    pieces = props_of(mesh, pictured, silhouette, [covering])
+    shell = shell_of(mesh, replace(shape, pictured=pictured), silhouette, fitted, pieces)
+    return Hybrid(shell, limbs, trunk, own)
+
+
+def limbs_alone(hybrid: Hybrid) -> Shell:
+    """The shell without what the trunk is in place of."""
+    return replace(hybrid.shell, mesh=cut_off(hybrid.shell.mesh, hybrid.limbs))

@@ -1,0 +1,224 @@
+"""The shell's arms and legs, cut off within the trunk, and where they lie to it.
+
+Beyond the paper. What of a limb is within the trunk is beneath its surface, before and behind: no border of a limb is ever seen, and
+what comes out of the trunk where a joint bends has been in it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.parts import BODY_PARTS
+from engine.character.fit.template_fit import FittedBody, load_human
+from engine.character.hybrid.trunk import LIMBS, UNDER
+from engine.character.parts.label_map import Labels
+from engine.character.parts.labels import ARMS, LEGS
+from engine.character.shell.template_mesh import TemplateMesh
+from engine.character.surface.depth_order import body_behind, limb_before
+from engine.character.surface.part_surface import Surface
+from engine.character.surface.sheets import Layer
+from engine.geometry.adjacency import neighbours
+from engine.imaging.masks.mask_distance import dilate_mask
+from engine.imaging.masks.mask_pieces import rows_apart
+from engine.render.attributes import interpolate
+from engine.render.rasteriser import rasterise
+
+SHOULDER, HIP = 0.15, 0.16
+"""Metres at rest around the joint in which the shell of arm or leg goes on in the trunk."""
+UP = 0.06
+"""How far a leg goes on under cloth that hangs, as a share of the person's height."""
+BENEATH = 1.5
+"""Pixels by which what is within the trunk lies beneath its surface."""
+THIN = 0.2
+"""Share of the trunk's depth that a limb within it keeps about its middle, at least."""
+BESIDE = 3
+"""Pixels from limbs that are seen within which nothing is taken to be hidden by the trunk: outlines do not lie on one another exactly."""
+FORTH = 16.0
+"""Pixels by which a limb that the trunk hides may be before it and is moved behind; twice as many, and it is not moved."""
+FULL, SOFT = 0.4, 4.0
+"""How near to a joint, from 0 to 1 there, the trunk is as deep as the shell, and pixels over which that is smoothed."""
+EVEN = 4
+"""Times that what moves a limb's vertices into the trunk is spread to their neighbours."""
+
+
+@dataclass(frozen=True)
+class Limbs:
+    """The shell's vertices (V,) that are shown: of a `limb` an index of `BODY_PARTS`, -1 of none; those of which the trunk has
+    the most, `overlap` bool; and how `near` all are to a shoulder or hip, from 0 to 1 at the joint."""
+
+    limb: NDArray[np.intp]
+    overlap: NDArray[np.bool_]
+    near: NDArray[np.float32]
+
+
+def limbs_of(mesh: TemplateMesh, pictured: NDArray[np.float64], labels: Labels, fitted: FittedBody) -> Limbs:
+    """The limbs of a shell as `pictured` (V, 3): what of it is arms' and legs', and around shoulders and hips. Of legs that come out
+    from under cloth that hangs, what is below, and a little more. `labels`: of `trunk_labels`."""
+    space, coefficients = load_human().space, fitted.fit.coefficients
+    at, heads = space.vertices(coefficients)[mesh.ids], space.joints(coefficients)
+    hangs = labels.cloth is not None and labels.cloth.hangs
+    most = mesh.parts.argmax(1)
+    limb = np.where(np.isin(most, LIMBS), most, -1)
+    overlap, near = np.zeros(len(most), np.bool_), np.zeros(len(most), np.float32)
+    for part in LIMBS:
+        side = "Left" if BODY_PARTS[part].startswith("left") else "Right"
+        name, reach = ("Arm", SHOULDER) if part in ARMS else ("UpLeg", HIP)
+        distance = np.linalg.norm(at - heads[mesh.names.index(f"{side}{name}")], axis=1)
+        if part in LEGS and hangs:
+            continue
+        near = np.maximum(near, np.clip(1 - distance / reach, 0, 1))
+        within = (most == BODY_PARTS.index("torso")) & (distance < reach) & (limb < 0)
+        limb[within], overlap[within] = part, True
+    if hangs:
+        up = UP * rows_apart(labels.labels >= 0)
+        for leg in LEGS:
+            own = labels.labels == leg
+            hem = np.flatnonzero(own.any(1))[0] if own.any() else np.inf
+            limb[(limb == leg) & (pictured[:, 1] < hem - up)] = -1
+        overlap |= np.isin(limb, LEGS) & (pictured[:, 1] < _hem(labels, limb))
+    return Limbs(limb, overlap & (limb >= 0), near.astype(np.float32))
+
+
+def _hem(labels: Labels, limb: NDArray[np.intp]) -> NDArray[np.float64]:
+    """The first row (V,) of its leg that is seen, of vertices of a `limb` (V,)."""
+    rows = np.full(len(BODY_PARTS) + 1, -np.inf)
+    for leg in LEGS:
+        own = (labels.labels == leg).any(1)
+        rows[leg] = np.flatnonzero(own)[0] if own.any() else -np.inf
+    return rows[limb]
+
+
+def joined_in_depth(
+    mesh: TemplateMesh, pictured: NDArray[np.float64], limbs: Limbs, trunk: Layer, labels: Labels
+) -> tuple[NDArray[np.float64], Layer]:
+    """The shell's vertices (V, 3) and the trunk, so that limbs that are seen before the trunk are before it, those that it hides are
+    behind its front, and what of them goes on in it is within: around joints the trunk is as deep as the shell."""
+    moved = pictured.copy()
+    trunk = _as_deep(mesh, moved, limbs, trunk)
+    beside = dilate_mask(trunk.mask & ~np.isin(labels.labels, LIMBS), UNDER + 1)
+    for part in LIMBS:
+        own = labels.labels == part
+        if not own.any():
+            continue
+        layer = _limb_layer(mesh, moved, limbs, part, own.shape)
+        trunk = body_behind(trunk, layer, own)
+        nearer = limb_before(layer, trunk, own & ~beside).front.depth - layer.front.depth
+        chosen = (limbs.limb == part) & ~limbs.overlap
+        moved[chosen, 2] += _at(np.nan_to_num(nearer), moved[chosen])
+    return _within(mesh, moved, limbs, trunk, labels), trunk
+
+
+def _as_deep(mesh: TemplateMesh, vertices: NDArray[np.float64], limbs: Limbs, trunk: Layer) -> Layer:
+    """The trunk with front and back going over, towards shoulders and hips, to a little before and behind the shell's."""
+    body = (limbs.near > 0) | (mesh.parts.argmax(1) == BODY_PARTS.index("torso"))
+    triangles = mesh.triangles[body[mesh.triangles].all(1)]
+    sides = []
+    for side, towards in ((trunk.front, 1.0), (trunk.back, -1.0)):
+        shape = side.depth.shape
+        raster = rasterise(vertices * [1, 1, -towards], triangles, (shape[0], shape[1]))
+        there = (raster.triangle >= 0) & trunk.mask
+        share = np.clip(interpolate(limbs.near[:, None], triangles, raster)[..., 0] / FULL, 0, 1)
+        share = cv2.GaussianBlur(np.where(there, share, 0).astype(np.float32), (0, 0), SOFT)
+        goal = np.where(there, towards * (BENEATH - raster.depth), 0)
+        depth = np.where(there, side.depth + share * (goal - side.depth), side.depth)
+        sides.append(Surface(depth.astype(np.float32), side.weights))
+    return replace(trunk, front=sides[0], back=sides[1])
+
+
+def _limb_layer(
+    mesh: TemplateMesh, vertices: NDArray[np.float64], limbs: Limbs, part: int, shape: tuple[int, ...]
+) -> Layer:
+    """What of the grid a limb covers, without its overlap, and how near and far it reaches there."""
+    own = (limbs.limb == part) & ~limbs.overlap
+    triangles = mesh.triangles[own[mesh.triangles].all(1)]
+    depths = []
+    for towards in (1.0, -1.0):
+        raster = rasterise(vertices * [1, 1, -towards], triangles, (shape[0], shape[1]))
+        depths.append(np.where(raster.triangle >= 0, -towards * raster.depth, np.nan).astype(np.float32))
+    unused = np.zeros((shape[0], shape[1], 0), np.float32)
+    return Layer(np.isfinite(depths[0]), Surface(depths[0], unused), Surface(depths[1], unused), limb=part)
+
+
+def _within(
+    mesh: TemplateMesh, vertices: NDArray[np.float64], limbs: Limbs, trunk: Layer, labels: Labels
+) -> NDArray[np.float64]:
+    """Vertices (V, 3) moved beneath the trunk's surface: from before where it is what is seen, and what overlaps from behind, too;
+    it bends, and is not torn."""
+    shape = trunk.mask.shape
+    half = np.where(trunk.mask, (trunk.front.depth - trunk.back.depth) / 2, 0)
+    middle = np.where(trunk.mask, (trunk.front.depth + trunk.back.depth) / 2, 0)
+    beneath = np.minimum(BENEATH, half * (1 - THIN))
+    inner = cv2.erode(trunk.mask.astype(np.uint8), np.ones((3, 3), np.uint8), borderValue=0) > 0
+    limb = limbs.limb >= 0
+    x, y = np.clip(np.rint(vertices[:, :2]), 0, [shape[1] - 1, shape[0] - 1]).astype(int).T
+    covered = inner[y, x] & limb
+    hidden = covered & ~dilate_mask(np.isin(labels.labels, LIMBS), BESIDE)[y, x] & ~limbs.overlap
+    front = (middle + half - beneath)[y, x]
+    back = (middle - half + beneath)[y, x]
+    z = vertices[:, 2]
+    wanted = z.copy()
+    over = np.maximum(z - front, 0)[hidden]
+    wanted[hidden] -= over * np.clip(2 - over / FORTH, 0, 1)
+    down = covered & limbs.overlap
+    wanted[down] = np.minimum(z, front)[down]
+    up = covered & limbs.overlap
+    wanted[up] = np.maximum(wanted, back)[up]
+    change = wanted - z
+    beside = neighbours(mesh.triangles, len(vertices))
+    degree = np.maximum(np.asarray(beside.sum(1)).ravel(), 1)
+    spread = change.copy()
+    for _ in range(EVEN):
+        spread = (beside @ spread) / degree
+        spread = np.where(np.abs(change) > np.abs(spread), change, spread)
+    moved = vertices.copy()
+    moved[limb, 2] += spread[limb]
+    return moved
+
+
+def _at(values: NDArray[np.floating], places: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Values (h, w) at places (N, 3) of the grid, 0 beside it."""
+    x, y = (np.ascontiguousarray(places[:, k], np.float32)[:, None] for k in (0, 1))
+    return np.asarray(cv2.remap(values.astype(np.float32), x, y, cv2.INTER_LINEAR)[:, 0], np.float64)
+
+
+def cut_off(mesh: TemplateMesh, limbs: Limbs) -> TemplateMesh:
+    """The mesh of the limbs alone, closed within the trunk. Its vertices are all that there were."""
+    kept = mesh.triangles[(limbs.limb >= 0)[mesh.triangles].all(1)]
+    charted = mesh.uv_triangles[(limbs.limb >= 0)[mesh.triangles].all(1)]
+    kept, charted = _closed(kept, charted)
+    used, again = np.unique(charted, return_inverse=True)
+    return replace(
+        mesh,
+        triangles=kept,
+        corners=mesh.corners[used],
+        uv=mesh.uv[used],
+        uv_triangles=again.reshape(charted.shape).astype(np.int32),
+    )
+
+
+def _closed(triangles: NDArray[np.int32], charted: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Triangles (T, 3), and the same of the chart, with every loop of open border filled by a fan: it is within the trunk."""
+    ends = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]).astype(np.int64)
+    corners = np.concatenate([charted[:, [0, 1]], charted[:, [1, 2]], charted[:, [2, 0]]])
+    count = int(triangles.max()) + 1
+    back = np.isin(ends[:, 1] * count + ends[:, 0], ends[:, 0] * count + ends[:, 1])
+    following = {int(b): int(a) for a, b in ends[~back]}  # the other way round: the fan's triangles look outwards
+    corner = {int(a): int(c) for (a, _), (c, _) in zip(ends[~back], corners[~back], strict=True)}
+    fans: list[tuple[int, int, int]] = []
+    while following:
+        first, loop = next(iter(following)), []
+        at = first
+        while at in following:
+            loop.append(at)
+            at = following.pop(at)
+        fans += [(loop[0], b, c) for b, c in pairwise(loop[1:])]
+    if not fans:
+        return triangles, charted
+    more = np.array(fans, np.int32)
+    named = np.vectorize(corner.__getitem__)(more).astype(np.int32)
+    return np.concatenate([triangles, more]), np.concatenate([charted, named])

@@ -1,0 +1,154 @@
+"""A character of two surfaces, of the template itself in its own outline: what it is as pictured, and what joints show as they bend."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from engine.character.figure.figure import Figure
+from engine.character.figure.silhouette import HEIGHT, Silhouette
+from engine.character.fit.template_fit import FittedBody, load_human, pose_template
+from engine.character.hybrid.hybrid import Hybrid, limbs_alone, make_hybrid
+from engine.character.hybrid.two_surfaces import together
+from engine.character.parts.label_map import Labels
+from engine.character.parts.labels import ARMS, LEGS
+from engine.character.rig.measures import pose
+from engine.character.rig.rigging import Character, bind
+from engine.character.rig.shell_binding import bind_shell
+from engine.character.shell.template_mesh import template_mesh
+from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.welding import is_closed, weld
+from engine.motion.clip import Clip
+from engine.motion.kinematics import pose_transforms
+from engine.render.rasteriser import rasterise
+from tests.character.fit.test_head_and_legs import figure_with
+from tests.character.shell.test_displacement import arms_down
+
+SIZE = (HEIGHT + 80, 420)
+PIXELS_PER_METRE = 150.0
+"""Of what is drawn to be compared."""
+AROUND = 0.12
+"""Metres around a joint within which gaps are looked for."""
+
+
+def figure_and_outline() -> tuple[Figure, FittedBody, Silhouette, Labels]:
+    """The template with its arms down, `HEIGHT` pixels high, in a green picture."""
+    fitted, mesh = arms_down(), template_mesh()
+    seen = pose_template(fitted, fitted.picture_camera(), load_human()).vertices[mesh.ids]
+    scale = HEIGHT / np.ptp(seen[:, 1])
+    middle = (seen.min(0) + seen.max(0)) / 2
+    to_grid = np.array([[scale, 0, SIZE[1] / 2 - scale * middle[0]], [0, scale, SIZE[0] / 2 - scale * middle[1]]])
+    places = seen * scale + [to_grid[0, 2], to_grid[1, 2], 0]
+    triangle = rasterise(places * [1, 1, -1], mesh.triangles, SIZE).triangle
+    labels = np.where(triangle >= 0, mesh.parts.argmax(1)[mesh.triangles[triangle, 0]], -1).astype(np.int8)
+    mask = labels >= 0
+    figure = figure_with(None)
+    alpha = cv2.warpAffine(mask.astype(np.float32), to_grid, (600, 800), flags=cv2.WARP_INVERSE_MAP)
+    rgb = np.full((*SIZE, 3), [0, 200, 0], np.uint8)
+    silhouette = Silhouette(alpha, mask.astype(np.float32), mask, rgb, to_grid)
+    nowhere = np.zeros(SIZE, np.bool_)
+    return (
+        figure,
+        fitted,
+        silhouette,
+        Labels(labels, nowhere, np.zeros(0, np.int8), nowhere, np.full(SIZE, -1, np.int8)),
+    )
+
+
+@pytest.fixture(scope="module")
+def made() -> tuple[Hybrid, Character, Character]:
+    """Both surfaces, the character of both, red limbs and a blue trunk, and that of the whole shell."""
+    figure, fitted, silhouette, labels = figure_and_outline()
+    hybrid = make_hybrid(figure, silhouette, fitted, labels)
+    red, blue = (np.full((64, 64, 3), colour, np.uint8) for colour in ((250, 0, 0), (0, 0, 250)))
+    figure = replace(figure, rgb=np.zeros((800, 600, 3), np.uint8))
+    whole, limbs = (bind_shell(one, figure, silhouette, fitted, red) for one in (hybrid.shell, limbs_alone(hybrid)))
+    trunk, camera = hybrid.trunk, silhouette.camera(fitted.picture_camera())
+    uv = np.full((len(trunk.vertices), 2), 0.5, np.float32)
+    relief = bind(trunk, silhouette.mask, camera, fitted, load_human().space, blue, uv)
+    return hybrid, together(limbs, relief), whole
+
+
+def turned(character: Character, joint: str, axis: str, degrees: float) -> Clip:
+    """As it is pictured, but for one joint."""
+    pictured = character.pictured
+    rotations = pictured.rotations.copy()
+    at = character.mesh.skeleton.index(joint)
+    turn = Rotation.from_euler(axis, degrees, degrees=True) * Rotation.from_quat(rotations[0, at])
+    rotations[0, at] = turn.as_quat()
+    return replace(pictured, rotations=rotations)
+
+
+def on_screen(places: NDArray[np.floating], side: bool) -> NDArray[np.float64]:
+    """Places (V, 3) in a picture (500, 400), seen from the front or from a side, along parallel rays."""
+    seen = places[:, [2, 1, 0]] * [-1, 1, 1] if side else places
+    return np.asarray(np.array([200, 400, 0]) + PIXELS_PER_METRE * seen * [1, -1, -1], np.float64)
+
+
+def drawn(mesh: SkinnedMesh, places: NDArray[np.floating], side: bool) -> NDArray[np.bool_]:
+    return np.asarray(rasterise(on_screen(places, side), mesh.triangles, (500, 400)).triangle >= 0)
+
+
+def test_as_pictured_it_fills_its_outline(made: tuple[Hybrid, Character, Character]) -> None:
+    hybrid, character, whole = made
+    cover = [drawn(one.mesh, pose(one, one.pictured), False) for one in (character, whole)]
+    assert (cover[0] & cover[1]).sum() > 0.98 * (cover[0] | cover[1]).sum()
+    own = np.zeros(hybrid.labels.labels.shape, np.bool_)
+    for vertices, triangles in (
+        (hybrid.trunk.vertices, hybrid.trunk.triangles),
+        (hybrid.shell.pictured, limbs_alone(hybrid).mesh.triangles),
+    ):
+        own |= rasterise(vertices * [1, 1, -1], triangles, own.shape).triangle >= 0
+    mask = hybrid.labels.labels >= 0
+    assert (own & mask).sum() > 0.98 * (own | mask).sum()
+
+
+def test_it_is_closed_and_its_weights_sum_to_one(made: tuple[Hybrid, Character, Character]) -> None:
+    mesh = made[1].mesh
+    assert is_closed(weld(mesh)[mesh.triangles])
+    np.testing.assert_allclose(mesh.weights.sum(1), 1, atol=1e-5)
+    assert abs(mesh.vertices[:, 1].min()) < 1e-5, "it stands on the ground"
+
+
+def test_limbs_are_the_shells_and_the_trunk_has_none(made: tuple[Hybrid, Character, Character]) -> None:
+    hybrid = made[0]
+    part, shown = hybrid.shell.mesh.parts, hybrid.limbs.limb >= 0
+    assert shown[part[:, [*ARMS, *LEGS]].max(1) > 0.9].all()
+    seen = hybrid.trunk.pixels(np.arange(len(hybrid.trunk.vertices)), hybrid.labels.labels.shape)
+    far = cv2.distanceTransform((~np.isin(hybrid.labels.labels, [0, 1])).astype(np.uint8), cv2.DIST_L2, 5)
+    assert far[seen].max() < 5, "but for what goes on behind them"
+
+
+@pytest.mark.parametrize(
+    ("joint", "axis"), [("LeftArm", "z"), ("RightArm", "x"), ("LeftUpLeg", "x"), ("RightUpLeg", "z")]
+)
+@pytest.mark.parametrize("degrees", [-60, -30, 30, 60])
+def test_as_a_joint_bends_there_is_no_gap(
+    made: tuple[Hybrid, Character, Character], joint: str, axis: str, degrees: float
+) -> None:
+    """Wherever the whole shell is, which has no seam, the two surfaces are."""
+    _, character, whole = made
+    clip = turned(character, joint, axis, degrees)
+    skeleton = character.mesh.skeleton
+    at = pose_transforms(skeleton, clip.rotations, clip.root)[0, skeleton.index(joint)]
+    place = at[:3, :3] @ skeleton.heads[skeleton.index(joint)] + at[:3, 3]
+    for side in (False, True):
+        x, y = on_screen(place[None], side)[0, :2]
+        near = np.hypot(*(np.indices((500, 400)) - np.array([y, x])[:, None, None])) < AROUND * PIXELS_PER_METRE
+        own, all_of_it = (drawn(one.mesh, pose(one, clip), side) for one in (character, whole))
+        bare = cv2.erode((all_of_it & ~own & near).astype(np.uint8), np.ones((3, 3), np.uint8))
+        assert bare.sum() == 0, f"{joint} turned by {degrees} about {axis}"
+
+
+def test_each_surface_keeps_its_colours(made: tuple[Hybrid, Character, Character]) -> None:
+    hybrid, character, _ = made
+    mesh, limbs = character.mesh, len(limbs_alone(hybrid).mesh.corners)
+    height, width = mesh.texture.shape[:2]
+    x, y = np.clip(np.rint(mesh.uv * [width, height] - 0.5).astype(int), 0, [width - 1, height - 1]).T
+    colours = mesh.texture[y, x]
+    assert (colours[:limbs] == [250, 0, 0]).all() and (colours[limbs:] == [0, 0, 250]).all()
