@@ -25,6 +25,14 @@ pytest_plugins = ("real_faces", "live_services", "opened_context")
 signal.signal(signal.SIGINT, signal.default_int_handler)  # run in the background, it would be ignored in every child
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
+    """Several processes (`--dist loadfile`) are given folders that share fixtures as a whole."""
+    from by_folder import ByFolder  # where there are several processes
+
+    return ByFolder(config, log) if config.getvalue("dist") == "loadfile" else None
+
+
 @pytest.fixture(scope="session")
 def media() -> Callable[[str], Path]:
     """`media("portraits/photo_woman_white.png")` is that file of the shared test media.

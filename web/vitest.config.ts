@@ -18,7 +18,7 @@ export default defineConfig({
           root,
           include: ['browser/**/*.test.ts'],
           globalSetup: ['browser/finished_jobs.ts', 'browser/viewer_build.ts'],
-          testTimeout: 600_000,
+          testTimeout: 1_000_000,
           expect: { poll: { timeout: 120_000 } },
           hookTimeout: 180_000,
           maxWorkers: 2, // each file has a browser and a service of its own: see browser/own_service.ts

@@ -32,20 +32,21 @@ export const samplePerson = (path: string): string =>
     path,
   );
 
-/** Writes a picture of somebody, and the same once more to the right of them: further away, so smaller, on the same floor. */
-export const samplePeople = (path: string): string =>
+/** Writes a picture of somebody, so many pixels high, and the same once more to the right of them: further away, so smaller, on the same floor. */
+export const samplePeople = (path: string, height = 600): string =>
   inPython(
     `
 import sys
 from PIL import Image
 from engine.character.sample import sample_picture
-one = Image.fromarray(sample_picture())
+one = Image.fromarray(sample_picture(int(sys.argv[2])))
 both = Image.new("RGB", (one.width + one.width * 4 // 5, one.height), (128, 138, 148))
 both.paste(one, (0, 0))
 both.paste(one.resize((one.width * 4 // 5, one.height * 4 // 5)), (one.width, one.height // 5))
 both.save(sys.argv[1])
 `,
     path,
+    String(height),
   );
 
 /** A driver of twelve seconds: a performance of the project's own, three times over. */

@@ -36,7 +36,7 @@ async function ordered({ several, options }: (typeof ORDERS)[keyof typeof ORDERS
   const folder = mkdtempSync(join(tmpdir(), 'galatea-viewer-'));
   const people = join(folder, 'people.png');
   try {
-    if (several) samplePeople(people);
+    if (several) samplePeople(people, 400);
     return await orderCharacter(address, several ? people : somebody, { ...LIGHT, ...options });
   } finally {
     rmSync(folder, { recursive: true });
