@@ -41,7 +41,7 @@ def _rehearse(folder: Path) -> None:
     for name in ("photos", "out"):
         (folder / name).mkdir()
     photos = write_sample_photos(folder / "photos")
-    options = PersonaOptions.model_validate({"size": (160, 200), "trim": (0.0, 0.5)})
+    options = PersonaOptions.model_validate({"size": (160, 200), "trim": (0.0, 0.5), "texture_width": 97})
     with Run() as run:
         _work({"photos": photos, "driver": video("happy")}, options, folder / "out", run)
 

@@ -52,6 +52,8 @@ pytestmark = pytest.mark.timeout(1900)
 """Seconds: the first test waits for a whole avatar, where other tests compute beside it."""
 CAPTURE = ["choose_frames", "choose_frames", "find_cameras", *["find_landmarks", "measure_cloud"] * 2]
 """The stages that measure, in their order."""
+TWO_CODINGS = 2.0
+"""Grey levels, in the mean of a frame: two codings of one picture, each of which errs by 1.4 in the root of squares (`encoders`)."""
 DRIVER_FRAMES = 4
 
 
@@ -231,9 +233,9 @@ def contents(path: Path) -> dict[str, bytes]:
 def test_a_second_run_takes_all_stages_from_the_store_and_writes_the_same(made: Made, tmp_path: Path) -> None:
     assert made.again(tmp_path) == [*CAPTURE, "fit_template", "find_attachments", "stitch_texture"]
     for path in made.out.iterdir():
-        if path.suffix == ".mp4":  # of which an encoder on a busy machine makes more than one
+        if path.suffix == ".mp4":
             one, other = (np.stack(read_frames(film)).astype(int) for film in (path, tmp_path / path.name))
-            assert one.shape == other.shape and np.abs(one - other).mean((1, 2, 3)).max() < 0.5, path.name
+            assert one.shape == other.shape and np.abs(one - other).mean((1, 2, 3)).max() < TWO_CODINGS, path.name
         elif path.name != "report.json":
             assert contents(path) == contents(tmp_path / path.name), path.name
     assert {**made.report, "stages": None} == {**json.loads((tmp_path / "report.json").read_text()), "stages": None}

@@ -25,7 +25,8 @@ def test_a_second_run_reuses_every_analysis_and_gives_the_same(animation, opens,
     assert set(again.run.reused) >= {"find_face", "separate_layers", "track_driver"}
     assert set(again.run.seconds) - set(again.run.reused) == {"animate"}, "all but the streamed one"
     apart = np.abs(np.array(opens.frames, int) - np.array(again.frames, int))
-    assert apart.mean() < 0.5  # filters that threads share round differently now and then: one level before encoding
+    # filters that threads share round differently now and then: one level before encoding, and less than two after it
+    assert apart.mean() < 2 < np.abs(np.diff(np.array(opens.frames, int), axis=0)).max(), "grey levels"
 
 
 @pytest.mark.parametrize(
