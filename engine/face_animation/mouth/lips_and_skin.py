@@ -38,6 +38,9 @@ MIN_SKIN_SHARE = 0.2
 """Share of its usual breadth that skin keeps, at least."""
 MAX_SKIN_SHARE = 0.3
 """Share of its usual breadth that skin under the nose keeps, at least, where it does on the driver's face."""
+EVEN_SHARE, MAX_EVEN_SHARE = 0.85, 0.6
+"""Of what is left of a column's breadth as a whole, that each part of it keeps; and up to which it is led to: the part beside the lip alone would be
+pressed to a line in which the picture's pixels break up."""
 NEIGHBOUR_WEIGHTS = np.array([1, 2, 3, 2, 1]) / 9
 """How much columns of a lip draw their neighbours along."""
 
@@ -67,10 +70,19 @@ def keep_lips_off_skin(faces: NDArray[np.floating], rest: NDArray[np.floating], 
         out = way * _down(rest)
         usual = np.diff(rest[columns, :2] @ out, axis=1)
         along = faces[:, columns, :2] @ out
-        moved = _in_order(along, np.minimum(usual, usual * share[:, None, None])) - along
+        moved = _in_order(along, np.minimum(usual, usual * _kept_share(along, usual, share)[..., None])) - along
         moved[..., 0] = _with_neighbours(moved[..., 0])
         faces[:, columns, :2] += moved[..., None] * out
         faces[:, np.array(lips), :2] += moved[:, :, :1, None] * out
+
+
+def _kept_share(
+    along: NDArray[np.floating], usual: NDArray[np.floating], least: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """(N, C) the share of its usual breadth that each part of columns of skin at places (N, C, K) keeps: they give way evenly, and `least` (N,)
+    where there is no more room. usual : (C, K - 1)."""
+    left = (along[..., -1] - along[..., 0]) / np.maximum(usual.sum(axis=1), 1e-6)
+    return np.asarray(np.maximum(least[:, None], np.minimum(EVEN_SHARE * left, MAX_EVEN_SHARE)), float)
 
 
 def _in_order(along: NDArray[np.floating], least: NDArray[np.floating]) -> NDArray[np.floating]:

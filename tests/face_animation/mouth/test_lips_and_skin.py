@@ -49,7 +49,8 @@ def led_back(
 
 
 def test_faces_whose_lips_are_where_they_belong_stay_as_they_are() -> None:
-    for face in (REST, opened(REST, 0.03)):
+    """Also those that press no part of the skin to less than six tenths."""
+    for face in (REST, opened(REST, 0.015)):
         np.testing.assert_array_equal(led_back(face), face.astype(float))
 
 
@@ -78,6 +79,19 @@ def test_where_the_skin_has_room_the_lips_go_on() -> None:
     lip, first, *_ = SKIN_BELOW_COLUMNS[4]
     assert steps(acted)[1][4, 0] < 0 < steps(back)[1][4, 0]
     assert back[lip, 1] == pytest.approx(float(acted[lip, 1])) and back[first, 1] > acted[first, 1] + 1
+
+
+def test_skin_gives_way_evenly_before_any_of_it_is_pressed_to_a_line() -> None:
+    """A lip that takes a quarter of the chin's room leaves every part half of its breadth, and is not held back."""
+    acted = REST.copy()
+    columns = [*np.array(SKIN_BELOW_COLUMNS)[:, 0], *np.ravel(LOWER_LIP_COLUMNS)]
+    acted[columns, 1] += 0.25 * (REST[152, 1] - REST[17, 1])
+    back = led_back(acted)
+    middle = slice(2, 7)  # of the columns, whose skin is broadest
+    assert (steps(acted)[1][middle, 0] < MIN_SKIN_SHARE * steps(REST)[1][middle, 0]).all()
+    assert (steps(back)[1][middle] >= 0.45 * steps(REST)[1][middle]).all()
+    lip = SKIN_BELOW_COLUMNS[4][0]
+    assert back[lip, 1] == pytest.approx(float(acted[lip, 1]))
 
 
 def test_a_lip_keeps_its_thickness() -> None:

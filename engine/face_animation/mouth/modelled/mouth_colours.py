@@ -76,7 +76,7 @@ def mouth_colours(
     back = _ramp((along - TONGUE_LIT) / (TONGUE_DARK - TONGUE_LIT))
     sides = _ramp((aside - SIDES_FROM) / (1 - SIDES_FROM))
     behind = np.maximum(back[None], sides[:, None])[..., None]
-    flat = flesh["tongue"] + BEHIND_SHARE * behind * ((flesh["lining"] + flesh["throat"]) / 2 - flesh["tongue"])
+    flat = flesh["tongue"] + BEHIND_SHARE * behind * (0.25 * flesh["lining"] + 0.75 * flesh["throat"] - flesh["tongue"])
     furrow = 1 - 0.18 * np.exp(-0.5 * (aside / 0.1) ** 2)
     deep = np.clip(along / DARK_FROM, 0, 1)[:, None] ** 0.7
     bag = flesh["lining"] + deep * (flesh["throat"] - flesh["lining"])
