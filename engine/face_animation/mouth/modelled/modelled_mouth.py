@@ -100,7 +100,7 @@ class ModelledMouth:
         shape, corner = (y1 - y0, x1 - x0), np.array([x0, y0], np.float32)
         points = self.places(face) - (x0, y0, 0)
         inside = np.zeros((*shape, 3), np.uint8)
-        inside[:] = self._textures[-1][0, -1]
+        inside[:] = self._textures[-1][RAMP[1] // 2, -1]
         draw_surface(inside, False, self._surface, points.astype(np.float32), Scratch(), SAMPLES, self._shade)
         unit = float(eye_distance(face))
         if self._softness > 0:

@@ -24,8 +24,9 @@ LIPS_SHARE = 0.5
 TONGUE_LIT, TONGUE_DARK, SIDES_FROM = 0.15, 0.6, 0.3
 """Of the tongue's length from its tip, that is in the light, and from which on it is not; and of its half width, from which on it turns to the
 cheeks."""
-BEHIND_SHARE = 0.9
-"""By how much back and sides of the tongue pass into what is behind them: an outline around it would make it a block."""
+BACK_DARK, SIDES_DARK = 0.75, 0.2
+"""Of the way from the lining's colour to the throat's, that of the tongue's back, and of its sides: as what is behind them, since an outline would
+make it a block."""
 WHITEST = 250.0
 """The lightest a tooth becomes in any channel: cut off one by one, they would leave no hue of a warm light."""
 SHADES_ROOM = 0.1
@@ -34,6 +35,8 @@ LEAST_LIGHT = 1.3
 """Of a skin's luminance, that upper teeth have at least: those of smiling portraits have 1.3 to 1.7 times as much."""
 LOWER_TEETH = 0.75
 """Of the upper teeth's light, that lower ones have."""
+BAG_LIGHT = (0.75, 1.4)
+"""Of the bag's light, what its roof has behind the upper lip, and its floor, on which light falls."""
 DARK_FROM = 0.8
 """Of the bag's depth, from which on it is as dark as the throat."""
 RAMP = (64, 16)
@@ -42,7 +45,7 @@ RAMP = (64, 16)
 
 class MouthColours(NamedTuple):
     """(16, 64, 3) uint8 each, a ramp of colours: `lower` and `upper` teeth from the gum to their edges, the tongue from its tip to its root, the bag
-    from the lips to the throat."""
+    from the lips to the throat, its roof first."""
 
     upper: NDArray[np.uint8]
     lower: NDArray[np.uint8]
@@ -75,12 +78,14 @@ def mouth_colours(
     upper = shades[:, None, None] * crowns
     back = _ramp((along - TONGUE_LIT) / (TONGUE_DARK - TONGUE_LIT))
     sides = _ramp((aside - SIDES_FROM) / (1 - SIDES_FROM))
-    behind = np.maximum(back[None], sides[:, None])[..., None]
-    flat = flesh["tongue"] + BEHIND_SHARE * behind * (0.25 * flesh["lining"] + 0.75 * flesh["throat"] - flesh["tongue"])
+    flat = np.broadcast_to(flesh["tongue"], (RAMP[1], RAMP[0], 3))
+    for share, dark in ((back[None, :, None], BACK_DARK), (sides[:, None, None], SIDES_DARK)):
+        flat = flat + share * (flesh["lining"] + dark * (flesh["throat"] - flesh["lining"]) - flat)
     furrow = 1 - 0.18 * np.exp(-0.5 * (aside / 0.1) ** 2)
     deep = np.clip(along / DARK_FROM, 0, 1)[:, None] ** 0.7
-    bag = flesh["lining"] + deep * (flesh["throat"] - flesh["lining"])
-    ramps = [upper, LOWER_TEETH * upper, furrow[:, None, None] * flat, np.broadcast_to(bag, (RAMP[1], RAMP[0], 3))]
+    floor = np.interp(aside, (0, 1), BAG_LIGHT)[:, None, None]
+    bag = floor * (flesh["lining"] + deep * (flesh["throat"] - flesh["lining"]))
+    ramps = [upper, LOWER_TEETH * upper, furrow[:, None, None] * flat, bag]
     if is_grey(rgb, mesh):
         ramps = [np.repeat((ramp @ LUMINANCE_WEIGHTS)[..., None], 3, axis=-1) for ramp in ramps]
     return MouthColours(*(np.clip(np.rint(ramp), 0, 255).astype(np.uint8) for ramp in ramps))

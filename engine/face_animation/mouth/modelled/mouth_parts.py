@@ -141,7 +141,7 @@ def mouth_bag(lips: NDArray[np.floating], deeper: float = 1.0) -> NDArray[np.flo
     than a face without a neck has room for."""
     lips = np.asarray(lips, np.float64)
     middle = lips.mean(axis=0)
-    up = -np.sin(2 * np.pi * np.arange(len(lips)) / len(lips))  # from corner over the upper lip to corner, y down
+    up = _up(len(lips))
     rings = []
     for depth, higher, share in RINGS:
         ring = middle + (lips - middle) * (share, 1, 1)
@@ -153,7 +153,8 @@ def mouth_bag(lips: NDArray[np.floating], deeper: float = 1.0) -> NDArray[np.flo
 
 
 def bag_surface() -> tuple[NDArray[np.int32], NDArray[np.float32]]:
-    """(T, 3) the bag's triangles, seen from within, and (V, 2) its places on its ramp: u from the lips to the throat."""
+    """(T, 3) the bag's triangles, seen from within, and (V, 2) its places on its ramp: u from the lips to the throat, v from its roof
+    to its floor."""
     count = len(LIPS_INNER)
     index = np.arange(len(RINGS) * count).reshape(len(RINGS), count)
     after = np.roll(index, -1, axis=1)
@@ -163,9 +164,13 @@ def bag_surface() -> tuple[NDArray[np.int32], NDArray[np.float32]]:
     ]
     end = np.stack([index[-1], np.full(count, index.size), after[-1]], axis=-1)
     depth = np.append(np.repeat([ring[0] for ring in RINGS], count), RINGS[-1][0] + BOTTOM) / (RINGS[-1][0] + BOTTOM)
-    return np.concatenate([*walls, end]).astype(np.int32), np.column_stack([depth, np.full(len(depth), 0.5)]).astype(
-        np.float32
-    )
+    floor = np.append(np.tile((1 + _up(count)) / 2, len(RINGS)), 0.5)
+    return np.concatenate([*walls, end]).astype(np.int32), np.column_stack([depth, floor]).astype(np.float32)
+
+
+def _up(count: int) -> NDArray[np.float64]:
+    """(count,) along a ring of the bag, in the order of `LIPS_INNER`: from corner over the upper lip, -1, to corner, and back, y down."""
+    return np.asarray(-np.sin(2 * np.pi * np.arange(count) / count), np.float64)
 
 
 def _in_eye_distances(places: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -158,3 +158,13 @@ def test_a_soft_picture_has_a_soft_mouth() -> None:
         slope = np.hypot(*np.gradient(frame.mean(axis=-1)))
         steepest.append(float(slope[cv2.erode(deep, np.ones((11, 11), np.uint8)) > 0].max()))
     assert steepest[0] > 1.3 * steepest[1] > 1.3**2 * steepest[2]
+
+
+def test_what_is_behind_the_tongue_is_dark_and_red_and_never_black() -> None:
+    skin = (190, 150, 130)
+    colours = mouth_colours(picture(skin), seen(front(0.0)))
+    for ramp in (colours.bag, colours.tongue):
+        light = ramp.astype(float).mean(axis=-1)
+        assert light.min() > 0.12 * np.mean(skin) and (ramp[..., 0] > 1.4 * ramp[..., 2]).all()
+    assert (np.diff(colours.bag.astype(int), axis=0) >= 0).all(), "lighter towards the floor"
+    assert (np.diff(colours.bag.astype(int), axis=1) <= 0).all(), "darker into the depth"
