@@ -26,6 +26,7 @@ from engine.character.fit.second_look import look_again
 from engine.character.fit.template_fit import FittedBody, fit_best, load_human, pose_template
 from engine.character.hybrid.behind_limbs import mirrored_behind
 from engine.character.hybrid.hybrid import Hybrid, limbs_alone
+from engine.character.hybrid.seam import with_the_trunks_colours
 from engine.character.hybrid.two_surfaces import together
 from engine.character.options import LabelStroke
 from engine.character.parts.crossed_labels import label_crossed
@@ -46,11 +47,12 @@ from engine.character.surface.layers import build_layers
 from engine.character.surface.sheets import ClosedMesh, close
 from engine.character.texture.head_sides import with_round_sides
 from engine.character.texture.limb_texture import LimbSurfaces
-from engine.character.texture.texture import SURE, BackTexture, PictureOnGrid, atlas, paint_tiles
+from engine.character.texture.texture import SURE, BackTexture, PictureOnGrid, Tiles, atlas, paint_tiles
 from engine.geometry.simplification.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.imaging.filling.background_plate import background_plate
-from engine.imaging.masks.mask_distance import dilate_mask
+from engine.imaging.filling.nearest import nearest_colours
+from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
 from engine.media.image import is_cut_out, over_white
 from engine.media.limits import Limits
 
@@ -64,6 +66,8 @@ WRIST = 0.3
 """Share in what moves an arm from which on it is moved by the hand."""
 FACE_COUNTS = 6.0
 """How much more a triangle of the head counts where triangles are saved."""
+RIM = 1.5
+"""Pixels of the grid within the outline in which the colours of a limb's edge are not its own."""
 AROUND = 6
 """Pixels around the trunk within which it is painted behind limbs."""
 SHADOW = 0.012
@@ -217,8 +221,15 @@ def make_character(
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
     along = _along_with_arms(mesh, labels)
     sleeves = {arm: _sleeve(mesh, arm, labels) for arm in ARMS if arm in labels.apart}
-    limbs = LimbSurfaces(reach, shown, along, sleeves)
-    return _made_of(figure, silhouette, fitted, labels, mesh, limbs, triangles, back)
+    tiles = _painted(figure, silhouette, labels, LimbSurfaces(reach, shown, along, sleeves), back)
+    return _made_of(figure, silhouette, fitted, labels, mesh, tiles, triangles)
+
+
+def _painted(figure: Figure, silhouette: Silhouette, labels: Labels, limbs: LimbSurfaces, back: BackTexture) -> Tiles:
+    face = face_ellipse(figure, silhouette.to_grid, labels.labels == BODY_PARTS.index("head"))
+    turned = None if in_profile(figure) else face_turn(figure)
+    picture = PictureOnGrid(figure.rgb, silhouette.alpha, silhouette.to_grid)
+    return paint_tiles(picture, labels, limbs, face, back, turned)
 
 
 def _made_of(
@@ -227,16 +238,14 @@ def _made_of(
     fitted: FittedBody,
     labels: Labels,
     mesh: ClosedMesh,
-    limbs: LimbSurfaces,
+    tiles: Tiles,
     triangles: int,
-    back: BackTexture,
 ) -> Character:
     head = labels.labels == BODY_PARTS.index("head")
     face = face_ellipse(figure, silhouette.to_grid, head)
-    turned = None if in_profile(figure) else face_turn(figure)
-    picture = PictureOnGrid(figure.rgb, silhouette.alpha, silhouette.to_grid)
-    tiles = paint_tiles(picture, labels, limbs, face, back, turned)
-    if face is not None and turned is not None:  # where a turned face ends at the outline, a cheek goes on beyond it
+    if face is not None and not in_profile(
+        figure
+    ):  # where a turned face ends at the outline, a cheek goes on beyond it
         mesh = with_round_sides(mesh, head, within_oval(face * CHEEK, head.shape), 0)
     texture, uv = atlas(tiles, mesh, 0)
     camera = silhouette.camera(fitted.picture_camera())
@@ -279,9 +288,14 @@ def make_hybrid_character(
     alone = replace(silhouette, alpha=silhouette.alpha * (1 - gone))
     seen = mirrored_behind(figure.rgb, behind > 0, (silhouette.alpha > SURE) & (gone == 0))
     nothing = LimbSurfaces(np.zeros_like(limbs), np.zeros_like(limbs))
-    relief = _made_of(replace(figure, rgb=seen), alone, fitted, own, trunk, nothing, triangles, back)
-    texture = paint_shell(figure.rgb, silhouette, labels, hybrid.shell, "inpaint" if back == "inpaint" else "mirror")
-    shell = bind_shell(limbs_alone(hybrid), figure, silhouette, fitted, texture)
+    tiles = _painted(replace(figure, rgb=seen), alone, own, nothing, back)
+    relief = _made_of(figure, alone, fitted, own, trunk, tiles, triangles)
+    shown = limbs_alone(hybrid)
+    filled: BackTexture = "inpaint" if back == "inpaint" else "mirror"
+    texture = paint_shell(figure.rgb, silhouette, labels, hybrid.shell, filled, shown.mesh.triangles)
+    clean = nearest_colours(figure.rgb, distance_inside(silhouette.alpha > SURE) > RIM / silhouette.to_grid[0, 0])
+    texture = with_the_trunks_colours(texture, hybrid, tiles, clean, silhouette.to_grid)
+    shell = bind_shell(shown, figure, silhouette, fitted, texture)
     character = together(shell, relief)
     return replace(character, mesh=fewer_triangles(character, triangles))
 

@@ -21,6 +21,7 @@ from engine.character.parts.labels import ARMS, LEGS
 from engine.character.shell.template_mesh import TemplateMesh
 from engine.character.surface.depth_order import body_behind, limb_before
 from engine.character.surface.part_surface import Surface
+from engine.character.surface.sheet_border import open_edges
 from engine.character.surface.sheets import Layer
 from engine.geometry.adjacency import neighbours
 from engine.imaging.masks.mask_distance import dilate_mask
@@ -190,7 +191,7 @@ def cut_off(mesh: TemplateMesh, limbs: Limbs) -> TemplateMesh:
     """The mesh of the limbs alone, closed within the trunk. Its vertices are all that there were."""
     kept = mesh.triangles[(limbs.limb >= 0)[mesh.triangles].all(1)]
     charted = mesh.uv_triangles[(limbs.limb >= 0)[mesh.triangles].all(1)]
-    kept, charted = _closed(kept, charted)
+    kept, charted = _closed(*_without_pinches(kept, charted))
     used, again = np.unique(charted, return_inverse=True)
     return replace(
         mesh,
@@ -201,6 +202,18 @@ def cut_off(mesh: TemplateMesh, limbs: Limbs) -> TemplateMesh:
     )
 
 
+def _without_pinches(
+    triangles: NDArray[np.int32], charted: NDArray[np.int32]
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Triangles (T, 3), and the same of the chart, without those around vertices that open border passes twice."""
+    while True:
+        passes = np.bincount(open_edges(triangles.astype(np.intp), int(triangles.max()) + 1).ravel())
+        kept = ~(passes > 2)[np.minimum(triangles, len(passes) - 1)].any(1)
+        if kept.all():
+            return triangles, charted
+        triangles, charted = triangles[kept], charted[kept]
+
+
 def _closed(triangles: NDArray[np.int32], charted: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Triangles (T, 3), and the same of the chart, with every loop of open border filled by a fan: it is within the trunk."""
     ends = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]).astype(np.int64)
@@ -209,16 +222,23 @@ def _closed(triangles: NDArray[np.int32], charted: NDArray[np.int32]) -> tuple[N
     back = np.isin(ends[:, 1] * count + ends[:, 0], ends[:, 0] * count + ends[:, 1])
     following = {int(b): int(a) for a, b in ends[~back]}  # the other way round: the fan's triangles look outwards
     corner = {int(a): int(c) for (a, _), (c, _) in zip(ends[~back], corners[~back], strict=True)}
+    there = set((np.sort(ends, 1) @ [count, 1]).tolist())
     fans: list[tuple[int, int, int]] = []
     while following:
-        first, loop = next(iter(following)), []
-        at = first
+        at, loop = next(iter(following)), []
         while at in following:
             loop.append(at)
             at = following.pop(at)
-        fans += [(loop[0], b, c) for b, c in pairwise(loop[1:])]
+        turned = (loop[k:] + loop[:k] for k in range(len(loop)))
+        hub = next((one for one in turned if not _meets(one, there, count)), loop)
+        fans += [(hub[0], b, c) for b, c in pairwise(hub[1:])]
     if not fans:
         return triangles, charted
     more = np.array(fans, np.int32)
     named = np.vectorize(corner.__getitem__)(more).astype(np.int32)
     return np.concatenate([triangles, more]), np.concatenate([charted, named])
+
+
+def _meets(loop: list[int], edges: set[int], count: int) -> bool:
+    """Whether a fan from the first of a loop's vertices has an edge that the surface has, too."""
+    return any(min(loop[0], k) * count + max(loop[0], k) in edges for k in loop[2:-1])

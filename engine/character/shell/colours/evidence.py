@@ -102,14 +102,20 @@ class Witness:
         return Evidence(colours.reshape(*shape, 3), shown.reshape(shape), source.reshape(shape))
 
 
-def witness(rgb: NDArray[np.uint8], silhouette: Silhouette, labels: Labels, shell: Shell) -> Witness:
-    """The picture (H, W, 3) as a witness of the shell."""
+def witness(
+    rgb: NDArray[np.uint8],
+    silhouette: Silhouette,
+    labels: Labels,
+    shell: Shell,
+    hides: NDArray[np.int32] | None = None,
+) -> Witness:
+    """The picture (H, W, 3) as a witness of the shell; `hides` (T, 3): the triangles that hide others, all unless they are given."""
     normals = vertex_normals(shell.pictured, shell.mesh.triangles)
     towards = -normals[:, 2:]  # y is down, so that the triangles turn the other way
     height, width = silhouette.mask.shape
     screen = (shell.pictured + 0.5) * FINER - 0.5
     screen[:, 2] = -shell.pictured[:, 2]
-    depth = depth_map(screen, shell.mesh.triangles, (height * FINER, width * FINER))
+    depth = depth_map(screen, shell.mesh.triangles if hides is None else hides, (height * FINER, width * FINER))
     near = np.where(np.isfinite(depth), -depth, -1e4).astype(np.float32)
     around = [np.asarray(cv2.dilate(near, np.ones((size, size), np.uint8)), np.float32) for size in (3, 15)]
     inverse = cv2.invertAffineTransform(silhouette.to_grid)

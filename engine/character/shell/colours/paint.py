@@ -52,6 +52,7 @@ def paint_shell(
     labels: Labels,
     shell: Shell,
     back: BackTexture = "see_through",
+    hides: NDArray[np.int32] | None = None,
 ) -> NDArray[np.uint8]:
     """The texture (`SIZE`, `SIZE`, 3) of a shell, in the template's own chart.
 
@@ -60,8 +61,9 @@ def paint_shell(
     rgb : (H, W, 3), the picture.
     labels : what each pixel of the grid shows; what hangs over the legs is the trunk's (`Labels.layered`).
     back : what is behind: the front seen through without what only fronts have, all of it, or what the sides of each row say.
+    hides : (T, 3), the triangles that hide others, where that is not all of the shell.
     """
-    told = witness(rgb, silhouette, labels, shell)
+    told = witness(rgb, silhouette, labels, shell, hides)
     triangles = shell.mesh.triangles
     rows, sure = [], []
     for part in unrolled_parts():
