@@ -21,7 +21,7 @@ from engine.face_animation.mouth.modelled.mouth_parts import (
     mouth_bag,
     tongue,
 )
-from engine.face_animation.mouth.modelled.resting_mouth import RestingMouth
+from engine.face_animation.mouth.modelled.resting_mouth import CORNERS, RestingMouth
 from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.geometry.adjacency import edge_table
 from engine.geometry.surface import vertex_normals
@@ -50,6 +50,9 @@ only, and in true depth these decide whether a tongue is seen at all. To the sid
 MOST_CROWN = 0.17
 """Eye distances of the upper row that are seen below the middle of the upper lip, at most: where a lip is drawn up farther than its person's
 would be, the row goes along, and no more of its gum is bared."""
+ROUNDED_FROM, ROUNDED_CROWN = 0.05, 0.6
+"""Share of its width by which a mouth is narrower than at rest from which on its lips are rounded, and eye distances of the upper row that they
+cover for all of it: lips that say O are pushed forward over the teeth, though their edges are as high as in a smile."""
 APPEARING = 0.03
 """By how much a mouth opens while its inside appears."""
 DISTANCE = 4096.0
@@ -121,7 +124,9 @@ class ModelledMouth:
         jaw = jaw_behind_lips(self._at, front)
         lips = np.column_stack([front, depths])[list(LIPS_INNER)]
         tongue_jaw = jaw._replace(angle=TONGUE_SHARE * jaw.angle)
-        raised = min(float(front[UPPER_LIP_MIDDLE, 1]) + MOST_CROWN - self._at.edge, 0.0)
+        raised = min(
+            float(front[UPPER_LIP_MIDDLE, 1]) + MOST_CROWN - covered_crown(self._at, front) - self._at.edge, 0.0
+        )
         bag = mouth_bag(lips, DEEPER)
         moved = np.concatenate([FRAME + np.array([0, raised, 0]), jaw.moved(FRAME), tongue_jaw.moved(FRAME), bag])
         behind = moved[:, 2:] - self._at.depth
@@ -162,6 +167,12 @@ def jaw_behind_lips(at: RestingMouth, front: NDArray[np.floating]) -> Jaw:
     lip, jaw = float(front[LOWER_MIDDLE, 1]), jaw_of(front, at.shut)
     bared = float(np.interp(jaw.angle, BARING_ANGLES, (0, 1)))
     return held_between(jaw, edge, (lip - bared * ABOVE_LIP, lip + BELOW_LIP))
+
+
+def covered_crown(at: RestingMouth, front: NDArray[np.floating]) -> float:
+    """Eye distances of the upper row that the lips of a face that rests as `at` says and is `front` (478, 2 or 3) from the front cover, being rounded."""
+    width = float(np.linalg.norm(front[CORNERS[1], :2] - front[CORNERS[0], :2]))
+    return ROUNDED_CROWN * max(1 - width / max(at.width, 1e-6) - ROUNDED_FROM, 0.0)
 
 
 def shown_share(face: NDArray[np.floating], appearing: float) -> float:

@@ -8,7 +8,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from engine.face_animation.mouth.modelled.jaw import CHIN, held_between, jaw_of
-from engine.face_animation.mouth.modelled.modelled_mouth import BARING_ANGLES, ModelledMouth, jaw_behind_lips
+from engine.face_animation.mouth.modelled.modelled_mouth import (
+    BARING_ANGLES,
+    ModelledMouth,
+    covered_crown,
+    jaw_behind_lips,
+)
 from engine.face_animation.mouth.modelled.mouth_colours import mouth_colours
 from engine.face_animation.mouth.modelled.mouth_light import mouth_light
 from engine.face_animation.mouth.modelled.mouth_parts import OVERBITE, OVERJET, modelled_teeth, mouth_bag
@@ -168,3 +173,19 @@ def test_what_is_behind_the_tongue_is_dark_and_red_and_never_black() -> None:
         assert light.min() > 0.12 * np.mean(skin) and (ramp[..., 0] > 1.4 * ramp[..., 2]).all()
     assert (np.diff(colours.bag.astype(int), axis=0) >= 0).all(), "lighter towards the floor"
     assert (np.diff(colours.bag.astype(int), axis=1) <= 0).all(), "darker into the depth"
+
+
+def test_rounded_lips_cover_the_upper_teeth(mouth: ModelledMouth) -> None:
+    at = resting_mouth(front(0.0), front(0.0))
+    lips = [*LIPS_INNER, *LIPS_OUTER]
+    heights, covered = [], []
+    for width in (1.2, 1.0, 0.96, 0.85, 0.7):
+        face = front(0.3)
+        face[lips, 0] = at.middle + width * (face[lips, 0] - at.middle)
+        face[[82, 13, 312], 1] -= 0.05
+        covered.append(covered_crown(at, face))
+        upper = mouth.places(seen(face))[: len(modelled_teeth(at, True).vertices), 1]
+        heights.append(float(upper.max()) / EYES)
+    assert covered[:3] == [0, 0, 0] and 0 < covered[3] < covered[4]
+    np.testing.assert_allclose(heights[:3], heights[0], atol=1e-3)
+    assert heights[0] > heights[3] > heights[4]
