@@ -124,8 +124,8 @@ class ModelledMouth:
         jaw = jaw_behind_lips(self._at, front)
         lips = np.column_stack([front, depths])[list(LIPS_INNER)]
         tongue_jaw = jaw._replace(angle=TONGUE_SHARE * jaw.angle)
-        raised = min(
-            float(front[UPPER_LIP_MIDDLE, 1]) + MOST_CROWN - covered_crown(self._at, front) - self._at.edge, 0.0
+        raised = min(float(front[UPPER_LIP_MIDDLE, 1]) + MOST_CROWN - self._at.edge, 0.0) - covered_crown(
+            self._at, front
         )
         bag = mouth_bag(lips, DEEPER)
         moved = np.concatenate([FRAME + np.array([0, raised, 0]), jaw.moved(FRAME), tongue_jaw.moved(FRAME), bag])
