@@ -66,7 +66,7 @@ WRIST = 0.3
 """Share in what moves an arm from which on it is moved by the hand."""
 FACE_COUNTS = 6.0
 """How much more a triangle of the head counts where triangles are saved."""
-RIM = 1.5
+RIM = 2.5
 """Pixels of the grid within the outline in which the colours of a limb's edge are not its own."""
 AROUND = 6
 """Pixels around the trunk within which it is painted behind limbs."""

@@ -49,7 +49,10 @@ def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
     template = pose_template(fitted, camera, human)
     layer = trunk_layer(own, template, human.rig, seen_face(figure, silhouette, template, human.face, own))
     shape = shaped(figure, silhouette, fitted, labels)
-    limbs = limbs_of(mesh, shape.pictured, own, fitted)
+    places = (shape.pictured[:, :2] - silhouette.to_grid[:, 2]) / np.diag(silhouette.to_grid)
+    height, width = silhouette.alpha.shape
+    within = np.asarray(((places > -1) & (places < [width, height])).all(1), np.bool_)
+    limbs = limbs_of(mesh, shape.pictured, own, fitted, within)
     pictured, layer = joined_in_depth(mesh, shape.pictured, limbs, layer, own)
     trunk = close([layer], silhouette.soft)
     covering = Piece("trunk", trunk.vertices, trunk.triangles, trunk.bones.astype(np.intp), trunk.weights)

@@ -57,9 +57,16 @@ class Limbs:
     near: NDArray[np.float32]
 
 
-def limbs_of(mesh: TemplateMesh, pictured: NDArray[np.float64], labels: Labels, fitted: FittedBody) -> Limbs:
+def limbs_of(
+    mesh: TemplateMesh,
+    pictured: NDArray[np.float64],
+    labels: Labels,
+    fitted: FittedBody,
+    within: NDArray[np.bool_] | None = None,
+) -> Limbs:
     """The limbs of a shell as `pictured` (V, 3): what of it is arms' and legs', and around shoulders and hips. Of legs that come out
-    from under cloth that hangs, what is below, and a little more. `labels`: of `trunk_labels`."""
+    from under cloth that hangs, what is below, and a little more. `labels`: of `trunk_labels`; `within` (V,): what is in the picture, all
+    unless it is given: beyond its edge nothing is made up."""
     space, coefficients = load_human().space, fitted.fit.coefficients
     at, heads = space.vertices(coefficients)[mesh.ids], space.joints(coefficients)
     hangs = labels.cloth is not None and labels.cloth.hangs
@@ -73,8 +80,8 @@ def limbs_of(mesh: TemplateMesh, pictured: NDArray[np.float64], labels: Labels, 
         if part in LEGS and hangs:
             continue
         near = np.maximum(near, np.clip(1 - distance / reach, 0, 1))
-        within = (most == BODY_PARTS.index("torso")) & (distance < reach) & (limb < 0)
-        limb[within], overlap[within] = part, True
+        beyond = (most == BODY_PARTS.index("torso")) & (distance < reach) & (limb < 0)
+        limb[beyond], overlap[beyond] = part, True
     if hangs:
         up = UP * rows_apart(labels.labels >= 0)
         for leg in LEGS:
@@ -82,6 +89,8 @@ def limbs_of(mesh: TemplateMesh, pictured: NDArray[np.float64], labels: Labels, 
             hem = np.flatnonzero(own.any(1))[0] if own.any() else np.inf
             limb[(limb == leg) & (pictured[:, 1] < hem - up)] = -1
         overlap |= np.isin(limb, LEGS) & (pictured[:, 1] < _hem(labels, limb))
+    if within is not None:
+        limb[~within] = -1
     return Limbs(limb, overlap & (limb >= 0), near.astype(np.float32))
 
 
@@ -103,13 +112,12 @@ def joined_in_depth(
     trunk = _as_deep(mesh, moved, limbs, trunk)
     beside = dilate_mask(trunk.mask & ~np.isin(labels.labels, LIMBS), UNDER + 1)
     for part in LIMBS:
-        own = labels.labels == part
-        if not own.any():
+        own, chosen = labels.labels == part, (limbs.limb == part) & ~limbs.overlap
+        if not (own.any() and chosen.any()):
             continue
         layer = _limb_layer(mesh, moved, limbs, part, own.shape)
         trunk = body_behind(trunk, layer, own)
         nearer = limb_before(layer, trunk, own & ~beside).front.depth - layer.front.depth
-        chosen = (limbs.limb == part) & ~limbs.overlap
         moved[chosen, 2] += _at(np.nan_to_num(nearer), moved[chosen])
     return _within(mesh, moved, limbs, trunk, labels), trunk
 

@@ -20,7 +20,7 @@ from engine.render.rasteriser import rasterise
 
 FROM = 0.5
 """Share of the trunk in what moves a vertex from which on its colours go over to the trunk's."""
-FACES, SURELY = 0.08, 0.25
+FACES, SURELY = 0.12, 0.3
 """Cosine to the viewer from which on what is seen of a limb is more and more, and all, the picture's."""
 BESIDE = 5
 """Pixels of the grid around a limb's label in which its surface may be what is seen: neither's border is exact."""
@@ -65,11 +65,11 @@ def with_the_trunks_colours(
 
 def _around_limbs(labels: NDArray[np.integer]) -> NDArray[np.bool_]:
     """For each part the pixels (P, h, w) that it may show: of limbs what is labelled so, and a little around it that is no other
-    limb's and nobody's background; of other parts none."""
+    limb's; of other parts none."""
     around = np.zeros((len(BODY_PARTS), *labels.shape), np.bool_)
     for limb in LIMBS:
         others = np.isin(labels, [other for other in LIMBS if other != limb])
-        around[limb] = dilate_mask(labels == limb, BESIDE) & (labels >= 0) & ~dilate_mask(others, 2)
+        around[limb] = dilate_mask(labels == limb, BESIDE) & ~dilate_mask(others, 2)
         around[limb] |= labels == limb
     return around
 

@@ -14,6 +14,7 @@ from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import HEIGHT, Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
 from engine.character.hybrid.hybrid import Hybrid, limbs_alone, make_hybrid
+from engine.character.hybrid.limbs import cut_off, limbs_of
 from engine.character.hybrid.two_surfaces import together
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARMS, LEGS
@@ -113,6 +114,15 @@ def test_it_is_closed_and_its_weights_sum_to_one(made: tuple[Hybrid, Character, 
     assert is_closed(weld(mesh)[mesh.triangles])
     np.testing.assert_allclose(mesh.weights.sum(1), 1, atol=1e-5)
     assert abs(mesh.vertices[:, 1].min()) < 1e-5, "it stands on the ground"
+
+
+def test_beyond_the_edge_of_the_picture_nothing_is_made_up(made: tuple[Hybrid, Character, Character]) -> None:
+    hybrid, _, _ = made
+    mesh, pictured = hybrid.shell.mesh, hybrid.shell.pictured
+    within = pictured[:, 1] < np.percentile(pictured[:, 1], 60)
+    cut = limbs_of(mesh, pictured, hybrid.labels, arms_down(), within)
+    assert (cut.limb[~within] == -1).all() and (cut.limb == hybrid.limbs.limb)[within].all()
+    assert is_closed(cut_off(mesh, cut).triangles)
 
 
 def test_limbs_are_the_shells_and_the_trunk_has_none(made: tuple[Hybrid, Character, Character]) -> None:
