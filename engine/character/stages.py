@@ -284,7 +284,9 @@ def make_hybrid_character(
     own, trunk = hybrid.labels, hybrid.trunk
     limbs = np.isin(own.labels, own.apart)
     around = dilate_mask(trunk.pixels(np.arange(len(trunk.vertices)), limbs.shape), AROUND)
-    gone, behind = (_in_the_picture(one, silhouette) for one in (limbs & ~around, limbs & around))
+    gone, behind = (
+        _in_the_picture(one, silhouette) for one in (limbs & ~around, limbs & around & ~hybrid.trunk_seen())
+    )
     alone = replace(silhouette, alpha=silhouette.alpha * (1 - gone))
     seen = mirrored_behind(figure.rgb, behind > 0, (silhouette.alpha > SURE) & (gone == 0))
     nothing = LimbSurfaces(np.zeros_like(limbs), np.zeros_like(limbs))

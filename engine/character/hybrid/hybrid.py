@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
@@ -23,6 +24,7 @@ from engine.character.shell.shell import Shell, shaped, shell_of
 from engine.character.shell.template_mesh import template_mesh
 from engine.character.surface.face_warp import seen_face
 from engine.character.surface.sheets import ClosedMesh, close
+from engine.render.rasteriser import rasterise
 
 
 @dataclass(frozen=True)
@@ -39,6 +41,14 @@ class Hybrid:
     limbs: Limbs
     trunk: ClosedMesh
     labels: Labels
+
+    def trunk_seen(self) -> NDArray[np.bool_]:
+        """The pixels (h, w) of the grid at which the trunk is nearest to the viewer."""
+        limbs = limbs_alone(self).mesh.triangles
+        vertices = np.concatenate([self.shell.pictured, self.trunk.vertices]) * [1, 1, -1]
+        triangles = np.concatenate([limbs, self.trunk.triangles + len(self.shell.pictured)])
+        height, width = self.labels.labels.shape
+        return np.asarray(rasterise(vertices, triangles, (height, width)).triangle >= len(limbs))
 
 
 def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Hybrid:
