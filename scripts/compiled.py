@@ -13,7 +13,9 @@ from worker.compilation.rehearsal import rehearse, unrehearsed
 def main() -> None:
     settings = Settings(kinds=["engine.kinds:KINDS"])
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        list(pool.map(lambda kind: rehearse(kind, settings), unrehearsed(load_kinds(settings.kinds))))
+        # the later kinds take longer: begun last, one would be alone in the end
+        kinds = unrehearsed(load_kinds(settings.kinds))[::-1]
+        list(pool.map(lambda kind: rehearse(kind, settings), kinds))
 
 
 if __name__ == "__main__":
