@@ -1,6 +1,7 @@
 /** What the page may do in a browser (its Content-Security-Policy). All tests that `open` a page hold it to that; characters
  * in 3D are in `character.test.ts`. */
 
+import './nobody_works';
 import { readdirSync } from 'node:fs';
 import { createServer, type Server } from 'node:http';
 import type { AddressInfo } from 'node:net';

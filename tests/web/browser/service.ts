@@ -17,6 +17,9 @@ export interface Service {
   end: () => Promise<void>;
 }
 
+/** Settings of all services that a file of tests starts. */
+export const shared: Record<string, string> = {};
+
 /** A service of its own, with these settings besides; its data folder is empty, or a copy of one that a service has left. */
 export async function serve(settings: Record<string, string> = {}, left?: string): Promise<Service> {
   const folder = mkdtempSync(join(tmpdir(), 'galatea-web-'));
@@ -29,7 +32,7 @@ export async function serve(settings: Record<string, string> = {}, left?: string
     ['--pdeathsig', 'TERM', join(root, '.venv/bin/python'), '-m', 'shell.main', 'serve', '--port', '0'],
     {
       cwd: root,
-      env: { ...process.env, GALATEA_DATA_DIR: data, GALATEA_ALLOWED_NETWORKS: '127.0.0.0/8', ...settings },
+      env: { ...process.env, GALATEA_DATA_DIR: data, GALATEA_ALLOWED_NETWORKS: '127.0.0.0/8', ...shared, ...settings },
       stdio: ['ignore', output, output],
     },
   );

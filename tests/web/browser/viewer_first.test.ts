@@ -1,5 +1,6 @@
 /** What the page of a finished character opens on: the person stepping out of the picture, with the video at hand. */
 
+import './nobody_works';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints, expectComplaint } from './complaints';

@@ -1,5 +1,6 @@
 /** A character from all sides. */
 
+import './nobody_works';
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import type { AxeResults } from 'axe-core';

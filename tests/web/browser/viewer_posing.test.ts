@@ -1,5 +1,6 @@
 /** A pose by hand: dragged, turned by keys, told as degrees. */
 
+import './nobody_works';
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
 import { aViewer, differing, mode, ready, shot, still } from './viewer_kit';

@@ -1,5 +1,6 @@
 /** A character in one's own room, by model-viewer. */
 
+import './nobody_works';
 import { describe, expect, it } from 'vitest';
 import { address } from './own_service';
 import { aViewer, CLIPS } from './viewer_kit';

@@ -1,5 +1,6 @@
 /** The picture on a wall, and who steps out of it. */
 
+import './nobody_works';
 import { describe, expect, it } from 'vitest';
 import { lacks } from './lacks';
 import { ask } from './page';

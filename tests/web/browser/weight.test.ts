@@ -1,3 +1,4 @@
+import './nobody_works';
 import { gzipSync } from 'node:zlib';
 import { expect, it } from 'vitest';
 import { launch } from './browser';
