@@ -144,7 +144,7 @@ class MotionTransfer:
         rest, target = self._rest, self._target
         expression = self._strength * self._follow[:, None] * carry_expression(self._maps, self._phi, motion.expression)
         upright, acted = rest + motion.expression, target + expression
-        ratio = 1 + self._eyes * (lid_ratio(upright, rest) - 1)
+        ratio = 1 + self._eyes * (lid_ratio(upright, rest, target) - 1)
         close_lips(acted, self._mouth * lips_met_share(upright, rest))
         keep_lips_off_skin(acted, target, philtrum_compression(upright, rest))
         expression = constrain_lids_and_lips(acted, target, np.maximum(ratio, 0)) - target

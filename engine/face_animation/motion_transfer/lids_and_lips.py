@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import mouth_opening
+from engine.perception.landmarks import eye_opening, mouth_opening
 
 LID_PAIRS = (
     *((246, 7), (161, 163), (160, 144), (159, 145), (158, 153), (157, 154), (173, 155)),
@@ -35,9 +35,15 @@ LIP_GAP_SHARES = (0.15, 0.5)
 """Shares of its usual gap at which a mouth whose lips are usually parted has closed, and begins to."""
 
 
-def lid_ratio(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
+def lid_ratio(
+    meshes: NDArray[np.floating], neutral: NDArray[np.floating], target: NDArray[np.floating] | None = None
+) -> NDArray[np.float64]:
     """(N, 14) gap of each pair of lid vertices against the neutral frame's; the tracker never reports a
-    gap of zero, so that ratios under `CLOSED_GAP_SHARE` become 0."""
+    gap of zero, so that ratios under `CLOSED_GAP_SHARE` become 0.
+
+    Eyes of a `target` (478, 3) that are narrower at rest than the driver's are narrowed no further than these are, by `eye_opening`: what is
+    left of wide eyes is not a squint.
+    """
     upper, lower = np.array(LID_PAIRS).T
     gap = np.linalg.norm(meshes[:, upper] - meshes[:, lower], axis=-1)
     rest = np.linalg.norm(neutral[upper] - neutral[lower], axis=-1)
@@ -45,6 +51,9 @@ def lid_ratio(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> ND
     ratio = gap / np.maximum(rest, 1e-6)
     middle = np.repeat(np.stack([ratio[:, 2:5].mean(axis=1), ratio[:, 9:12].mean(axis=1)], axis=1), 7, axis=1)
     shut = np.clip((middle - CLOSED_GAP_SHARE) / (OPEN_GAP_SHARE - CLOSED_GAP_SHARE), 0, 1)
+    if target is not None:
+        least = np.minimum(eye_opening(meshes) / np.maximum(eye_opening(target), 1e-6), 1)
+        ratio = np.maximum(ratio, np.repeat(least, 7, axis=1))
     return np.asarray(np.clip(ratio, 0, MAX_GAP_RATIO) * (shut * shut * (3 - 2 * shut)), float)
 
 

@@ -163,3 +163,14 @@ def test_lips_that_are_parted_at_rest_meet_where_the_driver_s_meet() -> None:
 def test_lips_that_are_closed_at_rest_are_left_to_their_offsets() -> None:
     rest = placed(60)
     assert not lips_met_share(np.stack([rest, opened(rest, 0.3)]), rest).any()
+
+
+def test_what_is_left_of_wide_eyes_is_no_squint_of_narrower_ones(driver: NDArray) -> None:
+    wide, calm, squint, closed = (shut(driver, share) for share in (1.3, 1.0, 0.8, 0.05))
+    frames = np.stack([wide, calm, squint, closed])
+    same_person, narrower = (lid_ratio(frames, wide, target)[:, [3, 10]] for target in (wide, calm))
+    np.testing.assert_allclose(same_person, lid_ratio(frames, wide)[:, [3, 10]], atol=0.02)
+    np.testing.assert_allclose(narrower[0], same_person[0])
+    np.testing.assert_allclose(narrower[1], 1, rtol=0.02)  # as open as the driver's are
+    assert (narrower[2] > same_person[2]).all() and (narrower[2] < 0.85).all()
+    assert not narrower[3].any()
