@@ -24,7 +24,7 @@ from engine.face_animation.motion_transfer.control_points import ControlPoints, 
 from engine.face_animation.motion_transfer.expression_transfer import carry_expression, local_maps
 from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_motion, turn_angles
 from engine.face_animation.motion_transfer.head_proxy import HeadProxy, chin_length, move_head
-from engine.face_animation.motion_transfer.head_room import hold_back, skull_shift
+from engine.face_animation.motion_transfer.head_room import hold_back, skull_shift, turned_in_picture
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
 from engine.face_animation.motion_transfer.lids_and_lips import (
     close_lips,
@@ -96,6 +96,7 @@ class MotionTransfer:
         self._rest, self._around, self._trust = rest.meshes[0], rest.periphery[0], rest.trust[0]
         self._target, self._control, self._proxy, self._residuals = target, control, proxy, residuals
         self._phi = align(self._rest, target)
+        self._turned = turned_in_picture(target)
         self._unit = float(eye_distance(target[:, :2]))
         self._maps = local_maps(self._phi, self._rest, target, float(eye_distance(self._rest[:, :2])))
         self._follow = part_weights(options.follow)
@@ -119,7 +120,7 @@ class MotionTransfer:
             placed = self._corrected(frames, control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE])
             offsets[:, control.periphery] = self._carried_around(frames)
         else:
-            held = hold_back(scaled, phi, control.room)
+            held = hold_back(scaled, phi, control.room, self._turned)
             solid = move_head(proxy, held, target)
             face = move_head(proxy, held, target, expression)[:, :MESH_SIZE]
             depths = solid[..., 2]

@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.head_motion import HeadMotion
-from engine.geometry.registration.rigid import Similarity
-from engine.perception.landmarks import FACE_OVAL
+from engine.geometry.registration.rigid import Similarity, fit_similarities
+from engine.perception.head_pose import canonical_face
+from engine.perception.landmarks import FACE_OVAL, RIGID_VERTICES
 
 FREE_SHARE = 0.5
 """Share of the room over which nothing is held back."""
@@ -25,7 +26,12 @@ LEAST_ROOM = 0.08
 CUT_HAIR_SHARE = 0.35
 """Share of the hair between face and border that may come down from a border that cuts it."""
 LARGEST_TURN = np.deg2rad(25.0)
-"""Turns out of the picture plane beyond are held back to this."""
+"""Turns out of the picture plane beyond are held back to this, counted from the front: what one picture shows of a head's sides goes no
+further. Faces are turned back to the front by as much."""
+FREE_TURN_SHARE = 0.8
+"""Share of the largest turn up to which nothing is held back."""
+LEAST_TURN = np.deg2rad(6.0)
+"""By which a face may turn in any direction, however far it is turned in its picture."""
 LARGEST_APPROACH = 0.3
 """Logarithm of the largest change of the head's size."""
 EDGE_SHARE = 0.02
@@ -76,18 +82,33 @@ def soft_limit(
     )
 
 
-def limit_rotation(rotation: NDArray[np.float64], largest: float = LARGEST_TURN) -> NDArray[np.float64]:
-    """Rotations (N, 3, 3) with turns out of the picture plane held back softly to `largest` radians."""
+def limit_rotation(rotation: NDArray[np.float64], turned: tuple[float, float] = (0.0, 0.0)) -> NDArray[np.float64]:
+    """Rotations (N, 3, 3) with turns out of the picture plane held back softly to `LARGEST_TURN`, for a face that its picture shows `turned` out of
+    it, about x and y, radians: it has less room to the side to which it is turned."""
     limited = rotation.copy()
+    own = np.asarray(turned)
     for i, r in enumerate(rotation):
         vector = cv2.Rodrigues(r)[0][:, 0]
         turn = float(np.hypot(vector[0], vector[1]))
-        if turn > 0.8 * largest:
-            start = 0.8 * largest
-            held = start + (largest - start) * np.tanh((turn - start) / (largest - start))
-            vector[:2] *= held / turn
+        if turn == 0:
+            continue
+        along = float(own @ vector[:2]) / turn
+        aside = float(own @ own) - along**2
+        reach = np.sqrt(max(LARGEST_TURN**2 - aside, 0.0)) - along  # to where it would be turned by the largest
+        largest = float(np.clip(reach, LEAST_TURN, LARGEST_TURN))
+        start = FREE_TURN_SHARE * largest
+        if turn > start:
+            vector[:2] *= (start + (largest - start) * np.tanh((turn - start) / (largest - start))) / turn
             limited[i] = cv2.Rodrigues(vector)[0]
     return limited
+
+
+def turned_in_picture(mesh: NDArray[np.floating]) -> tuple[float, float]:
+    """By how much a face (478, 3) is turned out of the picture plane, about x and y, radians."""
+    chosen = list(RIGID_VERTICES)
+    rotation = fit_similarities(canonical_face()[chosen].astype(float), mesh[None][:, chosen], np.ones(len(chosen)))[1]
+    x, y, _ = cv2.Rodrigues(rotation[0])[0][:, 0].tolist()
+    return x, y
 
 
 def skull_centre(mesh: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -103,16 +124,18 @@ def skull_shift(motion: HeadMotion) -> NDArray[np.float64]:
     return np.asarray(motion.scale[:, None] * (motion.rotation @ centre) + motion.shift - centre)
 
 
-def hold_back(motion: HeadMotion, phi: Similarity, room: NDArray[np.floating]) -> HeadMotion:
+def hold_back(
+    motion: HeadMotion, phi: Similarity, room: NDArray[np.floating], turned: tuple[float, float] = (0.0, 0.0)
+) -> HeadMotion:
     """A driver's motion as far as the target can follow it: the skull's shift within `room` (2, 2), pixels of the target.
 
-    phi : from the driver's neutral frame to the target, in the plane.
+    phi : from the driver's neutral frame to the target, in the plane. turned : as `limit_rotation` has it.
     """
     centre = skull_centre(motion.neutral)
     moved = skull_shift(motion)
     moved[:, :2] = phi.inverse().offsets(soft_limit(phi.offsets(moved[:, :2]), room[0], room[1]))
     end = np.array(LARGEST_APPROACH)
     scale = np.exp(soft_limit(np.log(motion.scale), -end, end))
-    rotation = limit_rotation(motion.rotation)
+    rotation = limit_rotation(motion.rotation, turned)
     shift = centre + moved - scale[:, None] * (rotation @ centre)
     return replace(motion, scale=scale, rotation=rotation, shift=shift)

@@ -16,7 +16,14 @@ from engine.face_animation.motion_transfer.head_proxy import (
     move_head,
     surface_depth,
 )
-from engine.face_animation.motion_transfer.head_room import LARGEST_TURN, limit_rotation, skull_centre
+from engine.face_animation.motion_transfer.head_room import (
+    LARGEST_TURN,
+    LEAST_TURN,
+    limit_rotation,
+    skull_centre,
+    turned_in_picture,
+)
+from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import MESH_SIZE, RIGID_VERTICES
 
 UNIT, CENTRE = 50.0, (150.0, 120.0)
@@ -150,7 +157,22 @@ def test_large_turns_are_held_back_softly() -> None:
     held = limit_rotation(np.stack([turn(yaw=a) for a in asked]))
     angles = np.array([cv2.Rodrigues(r)[0][1, 0] for r in held])
     angles = np.rad2deg(np.abs(angles))
-    assert angles.max() <= np.rad2deg(LARGEST_TURN)
+    assert angles.max() <= np.rad2deg(LARGEST_TURN) + 1e-9
     assert angles.max() > 0.99 * np.rad2deg(LARGEST_TURN)
     assert (np.diff(angles) >= -1e-9).all()
     assert np.abs(np.diff(angles, 2)).max() < 0.1
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_face_that_is_turned_has_less_room_to_that_side_and_all_to_the_other(side: int) -> None:
+    own = 0.0, side * np.deg2rad(20)
+    further, back = limit_rotation(np.stack([turn(yaw=40), turn(yaw=-40)])[::-side], own)
+    angles = [float(np.rad2deg(np.linalg.norm(cv2.Rodrigues(r)[0]))) for r in (further, back)]
+    assert angles[0] == pytest.approx(np.rad2deg(LEAST_TURN), rel=0.02)
+    assert angles[1] == pytest.approx(np.rad2deg(LARGEST_TURN), rel=0.02)
+
+
+def test_how_a_face_is_turned_in_its_picture() -> None:
+    face = 100 * canonical_face().astype(float) @ turn(yaw=17).T
+    x, y = turned_in_picture(face)
+    assert (abs(x), abs(y)) == pytest.approx((0, np.deg2rad(17)), abs=1e-3)
