@@ -52,20 +52,34 @@ def tracked_body(
 
 
 def tracked_hair(
-    motion: HeadMotion, places: NDArray[np.floating], moved: NDArray[np.floating], trust: NDArray[np.floating]
+    motion: HeadMotion,
+    places: NDArray[np.floating],
+    moved: NDArray[np.floating],
+    trust: NDArray[np.floating],
+    at: NDArray[np.floating],
 ) -> NDArray[np.float64]:
-    """(N, 2) by how much the driver's hair went elsewhere than its face's motion carries it, pixels of the driver; parameters
-    as of `tracked_body`.
+    """(N, P, 2) by how much the driver's hair went elsewhere than its face's motion carries it, at places `at` (P, 2), pixels of the driver; other
+    parameters as of `tracked_body`.
 
-    A tracker sees turns of the face too small, and the skull lies far behind: what the face alone says of it errs by that.
+    A tracker sees turns of the face too small, takes a smile for a tilt, and the skull lies far behind: what the face alone says of it
+    errs by that. Hair stays one solid: it is a shift, a turn in the plane and a scale that it is off by.
     """
     neutral = motion.neutral
     proxy = build_head_proxy(np.concatenate([neutral[:, :2], places]), neutral)
     carried = move_head(proxy, motion, neutral)[:, MESH_SIZE:, :2] - places
-    hair = proxy.share[MESH_SIZE:] * hair_share(neutral, places)
-    away = _trusted_mean(moved - carried, trust * hair)
-    size = np.linalg.norm(away, axis=1, keepdims=True) / (HAIR_ROOM * chin_length(neutral))
-    return np.asarray(away * np.exp(-(size**2)))
+    weight = trust * proxy.share[MESH_SIZE:] * hair_share(neutral, places)
+    away, middle = _trusted_mean(moved - carried, weight), _trusted_mean(np.broadcast_to(places, moved.shape), weight)
+    total = weight.sum(axis=1)
+    middle *= (np.maximum(total, MIN_TRUSTED_POINTS) / np.maximum(total, 1e-9))[:, None]
+    length = chin_length(neutral)
+    arm, left = places - middle[:, None], moved - carried - away[:, None]
+    spread = np.einsum("nk,nkd->n", weight, arm**2) + MIN_TRUSTED_POINTS * length**2
+    scale = np.einsum("nk,nkd,nkd->n", weight, arm, left) / spread
+    turn = np.einsum("nk,nk->n", weight, arm[..., 0] * left[..., 1] - arm[..., 1] * left[..., 0]) / spread
+    size = np.hypot(np.linalg.norm(away, axis=1), np.hypot(scale, turn) * length) / (HAIR_ROOM * length)
+    linear = np.stack([np.stack([scale, -turn], axis=-1), np.stack([turn, scale], axis=-1)], axis=-2)
+    found = away[:, None] + np.einsum("nij,npj->npi", linear, at - middle[:, None])
+    return np.asarray(found * np.exp(-(size**4))[:, None, None])
 
 
 def hair_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:

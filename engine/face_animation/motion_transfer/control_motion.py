@@ -174,8 +174,8 @@ class MotionTransfer:
         around, trust = frames.periphery - self._around, frames.trust * self._trust
         body = self._head * phi.offsets(tracked_body(self._rest, self._around, around, trust))
         body = body_shift(phi.offsets(skull_shift(held)[:, :2]), body, chin_length(target))
-        hair = self._head * phi.offsets(tracked_hair(motion, self._around, around, trust))
-        above = solid[:, MESH_SIZE:] - points + hair_share(target, points)[:, None] * hair[:, None]
+        hair = self._head * phi.offsets(tracked_hair(motion, self._around, around, trust, phi.inverse()(points)))
+        above = solid[:, MESH_SIZE:] - points + hair_share(target, points)[:, None] * hair
         below = body_share(target, points)[:, None] * body[:, None]
         beyond = proxy.contour @ (faces[:, oval] - solid[:, oval])
         return np.asarray(share * above + (1 - share) * below + beyond, np.float32)

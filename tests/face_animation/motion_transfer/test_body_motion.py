@@ -14,6 +14,8 @@ from engine.face_animation.motion_transfer.body_motion import (
     tracked_hair,
 )
 from engine.face_animation.motion_transfer.head_motion import split_motion
+from engine.face_animation.motion_transfer.head_proxy import build_head_proxy, move_head
+from engine.perception.landmarks import MESH_SIZE
 
 FACE = placed(40.0, (150.0, 120.0))
 
@@ -59,5 +61,20 @@ def test_hair_that_goes_a_little_further_than_its_face_is_followed(away: tuple[f
     """And points that slip off it are not."""
     hair = np.column_stack([np.linspace(100, 200, 10), np.full(10, FACE[10, 1] - 40)])
     motion = split_motion(FACE[None] + [5.0, 2.0, 0.0], FACE)
-    found = tracked_hair(motion, hair, np.full((1, 10, 2), (5.0, 2.0)) + away, np.ones((1, 10)))
-    assert found[0] == pytest.approx(np.array(away) * kept, abs=0.1 * max(away) * (kept > 0) + 0.05)
+    found = tracked_hair(motion, hair, np.full((1, 10, 2), (5.0, 2.0)) + away, np.ones((1, 10)), hair)
+    wanted = np.tile(np.array(away) * kept, (10, 1))
+    assert found[0] == pytest.approx(wanted, abs=0.1 * max(away) * (kept > 0) + 0.05)
+
+
+def test_hair_that_stays_undoes_most_of_a_tilt_that_its_face_seems_to_make() -> None:
+    """A tracker takes a crooked smile for a tilt of two degrees."""
+    angle = np.deg2rad(2.0)
+    tilt = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+    motion = split_motion((FACE @ tilt.T)[None] + (FACE.mean(axis=0) - tilt @ FACE.mean(axis=0)), FACE)
+    x, y = np.meshgrid(np.linspace(90, 210, 9), np.linspace(FACE[10, 1] - 60, FACE[10, 1] - 25, 4))
+    hair = np.column_stack([x.ravel(), y.ravel()])
+    still, trust = np.zeros((1, len(hair), 2)), np.ones((1, len(hair)))
+    proxy = build_head_proxy(np.concatenate([FACE[:, :2], hair]), FACE)
+    carried = move_head(proxy, motion, FACE)[0, MESH_SIZE:, :2] - hair
+    left = carried + tracked_hair(motion, hair, still, trust, hair)[0]
+    assert np.linalg.norm(left, axis=1).mean() < 0.35 * np.linalg.norm(carried, axis=1).mean()
