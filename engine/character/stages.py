@@ -220,8 +220,9 @@ def make_character(
     reach = mesh.pixels(np.flatnonzero(mesh.layer > 0), labels.labels.shape)
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
     along = _along_with_arms(mesh, labels)
+    body = mesh.pixels(np.flatnonzero(mesh.layer == 0), labels.labels.shape)
     sleeves = {arm: _sleeve(mesh, arm, labels) for arm in ARMS if arm in labels.apart}
-    tiles = _painted(figure, silhouette, labels, LimbSurfaces(reach, shown, along, sleeves), back)
+    tiles = _painted(figure, silhouette, labels, LimbSurfaces(reach, shown, along, body, sleeves), back)
     return _made_of(figure, silhouette, fitted, labels, mesh, tiles, triangles)
 
 

@@ -52,6 +52,8 @@ class LimbSurfaces:
     """(h, w) where they are the nearest."""
     along: NDArray[np.bool_] | None = None
     """(h, w) what of the body goes with a limb, as at shoulders, and so is of its colours."""
+    body: NDArray[np.bool_] | None = None
+    """(h, w) what the body covers without them; all of the person unless it is given."""
     sleeves: Mapping[int, NDArray[np.bool_]] = field(default_factory=dict)
     """(h, w) each: what that of an arm covers above its hand, by the arm's index."""
 

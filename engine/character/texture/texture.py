@@ -21,8 +21,8 @@ from engine.character.parts.limb_edges import soft_limbs
 from engine.character.surface.sheets import ClosedMesh
 from engine.character.texture.head_texture import back_of_the_head
 from engine.character.texture.limb_texture import LimbSurfaces, behind_another, own_of_limbs, paint_limbs
-from engine.character.texture.see_through import without_front_features
 from engine.character.texture.sides import places_on_the_picture
+from engine.character.texture.trunk_back import with_trunk_back
 from engine.imaging.filling.inpaint import inpaint
 from engine.imaging.filling.nearest import continued_colours
 from engine.imaging.filling.poisson import poisson_blend
@@ -125,7 +125,7 @@ def paint_tiles(
     body = _behind_the_limbs(seen, labels, around, own, oval) if limbs.any() else seen
     if along is not None:
         body = np.where((enlarged_mask(along & limbs, size) & own)[..., None], seen, body)
-    behind = _behind(body, labels, face, own, back)
+    behind = _behind(body, labels, surfaces, own, back, scale)
     head = enlarged_mask(labels.labels == BODY_PARTS.index("head"), size) & own
     beside = body
     if oval is not None and turned is not None and head.any():
@@ -204,19 +204,28 @@ def joined_at_the_outline(
 def _behind(
     rgb: NDArray[np.uint8],
     labels: Labels,
-    face: NDArray[np.float32] | None,
+    surfaces: LimbSurfaces,
     own: NDArray[np.bool_],
     back: BackTexture,
+    scale: float,
 ) -> NDArray[np.uint8]:
     """What the body has at its back, but for the head: the front (h, w, 3), as it is or as `back` says."""
     if back == "mirror":
         return rgb
     if back == "inpaint":
         return _from_the_sides(rgb, labels, (own.shape[1], own.shape[0]), own)
-    trunk, head = (labels.labels == BODY_PARTS.index(name) for name in ("torso", "head"))
-    legs = np.isin(labels.labels, LEGS)
-    inner = head & within_oval(face * INNER_FACE, head.shape) if face is not None else np.zeros_like(head)
-    return without_front_features(rgb, trunk, legs, head, inner, own)
+    size = (own.shape[1], own.shape[0])
+    torso, head = (BODY_PARTS.index(name) for name in ("torso", "head"))
+    limbs = np.isin(labels.labels, labels.apart)
+    within = labels.labels >= 0 if surfaces.body is None else surfaces.body & (labels.labels >= 0)
+    beneath = complete_labels(within, np.where(limbs, -1, labels.labels))
+    if surfaces.along is not None:
+        within &= ~(surfaces.along & limbs)
+    shown = labels.labels == torso
+    others = (labels.labels >= 0) & ~shown & ~np.isin(labels.labels, LEGS)
+    masks = within & (beneath == torso), shown, others, labels.labels == head
+    trunk, shown, others, above = (enlarged_mask(one, size) & own for one in masks)
+    return with_trunk_back(rgb, trunk, shown, others, above, scale)
 
 
 def _from_the_sides(

@@ -1,0 +1,142 @@
+"""What is behind something round: what is seen of its sides, drawn together over the middle.
+
+Cloth goes round: what somebody wears on the back is what shows at their sides at the same height. So of each row only the outer
+parts are ever a source, whatever the middle shows: ties, prints, zips, openings and scarves cannot come to the back, and belts,
+hems and collars, stripes, checks and creases that are at the sides stay at their height. Both sides are stretched until they meet, cut where they are
+most alike (A. A. Efros, W. T. Freeman, Image Quilting for Texture Synthesis and Transfer, SIGGRAPH 2001, section 2.1), and each
+takes on the other's light on the way there. What is hidden of one side is as the other has it at the same height.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import median_filter
+
+from engine.imaging.filling.pull_push import pull_push
+
+MEET = np.radians(34.0)
+"""From the middle, where both sides end that are drawn together over it: beyond half of the way to the outline in the picture."""
+JOIN = np.radians(9.0)
+"""On either side of the middle behind, where both are to be had and the cut runs."""
+FAR = 0.2
+"""Metres of rows to each side over which the light is one."""
+UNUSUAL, LEAST = 3.0, 24.0
+"""How many times as far as is usual, and how many sRGB levels at least, sides are apart where one has something of its own."""
+SOFT = 0.01
+"""Metres over which what is seen of a side goes over into what the other says of it."""
+
+
+def seen_through(
+    seen: NDArray[np.floating], known: NDArray[np.bool_], angle: NDArray[np.floating], step: float
+) -> NDArray[np.float32]:
+    """What is behind rows of something round, (A, N, 3), seen through from before.
+
+    Parameters
+    ----------
+    seen, known : (A, N, 3), levels, what is before, and (A, N) which of it may be a source.
+    angle : (N,) radians from the middle, from about -pi / 2 to pi / 2, evenly.
+    step : metres from row to row.
+
+    Where nothing is known of any side, it is what is before.
+    """
+    pace = (np.pi / 2 - MEET) / (np.pi / 2)
+    columns = int(np.searchsorted(angle, JOIN * pace - MEET))
+    left, right = seen[:, :columns].astype(np.float32), seen[:, ::-1][:, :columns].astype(np.float32)
+    there = known[:, :columns], known[:, ::-1][:, :columns]
+    if not (there[0] | there[1]).any():
+        return np.asarray(seen, np.float32)
+    inner = slice(columns // 2, columns)
+    light = _light(left[:, inner], right[:, inner], (there[0] & there[1])[:, inner], step)[:, None]
+    sides = _whole(left, right - light, *there, step), _whole(right, left + light, *there[::-1], step)
+    sides = _agreed(sides[0], sides[1], light, step)
+    reach = int(np.searchsorted(angle, JOIN))
+    wide = np.arange(reach, dtype=np.float32) * np.float32(pace)
+    share = (np.arange(reach, dtype=np.float32) / np.float32(len(angle)))[None, :, None]
+    halves = []
+    for side, sign in zip(sides, (1, -1), strict=True):
+        down = np.broadcast_to(np.arange(len(seen), dtype=np.float32)[:, None], (len(seen), reach))
+        across = np.broadcast_to(wide, down.shape)
+        drawn = cv2.remap(side, np.ascontiguousarray(across), np.ascontiguousarray(down), cv2.INTER_LINEAR)
+        halves.append(drawn + sign * share * light)
+    return sewn(halves[0], halves[1][:, ::-1], 2 * reach - len(angle))
+
+
+def _light(
+    left: NDArray[np.float32], right: NDArray[np.float32], both: NDArray[np.bool_], step: float
+) -> NDArray[np.float32]:
+    """By how much (A, 3) the right side (A, n, 3) is lighter than the left, over all that is `FAR` around, by what is known of `both` (A, n)."""
+    rows = np.flatnonzero(both.any(1))
+    if not len(rows):
+        return np.zeros((len(left), 3), np.float32)
+    apart = np.nanmedian(np.where(both[rows][..., None], right[rows] - left[rows], np.nan), 1)
+    size = 2 * round(FAR / step) + 1
+    calm = median_filter(apart, (size, 1), mode="nearest")
+    whole = np.stack([np.interp(np.arange(len(left)), rows, one) for one in calm.T], 1).astype(np.float32)
+    soft = cv2.GaussianBlur(whole, (1, 0), 1, sigmaY=size / 4, borderType=cv2.BORDER_REPLICATE)
+    return np.asarray(soft, np.float32)
+
+
+def _whole(
+    own: NDArray[np.float32],
+    other: NDArray[np.float32],
+    known: NDArray[np.bool_],
+    of_other: NDArray[np.bool_],
+    step: float,
+) -> NDArray[np.float32]:
+    """One side (A, n, 3): its `own` colours where they are `known` (A, n), where not the `other`'s, and where neither are, what is around."""
+    if known.all():
+        return own
+    either = known | of_other
+    said = np.where(known[..., None], own, other)
+    said = np.where(either[..., None], said, pull_push(said, either.astype(np.float32)))
+    share = cv2.GaussianBlur(known.astype(np.float32), (0, 0), SOFT / step)
+    share = np.where(known, np.clip(2 * share - 1, 0, 1), 0)[..., None]
+    behind = np.where(of_other[..., None], other, said)
+    return np.asarray(share * own + (1 - share) * behind, np.float32)
+
+
+def _agreed(
+    left: NDArray[np.float32], right: NDArray[np.float32], light: NDArray[np.float32], step: float
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Both sides (A, n, 3) without what one alone has, as a pocket, a bag or a strand of hair: where they differ more than is usual far
+    around, both have what is the more like all of their rows."""
+    other = right - light
+    apart = cv2.blur(np.linalg.norm(left - other, axis=-1).astype(np.float32), (1, 2 * round(SOFT / step) + 1))
+    size = 2 * round(FAR / step) + 1
+    usual = median_filter(np.median(apart, 1), size, mode="nearest")[:, None]
+    contested = (apart > np.maximum(UNUSUAL * usual, LEAST)).astype(np.float32)
+    both = np.median(np.concatenate([left, other], 1), 1)
+    both = median_filter(both, (2 * round(FAR / 4 / step) + 1, 1), mode="nearest")[:, None]
+    soft = SOFT / step
+    odd = [
+        cv2.GaussianBlur(np.linalg.norm(one - both, axis=-1).astype(np.float32), (0, 0), soft) for one in (left, other)
+    ]
+    where = np.clip(2 * cv2.GaussianBlur(contested, (0, 0), soft), 0, 1)
+    found = []
+    for one, instead, more in ((left, other, odd[0] - odd[1]), (right, left + light, odd[1] - odd[0])):
+        share = (where * np.clip(more / LEAST + 0.5, 0, 1))[..., None]
+        found.append(np.asarray((1 - share) * one + share * instead, np.float32))
+    return found[0], found[1]
+
+
+def sewn(left: NDArray[np.floating], right: NDArray[np.floating], join: int) -> NDArray[np.float32]:
+    """Two pictures (A, N, 3) and (A, M, 3) of which the last and the first `join` columns overlap, cut from top to bottom where they
+    differ least, (A, N + M - join, 3): the minimum error boundary cut."""
+    cost = ((left[:, -join:] - right[:, :join]) ** 2).sum(-1).astype(np.float64)
+    for row in range(1, len(cost)):
+        above = np.pad(cost[row - 1], 1, constant_values=np.inf)
+        cost[row] += np.minimum(np.minimum(above[:-2], above[1:-1]), above[2:])
+    cut = np.zeros(len(cost), np.intp)
+    cut[-1] = cost[-1].argmin()
+    for row in range(len(cost) - 2, -1, -1):
+        low = max(int(cut[row + 1]) - 1, 0)
+        cut[row] = low + cost[row, low : cut[row + 1] + 2].argmin()
+    soft = max(2.0, join / 4)
+    share = np.clip((np.arange(join)[None] - cut[:, None]) / soft + 0.5, 0, 1)[..., None]
+    share = np.where(
+        np.arange(join)[None, :, None] == 0, 0, np.where(np.arange(join)[None, :, None] == join - 1, 1, share)
+    )
+    both = (1 - share) * left[:, -join:] + share * right[:, :join]
+    return np.concatenate([left[:, :-join], both, right[:, join:]], 1).astype(np.float32)

@@ -1,0 +1,96 @@
+"""Backs of trunks: what both sides show goes round, what the middle or one side has does not."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from engine.character.texture.trunk_back import with_trunk_back
+
+HIGH, WIDE = 320, 160
+CLOTH, RED, WHITE = (60, 90, 70), (210, 30, 40), (235, 235, 230)
+HEAD, TRUNK, NOBODY = np.zeros((3, HIGH, WIDE), np.bool_)
+HEAD[10:60, 60:100] = True
+TRUNK[60:200, 30:130] = True
+INSIDE = np.zeros_like(TRUNK)
+INSIDE[66:194, 34:126] = True
+
+
+def dressed() -> np.ndarray:
+    """A picture (h, w, 3) of somebody in plain cloth."""
+    rgb = np.full((HIGH, WIDE, 3), 128, np.uint8)
+    rgb[HEAD], rgb[TRUNK] = (220, 170, 140), CLOTH
+    return rgb
+
+
+def back(rgb: np.ndarray, shown: np.ndarray = TRUNK, others: np.ndarray = NOBODY) -> np.ndarray:
+    return with_trunk_back(rgb, TRUNK, shown, others, HEAD, 1.0)
+
+
+def off(found: np.ndarray, colour: tuple[int, int, int]) -> np.ndarray:
+    return np.abs(found.astype(int) - colour).max(-1)
+
+
+def test_what_half_of_the_middle_shows_is_not_on_the_back() -> None:
+    for half in (4, 12, 20):
+        rgb = dressed()
+        rgb[60:150, 80 - half : 80 + half] = RED
+        found = back(rgb)
+        assert off(found, CLOTH)[TRUNK].max() < 4, "a tie, a print, an opening"
+        np.testing.assert_array_equal(found[~TRUNK], rgb[~TRUNK])
+
+
+def test_belts_and_stripes_go_round_at_their_height() -> None:
+    rgb = dressed()
+    rgb[150:160, 30:130] = RED
+    rgb[170:174, 30:130] = WHITE
+    found = back(rgb)
+    np.testing.assert_allclose(found[INSIDE].astype(int), rgb[INSIDE], atol=4)
+
+
+def test_what_one_side_alone_has_is_not_on_the_back() -> None:
+    rgb = dressed()
+    rgb[110:140, 36:52] = RED  # a bag
+    found = back(rgb)
+    assert (off(found, CLOTH)[INSIDE] > 12).mean() < 0.01
+
+
+def test_what_an_arm_hides_is_as_the_other_side_has_it() -> None:
+    rgb = dressed()
+    rgb[120:132, 30:130] = WHITE
+    arm = np.zeros_like(TRUNK)
+    arm[90:150, 30:60] = True
+    rgb[arm] = RED
+    found = back(rgb, TRUNK & ~arm, arm)
+    assert off(found, WHITE)[INSIDE & (np.arange(HIGH) > 122)[:, None] & (np.arange(HIGH) < 130)[:, None]].max() < 6
+    assert off(found, CLOTH)[INSIDE & (np.abs(np.arange(HIGH) - 126) > 9)[:, None]].max() < 6
+
+
+def test_light_from_one_side_has_no_border_behind() -> None:
+    light = np.linspace(0.5, 1, WIDE)[None, :, None]
+    rgb = np.where(TRUNK[..., None], light * [200, 180, 160], dressed()).astype(np.uint8)
+    found = back(rgb)[80:190, 34:126].astype(int)
+    assert np.abs(np.diff(found, axis=1)).max() <= 4
+    assert np.abs(found[:, [0, -1]] - rgb[80:190, [34, 125]]).max() <= 8, "as it is before at the outline"
+
+
+def test_checks_are_on_the_back() -> None:
+    rgb = dressed()
+    y, x = np.indices(TRUNK.shape)
+    rgb[TRUNK & ((x // 6 + y // 6) % 2 == 0)] = WHITE
+    assert back(rgb)[INSIDE].std() > 0.75 * rgb[INSIDE].std()
+
+
+def test_a_neckline_is_the_front_s_alone() -> None:
+    rgb = dressed()
+    trunk = TRUNK.copy()
+    for row in range(60, 90):  # shoulders
+        trunk[row, : 60 - (row - 60)] = trunk[row, 100 + (row - 60) :] = False
+    for row in range(60, 84):
+        rgb[row, 80 - (84 - row) : 80 + (84 - row)] = WHITE
+    found = with_trunk_back(rgb, trunk, trunk, NOBODY, HEAD, 1.0)
+    assert off(found, CLOTH)[trunk].max() < 6
+
+
+def test_of_whom_nothing_is_shown_nothing_changes() -> None:
+    rgb = dressed()
+    np.testing.assert_array_equal(back(rgb, NOBODY), rgb)
