@@ -47,6 +47,7 @@ from engine.character.surface.layers import build_layers
 from engine.character.surface.sheets import ClosedMesh, close
 from engine.character.texture.head_sides import with_round_sides
 from engine.character.texture.limb_texture import LimbSurfaces
+from engine.character.texture.rings import limb_heights
 from engine.character.texture.texture import SURE, BackTexture, PictureOnGrid, Tiles, atlas, paint_tiles
 from engine.geometry.simplification.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
@@ -221,8 +222,17 @@ def make_character(
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
     along = _along_with_arms(mesh, labels)
     body = mesh.pixels(np.flatnonzero(mesh.layer == 0), labels.labels.shape)
+    whole = {int(limb): mesh.pixels(np.flatnonzero(mesh.limb == limb), labels.labels.shape) for limb in labels.apart}
+    human = load_human()
+    posed = pose_template(fitted, silhouette.camera(fitted.picture_camera()), human)
     sleeves = {arm: _sleeve(mesh, arm, labels) for arm in ARMS if arm in labels.apart}
-    tiles = _painted(figure, silhouette, labels, LimbSurfaces(reach, shown, along, body, sleeves), back)
+    tiles = _painted(
+        figure,
+        silhouette,
+        labels,
+        LimbSurfaces(reach, shown, along, body, sleeves, whole, limb_heights(posed, human.rig, labels.labels)),
+        back,
+    )
     return _made_of(figure, silhouette, fitted, labels, mesh, tiles, triangles)
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 
 import cv2
 import numpy as np
@@ -17,6 +18,7 @@ from engine.character.figure.face_region import within_oval
 from engine.character.parts.crossed_labels import Behind
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import LEGS, OTHER_SIDE
+from engine.character.texture.rings import Heights
 from engine.imaging.filling.inpaint import inpaint
 from engine.imaging.filling.nearest import continued_colours
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
@@ -30,6 +32,8 @@ SLIVER = 5
 """Pixels of the grid up to which a limb that shows beside its label is the outline's roughness."""
 UP_AN_ARM = 0.07
 """How far from what is hidden of a limb its colours are looked up, as a share of the person's height."""
+MIDDLE, LOUD = 128, 60
+"""The level on which what is fine about a limb is looked at; and the levels beyond which it is no more than that."""
 HARDLY = 0.25
 """Share of an arm that is seen, below which the other one tells more of what it wears."""
 
@@ -56,6 +60,10 @@ class LimbSurfaces:
     """(h, w) what the body covers without them; all of the person unless it is given."""
     sleeves: Mapping[int, NDArray[np.bool_]] = field(default_factory=dict)
     """(h, w) each: what that of an arm covers above its hand, by the arm's index."""
+    whole: Mapping[int, NDArray[np.bool_]] = field(default_factory=dict)
+    """(h, w) each: what that of a limb covers, by its index."""
+    heights: Mapping[int, Heights] = field(default_factory=dict)
+    """How far along limbs pixels are, by their index."""
 
 
 def paint_limbs(
@@ -66,6 +74,7 @@ def paint_limbs(
     surfaces: LimbSurfaces,
     face: NDArray[np.floating] | None,
     scale: float,
+    round_them: Mapping[int, NDArray[np.float32]] = MappingProxyType({}),
 ) -> NDArray[np.uint8]:
     """The tile (H, W, 3) of the limbs that are apart.
 
@@ -76,6 +85,7 @@ def paint_limbs(
     surfaces : of the limbs, on the grid of the `labels` (h, w).
     face : an ellipse around the face, in pixels of the tile.
     scale : pixels of the tile for each of the grid's.
+    round_them : what limbs are coloured like all round, (H, W, 3) each, as `rings.rings` has it.
     """
     size = (own.shape[1], own.shape[0])
     limbs, reach, sleeves = surfaces.shown, surfaces.reach, surfaces.sleeves
@@ -84,7 +94,7 @@ def paint_limbs(
         legs = np.isin(labels.labels, LEGS)
         legs = enlarged_mask(distance_to(limbs & legs) < distance_to(limbs & ~legs), size)
         hole = enlarged_mask(reach & ~limbs, size)
-        made = of_the_limbs(seen, around & own, hole, scale, legs)
+        made = of_the_limbs(seen, around & own, hole, scale, legs, _laid(seen, surfaces, round_them))
         near = enlarged_mask(dilate_mask(limbs | reach, SLIVER), size)  # what an unseen limb is like may be elsewhere
         made = np.where(near[..., None], made, seen)
     for arm in sleeves:
@@ -101,10 +111,12 @@ def of_the_limbs(
     hole: NDArray[np.bool_],
     scale: float,
     legs: NDArray[np.bool_] | None = None,
+    rings: NDArray[np.float32] | None = None,
 ) -> NDArray[np.uint8]:
     """The limbs (h, w, 3): what is seen of their `own`; around it, where a surface that was made on the grid may end, the
     colours of their inside; and the `hole` behind what is before them filled from what is usual near it: a hand's skin is on no
-    shoulder, nor, where `legs` (h, w) are, on one of these."""
+    shoulder, nor, where `legs` (h, w) are, on one of these. Where it is known what limbs are like all round, `rings` (h, w, 3), that is what they
+    are like there, too, and patches say what is fine about it."""
     inside = distance_inside(own) / scale
     deep = inside > SOFT_EDGE[1]
     around = continued_colours(seen, deep if deep.any() else own)
@@ -113,8 +125,36 @@ def of_the_limbs(
         mine, lost = own & which, hole & which
         if mine.any() and lost.any():
             known = usual_colours(seen, mine & (distance_to(lost) < UP_AN_ARM * hole.shape[0]))
-            made = inpaint(made, lost, known if known.any() else mine)
+            made = filled(made, lost, known if known.any() else mine, rings)
     return made
+
+
+def filled(
+    rgb: NDArray[np.uint8], hole: NDArray[np.bool_], source: NDArray[np.bool_], rings: NDArray[np.float32] | None
+) -> NDArray[np.uint8]:
+    """A picture (h, w, 3) with a `hole` (h, w) filled with patches of the `source` (h, w): of all of it, or, where it is known what limbs are like all
+    round, `rings` (h, w, 3), of what is fine about them."""
+    if rings is None:
+        return inpaint(rgb, hole, source)
+    fine = np.clip(MIDDLE + rgb.astype(np.float32) - rings, 0, 255).astype(np.uint8)
+    kept = source & (np.abs(fine.astype(np.float32) - MIDDLE).max(-1) < LOUD)
+    fine = inpaint(fine, hole, kept) if kept.any() else np.full_like(fine, MIDDLE)
+    made = np.clip(rings + fine.astype(np.float32) - MIDDLE + 0.5, 0, 255).astype(np.uint8)
+    return np.where(hole[..., None], made, rgb)
+
+
+def _laid(
+    seen: NDArray[np.uint8], surfaces: LimbSurfaces, rings: Mapping[int, NDArray[np.float32]]
+) -> NDArray[np.float32] | None:
+    """One picture (H, W, 3) of what all limbs are like round, each where it is; None where that is not known of all."""
+    size = (seen.shape[1], seen.shape[0])
+    if not surfaces.whole or any(limb not in rings for limb in surfaces.whole):
+        return None
+    out = seen.astype(np.float32)
+    for limb, whole in surfaces.whole.items():
+        near = enlarged_mask(dilate_mask(whole, SLIVER), size)
+        out = np.where(near[..., None], rings[limb], out)
+    return out
 
 
 def _like_the_other_sleeve(

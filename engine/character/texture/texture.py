@@ -6,6 +6,7 @@ the front, on which the face gives way to what surrounds it (hair, a hat). Beyon
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -20,7 +21,8 @@ from engine.character.parts.labels import LEGS, complete_labels
 from engine.character.parts.limb_edges import soft_limbs
 from engine.character.surface.sheets import ClosedMesh
 from engine.character.texture.head_texture import back_of_the_head
-from engine.character.texture.limb_texture import LimbSurfaces, behind_another, own_of_limbs, paint_limbs
+from engine.character.texture.limb_texture import LimbSurfaces, behind_another, filled, own_of_limbs, paint_limbs
+from engine.character.texture.rings import rings
 from engine.character.texture.sides import places_on_the_picture
 from engine.character.texture.trunk_back import with_trunk_back
 from engine.imaging.filling.inpaint import inpaint
@@ -49,6 +51,8 @@ SEAM_FROM, SEAM_TO = 2.0, 8.0
 HEAD_FROM, HEAD_TO = 1.8, 4.9
 """The same for heads: the back's colours begin on the front, a pixel and a half within the outline, and hair where ears
 and temples end, which is about where the outline is."""
+EDGE = 1.5
+"""Pixels of the grid within a limb's edge in which its colours are mixed with others."""
 NEARBY = 0.04
 """How far from a limb the body is looked at for what it is made of behind it, as a share of the person's height: what is
 printed on a shirt's middle is not on its sides, too."""
@@ -122,7 +126,10 @@ def paint_tiles(
     around = soft_limbs(limbs, seen) > 0.5
     seen = continued_colours(seen, own)
     oval = None if face is None else face * np.array([*[scale] * 4, 1])
-    body = _behind_the_limbs(seen, labels, around, own, oval) if limbs.any() else seen
+    deep = own & (distance_inside(around | ~own) > EDGE * scale) | own & ~around
+    skin = None if oval is None else np.median(seen[within_oval(oval, own.shape) & own], axis=0)
+    round_them = rings(seen, labels.labels, deep, surfaces.heights, skin)
+    body = _behind_the_limbs(seen, labels, around, own, oval, round_them) if limbs.any() else seen
     if along is not None:
         body = np.where((enlarged_mask(along & limbs, size) & own)[..., None], seen, body)
     behind = _behind(body, labels, surfaces, own, back, scale)
@@ -130,7 +137,7 @@ def paint_tiles(
     beside = body
     if oval is not None and turned is not None and head.any():
         behind, beside = back_of_the_head(behind, bordered, covered > TRACE, own, head, oval, turned, scale)
-    apart = paint_limbs(seen, own, around, labels, replace(surfaces, shown=limbs), oval, scale)
+    apart = paint_limbs(seen, own, around, labels, replace(surfaces, shown=limbs), oval, scale, round_them)
     hidden = None
     if labels.behind is not None:
         hidden = labels.behind.limb, behind_another(apart, labels, labels.behind, seen, own, oval)
@@ -163,6 +170,7 @@ def _behind_the_limbs(
     limbs: NDArray[np.bool_],
     own: NDArray[np.bool_],
     face: NDArray[np.floating] | None,
+    round_them: Mapping[int, NDArray[np.float32]],
 ) -> NDArray[np.uint8]:
     """The body (h, w, 3) where `limbs` (h, w) hide it, filled from what is nearby: the head from the
     head without its face, a leg behind the other from that leg, all else from all else, so that no dress is made of hair."""
@@ -179,8 +187,11 @@ def _behind_the_limbs(
     hidden = limbs & own
     if labels.cloth is not None and labels.cloth.legs is not None:
         hidden &= ~enlarged_mask(labels.cloth.legs >= 0, size)  # nothing is behind what comes out from under a hem
-    for part in (head, leg, ~head & ~leg):
+    for part in (head, ~head & ~leg):
         body = inpaint(body, hidden & part, usual_colours(seen, shown & part))
+    for one in LEGS:
+        part = leg & enlarged_mask(beneath == one, size)
+        body = filled(body, hidden & part, usual_colours(seen, shown & part), round_them.get(one))
     return continued_colours(body, own)
 
 
