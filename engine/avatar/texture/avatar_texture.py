@@ -12,7 +12,7 @@ from engine.avatar.registration.eyes.fitted_eyes import IRIS_RADIUS
 from engine.avatar.texture.labels import UNSEEN, FaceLabels
 from engine.avatar.texture.stitching import TEXTURE_SIZE, stitch_texture
 from engine.avatar.texture.template_surface import TemplateSurface
-from engine.avatar.texture.template_texture.placing import place_eyes, place_hands, place_mouth
+from engine.avatar.texture.template_texture.placing import place_eyes, place_hands, place_lids, place_mouth
 from engine.avatar.texture.views import FrameView
 from engine.body.rig import Rig
 from engine.geometry.surface import triangle_areas
@@ -50,6 +50,7 @@ def avatar_texture(
     found = stitch_texture(fitted, views, size)
     place_hands(found.texture, found.resolution, surface, found.raster, rig)
     place_mouth(found.texture, surface, found.raster)
+    place_lids(found.texture, surface, vertices, found.raster)
     eyes_seen = place_eyes(found.texture, surface, vertices, views, found.gains, iris, found.raster)
     areas = triangle_areas(fitted.vertices, fitted.triangles) * fitted.stitched
     share = float(areas[found.labels.labels != UNSEEN].sum() / areas.sum())

@@ -14,6 +14,7 @@ from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.mouth_chart import mouth_faces
 from engine.avatar.registration.template_skin.lid_rims import behind_rims, lid_rim
 from engine.avatar.registration.template_skin.skin import EYE_PARTS
+from engine.avatar.texture.lid_folds import in_lid_fold
 from engine.avatar.texture.views import ChartedSurface
 from engine.avatar.worn import Attachments
 from engine.body.rig import Rig
@@ -55,10 +56,22 @@ class TemplateSurface:
 
     def fitted(self, vertices: NDArray[np.floating]) -> ChartedSurface:
         """The surface of the person whose template vertices are (V, 3), metres: all of the body's skin but the mouth's bag is
-        stitched from frames, and so is what stands off it; but not what a hand lies on."""
+        stitched from frames, and so is what stands off it; but not what a hand lies on, nor what lies in the lids' folds."""
         places = np.asarray(vertices, np.float64)
         stitched = np.isin(self.part, [AVATAR_PARTS.index("body"), ATTACHED]) & ~self.mouth & ~self._under_hands(places)
+        for folded in self.lid_folds(places).values():
+            stitched &= ~folded
+        stitched &= ~self.sockets
         return ChartedSurface(places, self.triangles, self.atlas, stitched)
+
+    def lid_folds(self, vertices: NDArray[np.floating]) -> dict[str, NDArray[np.bool_]]:
+        """Of each eyeball, (T,) the skin in the folds of its lids where the template's vertices are (V, 3)."""
+        places = np.asarray(vertices, np.float64)
+        skin = self.of("body") & ~self.mouth & ~self.sockets
+        return {
+            part: skin & in_lid_fold(places, self.triangles, rim, np.unique(self.triangles[self.of(part)]))
+            for part, rim in self.lid_rims.items()
+        }
 
     def _under_hands(self, vertices: NDArray[np.float64]) -> NDArray[np.bool_]:
         """(T,) what is close to a hand in the pose of the vertices (V, 3), and not by growth: frames show the hand there, too, as it

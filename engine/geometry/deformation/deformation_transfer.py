@@ -35,6 +35,7 @@ class DeformationTransfer:
         target_triangles: NDArray[np.integer],
         matches: NDArray[np.integer] | None = None,
         held: NDArray[np.integer] | None = None,
+        screening: float | None = None,
     ):
         """Make ready.
 
@@ -46,6 +47,9 @@ class DeformationTransfer:
         matches : (U,) the triangle of the source that each of the target follows, its corners in the same order;
             by default the same number, both having the same triangles.
         held : (H,) vertices of the target that stay where they are, or go where they are told; none by default.
+        screening : a length, in the target's unit: over more than about so much vertices go where they are `drawn_to`, and only
+            over less as their triangles say (a screened Poisson equation: P. Bhat and others, Fourier analysis of the 2D
+            screened Poisson equation for gradient domain problems, ECCV 2008). By default nothing is drawn.
 
         Raises ValueError where triangles do not match, places are not finite, or a vertex of the target has only
         triangles without area: weld it or leave it out.
@@ -80,15 +84,21 @@ class DeformationTransfer:
         self._ratio = float(np.sqrt(sizes[0] / sizes[1])) if len(corners) else 1.0
         # a piece that floats is held by one of its vertices, and moved as a whole afterwards
         anchors = np.concatenate([self._held, unheld])
-        self._system = HeldSystem(self._target, stiffness, handles(count, anchors))
+        free = np.zeros(0, np.intp) if screening is None else np.setdiff1d(corners, anchors)
+        of_vertex = np.bincount(corners.ravel(), areas.repeat(3) / 3, count)
+        weights = of_vertex[free] / (screening or 1.0) ** 2
+        self._system = HeldSystem(self._target, stiffness, handles(count, anchors, free, weights))
 
     def __call__(
-        self, deformed: NDArray[np.floating], held_at: NDArray[np.floating] | None = None
+        self,
+        deformed: NDArray[np.floating],
+        held_at: NDArray[np.floating] | None = None,
+        drawn_to: NDArray[np.floating] | None = None,
     ) -> NDArray[np.float64]:
         """The target (W, 3) float64, deformed as the source is whose vertices are `deformed` (V, 3).
 
-        `held_at` (H, 3): where the held vertices go; by default they stay. Raises ValueError where places do not fit, or
-        are not finite.
+        `held_at` (H, 3): where the held vertices go; by default they stay. `drawn_to` (W, 3): where vertices are drawn, if there is
+        a `screening`. Raises ValueError where places do not fit, or are not finite.
         """
         moved = np.asarray(deformed, np.float64)
         if moved.shape != self._source.shape or not np.isfinite(moved).all():
@@ -98,7 +108,8 @@ class DeformationTransfer:
         system = self._system
         stays = self._target[self._held] if held_at is None else np.asarray(held_at, np.float64)
         anchored = self._target[system.handles.held[len(self._held) :]]
-        hard, soft = system.targets(np.concatenate([stays, anchored]), None)
+        towards = None if drawn_to is None else system.handles.drawn @ np.asarray(drawn_to, np.float64)
+        hard, soft = system.targets(np.concatenate([stays, anchored]), towards)
         out = system.solve(force, hard, soft, self._target)
         steps = (moved - self._source)[self._faces[self._follows]].mean(1)
         away = self._middles @ (self._target - out) + self._ratio * (self._shares @ steps)

@@ -12,6 +12,7 @@ from engine.avatar.texture.template_texture.eyes import Eyeballs, painted_eyes, 
 from engine.avatar.texture.template_texture.hands import hand_bones, painted_hand, past_wrist
 from engine.avatar.texture.template_texture.mouth import painted_lining, painted_teeth, painted_tongue
 from engine.avatar.texture.template_texture.part_texels import PartTexels
+from engine.avatar.texture.template_texture.placing import place_lids
 from engine.body.rig import HUMAN_RIG, Rig
 from engine.body.template import load_rig, load_template
 from engine.performances.modelling.eyes import EYEBALL_RADIUS
@@ -50,6 +51,27 @@ def test_the_surface_knows_its_parts(surface: TemplateSurface) -> None:
     assert len(mouth) > 500 and (np.abs(mouth - [0, 0.66, 0.1]) < 0.06).all()
     stitched = surface.fitted(surface.rest).stitched
     assert not stitched[surface.mouth].any() and stitched[surface.hands["Left"]].all()
+
+
+def test_what_lies_in_a_lid_s_fold_is_not_taken_from_frames_and_painted_like_the_skin_below(
+    surface: TemplateSurface,
+) -> None:
+    folds = surface.lid_folds(surface.rest)
+    stitched = surface.fitted(surface.rest).stitched
+    for part, folded in folds.items():
+        eye = surface.rest[surface.lid_rims[part]]
+        middles = surface.rest[surface.triangles[folded]].mean(1)
+        assert 10 < folded.sum() < 400 and np.linalg.norm(middles - eye.mean(0), axis=1).max() < 0.025
+        assert not stitched[folded].any()
+    assert not stitched[surface.sockets].any()
+    raster = texel_raster(surface.atlas, 1024)
+    texture = np.full((1024, 1024, 3), (180, 130, 110), np.uint8)
+    inside = np.any(list(folds.values()), axis=0)[raster.triangle] & (raster.triangle >= 0)
+    texture[inside] = 0
+    place_lids(texture, surface, surface.rest, raster)
+    lids = texture[inside].astype(float) / [180, 130, 110]
+    assert 0.25 < np.median(lids) <= 1 and lids.max() <= 1
+    assert (texture[~inside] == (180, 130, 110)).all()
 
 
 def test_what_a_hand_lies_on_is_not_taken_from_frames(surface: TemplateSurface) -> None:

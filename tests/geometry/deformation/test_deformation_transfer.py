@@ -88,6 +88,19 @@ def test_held_vertices_stay_and_the_rest_goes_on_from_there() -> None:
     assert stretched.min() > 0.5 and stretched.max() < 2
 
 
+def test_screened_vertices_go_where_they_are_drawn_over_far_and_as_their_triangles_say_over_near() -> None:
+    vertices, triangles = ball()
+    target, held = other(vertices), np.array([0])
+    goal = target + np.array([0.3, -0.2, 0.1])
+    for length, wanted in ((1e-4, goal), (1e4, None)):
+        transfer = DeformationTransfer(vertices, triangles, target, triangles, held=held, screening=length)
+        plain = DeformationTransfer(vertices, triangles, target, triangles, held=held)(bent(vertices))
+        found = transfer(bent(vertices), drawn_to=goal)
+        np.testing.assert_allclose(found[1:], (plain if wanted is None else wanted)[1:], atol=1e-5)
+    with pytest.raises(ValueError, match="targets are needed"):
+        transfer(bent(vertices))
+
+
 def test_each_piece_moves_as_its_counterpart() -> None:
     vertices, triangles = ball(1)
     count = len(vertices)

@@ -14,8 +14,6 @@ from engine.body.template import Template
 
 BLINKS: Mapping[str, str] = {"eyeBlinkLeft": "left_eye", "eyeBlinkRight": "right_eye"}
 """The face units of a closed eye, and which it is."""
-UPPER_MOTION = 0.001
-"""Metres by which a blink moves the rim of the upper lid, at least, and that of the lower at most."""
 
 
 @dataclass(frozen=True)
@@ -57,19 +55,17 @@ class MeetingRims:
 
 
 def meeting_rims(template: Template, skin: Skin, blink: str) -> MeetingRims:
-    """Where the lids of one eye meet in the template's own `blink`: places of the upper lid's rim above the lower's; what is
-    beyond that at the corners has nothing to meet."""
-    offsets = template.face_units.dense((blink,))[0]
+    """Where the lids of one eye meet: each place of the upper lid's rim, between the corners, above the lower's, as they are in the
+    template."""
     rim = skin.vertices[skin.regions[f"{BLINKS[blink]}_rim"]]
-    moves = np.linalg.norm(offsets[rim], axis=1) > UPPER_MOTION
-    across = template.vertices[:, 0] + offsets[:, 0]
-    lower = rim[~moves][np.argsort(across[rim[~moves]])]
-    upper = rim[moves]
-    upper = upper[(across[upper] >= across[lower[0]]) & (across[upper] <= across[lower[-1]])]
-    after = np.clip(np.searchsorted(across[lower], across[upper]), 1, len(lower) - 1)
-    between = np.stack([lower[after - 1], lower[after]], 1)
+    rim = rim[np.argsort(template.vertices[rim, 0])]
+    across, height, _ = template.vertices[rim].astype(np.float64).T
+    upper = height > np.interp(across, across[[0, -1]], height[[0, -1]])
+    below, upper = np.flatnonzero(~upper), np.flatnonzero(upper)
+    after = np.clip(np.searchsorted(across[below], across[upper]), 1, len(below) - 1)
+    between = np.stack([below[after - 1], below[after]], 1)
     width = np.maximum(across[between[:, 1]] - across[between[:, 0]], 1e-9)
-    return MeetingRims(upper, between, (across[upper] - across[between[:, 0]]) / width)
+    return MeetingRims(rim[upper], rim[between], (across[upper] - across[between[:, 0]]) / width)
 
 
 def before_the_eye(

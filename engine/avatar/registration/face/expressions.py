@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from engine.avatar.registration.eyes.blinking import BLINKS, before_the_eye, meeting_rims
+from engine.avatar.registration.face.face_parts import head_change
 from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import FACE_UNITS, Template
 from engine.geometry.deformation.deformation_transfer import DeformationTransfer
@@ -19,6 +21,14 @@ RIGID_PARTS = (
 """Parts that are no skin, each moved as a whole from the template to the person."""
 MARGIN_RINGS = 2
 """Rings of triangles about what any unit moves; the outermost vertices stay."""
+TARSUS, FOLD = 0.07, 0.2
+"""Widths of an eye from the rims of its lids to where the stiff part of a lid ends, which goes down as a whole, and to its fold, out of
+which the skin between comes."""
+RIM_NEIGHBOURS = 3
+"""Vertices of a rim whose motion, weighted by nearness, the lid goes along with."""
+SCREENING = 0.015
+"""Metres over which triangles say how the face moves; farther apart, vertices go as far as the template's do. By triangles alone
+what a narrow mouth's corners lose in width pulls the whole lip along, and upper teeth never show."""
 
 
 def transferred_units(template: Template, skin: Skin, rest: NDArray[np.floating]) -> dict[str, NDArray[np.float32]]:
@@ -40,31 +50,35 @@ def transferred_units(template: Template, skin: Skin, rest: NDArray[np.floating]
         for part, vertices in parts.items():
             moved[vertices] = placed[part].offsets(offsets[vertices])
         if name in BLINKS:
-            _blink(template, skin, own, moving, name, moved)
+            _blink(template, skin, own, name, moved)
         else:
             moved[patch.vertices] = patch(offsets)
         found[name] = moved.astype(np.float32)
     return found
 
 
-def _blink(
-    template: Template,
-    skin: Skin,
-    rest: NDArray[np.float64],
-    moving: NDArray[np.bool_],
-    name: str,
-    out: NDArray[np.floating],
-) -> None:
-    """Put the skin's displacements of a blink into `out` (V, 3)."""
+def _blink(template: Template, skin: Skin, rest: NDArray[np.float64], name: str, out: NDArray[np.floating]) -> None:
+    """Put the skin's displacements of a blink into `out` (V, 3): the rims meet, and the skin between them and the lids' folds goes
+    along smoothly. What lies beyond stays: the template's own blink moves as much as it has of skin below its brows, and a person's
+    brows may be there."""
     rims = meeting_rims(template, skin, name)
     eyeball = rest[template.vertices_of(BLINKS[name])]
-    patch = _Patch(template, skin, rest, moving, rims.vertices)
-    moved = patch(template.face_units.dense((name,))[0], rims.met(eyeball, rest))
-    lids = skin.vertices[skin.regions["lids"] & ~skin.regions["inner"]]
-    own = np.isin(patch.vertices, lids)
-    near = own & (np.linalg.norm(moved, axis=1) > 0)
-    moved[near] = before_the_eye(eyeball, rest[patch.vertices[near]], moved[near])
-    out[patch.vertices] = moved
+    own = rest[skin.vertices]
+    told = skin.index_of(rims.vertices)
+    loop = np.flatnonzero(skin.regions[f"{BLINKS[name]}_rim"])
+    moved = np.zeros_like(own)
+    moved[told] = rims.met(eyeball, rest) - own[told]
+    width = float(np.ptp(own[loop], axis=0).max())
+    found = cKDTree(own[loop]).query(own, k=RIM_NEIGHBOURS)
+    away, near = np.asarray(found[0]), np.asarray(found[1])
+    shares = 1 / np.maximum(away, 1e-6) ** 2
+    shares /= shares.sum(1, keepdims=True)
+    unfolded = np.clip((FOLD - away[:, 0] / width) / (FOLD - TARSUS), 0, 1)
+    along = np.einsum("sk,skc->sc", shares, moved[loop[near]]) * (unfolded**2 * (3 - 2 * unfolded))[:, None]
+    lids = (unfolded > 0) & ~skin.regions["inner"]
+    along[told] = moved[told]
+    along[lids] = before_the_eye(eyeball, own[lids], along[lids])
+    out[skin.vertices] = along
 
 
 class _Patch:
@@ -93,11 +107,14 @@ class _Patch:
         held = np.concatenate([self._stay, told])
         self._source = template.vertices[self.vertices].astype(np.float64)
         self._rest = rest[self.vertices]
-        self._transfer = DeformationTransfer(self._source, faces, self._rest, faces, held=held)
+        self._transfer = DeformationTransfer(self._source, faces, self._rest, faces, held=held, screening=SCREENING)
+        self._head = head_change(skin, template.vertices[skin.vertices].astype(np.float64), rest[skin.vertices])
 
     def __call__(
         self, offsets: NDArray[np.floating], told_to: NDArray[np.floating] | None = None
     ) -> NDArray[np.float64]:
         """The displacements (M, 3) of the patch for a unit's (V, 3) on the template; `told_to` (U, 3): where those vertices go."""
         held_at = self._rest[self._stay] if told_to is None else np.concatenate([self._rest[self._stay], told_to])
-        return np.asarray(self._transfer(self._source + offsets[self.vertices], held_at) - self._rest)
+        own = offsets[self.vertices]
+        drawn_to = self._rest + self._head.offsets(own)
+        return np.asarray(self._transfer(self._source + own, held_at, drawn_to) - self._rest)

@@ -1,6 +1,8 @@
-"""Teeth, tongue and lashes of the fitted face: placed by how the skin about them was deformed, teeth behind the lips."""
+"""Teeth, tongue and lashes of the fitted face: what is in the mouth by the lips and the face about it, the rest by the nearest skin."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,14 +12,37 @@ from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import Template
 from engine.geometry.closest_points import closest_points
 from engine.geometry.registration.rigid import Similarity, fit_similarity
+from engine.geometry.surface import triangulate
 from engine.geometry.winding_number import winding_numbers
+from engine.render.rasteriser import depth_map
 
 MOUTH_PARTS = ("upper_teeth", "lower_teeth", "tongue")
-"""What lies in the mouth, and is placed as one: teeth meet as they did."""
+"""What lies in the mouth, and is placed as one: teeth meet as they do in the template."""
 MOUTH_SURROUNDINGS = 0.045
-"""Metres about the middle of the teeth within which visible skin says where they are."""
+"""Metres of the template about the middle of the teeth within which visible skin says how large they are, and how deep they lie."""
+LIPS_MEET = (62, 66)
+"""Face landmarks: the middle of the lips' inner edges."""
+INCISORS = 0.02
+"""Metres of the template behind the foremost of the teeth within which they are incisors."""
+INCISORS_SHOWN = 0.004
+"""Metres by which the edge of the upper incisors lies below where the lips meet: what shows of them as lips part."""
 TEETH_DEPTH = 0.002
-"""Metres that teeth lie behind the visible skin, at least."""
+"""Metres that teeth lie behind the visible skin at rest, at least ..."""
+EXPRESSION_DEPTH = 0.0005
+"""... and seen from the front, behind what any face unit of the mouth makes of it."""
+FRONT_PIXEL = 0.0005
+"""Metres between the places at which that is looked at."""
+MOUTH_UNITS = (
+    *("jawForward", "jawLeft", "jawRight", "mouthFunnel", "mouthLeft", "mouthPucker", "mouthRight", "mouthRollLower"),
+    *("mouthRollUpper", "mouthShrugLower", "mouthShrugUpper"),
+)
+SIDED_MOUTH_UNITS = (
+    *("cheekSquint", "mouthDimple", "mouthFrown", "mouthLowerDown", "mouthPress", "mouthSmile", "mouthStretch"),
+    "mouthUpperUp",
+)
+"""Face units that press skin against teeth; of the latter both sides do."""
+TONGUE_HEIGHT = 0.6
+"""Of the template's tongue's, which fills a mouth that opens."""
 BACK_STEP, MAX_BACK = 0.0005, 0.03
 """Metres by which they are set back at a time, and at most."""
 SKIN_FOLLOWERS = 4
@@ -29,14 +54,22 @@ def place_parts(
 ) -> NDArray[np.float64]:
     """All the template's vertices (V, 3) for the `fitted` skin (S, 3), from `model` (V, 3), the whole template before the fit.
 
-    Skin is as it was fitted, what is in the mouth lies by a similarity (scale, turn, shift) of the skin about it, behind the
-    lips, and what is left (eyeballs, lashes, cages of cloth, joints' cubes) goes with the nearest skin.
+    Skin is as it was fitted; what is in the mouth is the template's own, as the face is turned and the skin about it is large,
+    its upper incisors `INCISORS_SHOWN` below the lip, behind the lips; and what is left (eyeballs, lashes, cages of cloth,
+    joints' cubes) goes with the nearest skin.
     """
     before, after = np.asarray(model, np.float64), np.asarray(fitted, np.float64)
-    head = head_change(skin, before[skin.vertices], after)
     out = _carried_by_skin(before, before[skin.vertices], after)
     inside = np.concatenate([template.vertices_of(part) for part in MOUTH_PARTS])
-    out[inside] = _behind_lips(skin, after, _in_mouth(template, skin, before, after)(before[inside]), head)
+    own = template.vertices.astype(np.float64)
+    head = head_change(skin, own[skin.vertices], after)
+    placed = _in_mouth(template, skin, own, after, head)
+    back = _back_in_expressions(template, skin, after, placed, head)
+    mouth = placed(own) - back * head.rotation[:, 2]
+    tongue, up = template.vertices_of("tongue"), head.rotation[:, 1]
+    height = (mouth[tongue] - mouth[tongue].mean(0)) @ up
+    mouth[tongue] += (TONGUE_HEIGHT - 1) * height[:, None] * up
+    out[inside] = _behind_lips(skin, after, mouth[inside], head)
     out[skin.vertices] = after
     return out
 
@@ -47,13 +80,62 @@ def head_change(skin: Skin, before: NDArray[np.float64], after: NDArray[np.float
     return fit_similarity(before[shown], after[shown])
 
 
-def _in_mouth(template: Template, skin: Skin, before: NDArray[np.float64], after: NDArray[np.float64]) -> Similarity:
-    """What the skin about the teeth went through."""
-    own = before[skin.vertices]
-    teeth = np.concatenate([template.vertices_of(part) for part in ("upper_teeth", "lower_teeth")])
+def _in_mouth(
+    template: Template, skin: Skin, own: NDArray[np.float64], after: NDArray[np.float64], head: Similarity
+) -> Similarity:
+    """From the template's vertices, `own` (V, 3), to the mouth of the skin `after` (S, 3), whose face went through `head`."""
+    teeth = own[np.concatenate([template.vertices_of(part) for part in ("upper_teeth", "lower_teeth")])]
+    upper = own[template.vertices_of("upper_teeth")]
     shown = ~skin.regions["inner"] & skin.regions["head"]
-    near = shown & (np.linalg.norm(own - before[teeth].mean(0), axis=1) < MOUTH_SURROUNDINGS)
-    return fit_similarity(own[near], after[near])
+    near = shown & (np.linalg.norm(own[skin.vertices] - teeth.mean(0), axis=1) < MOUTH_SURROUNDINGS)
+    around = fit_similarity(own[skin.vertices[near]], after[near])
+    linear = around.scale * head.rotation
+    incisors = upper[upper[:, 2] > upper[:, 2].max() - INCISORS]
+    edge = np.array([teeth[:, 0].mean(), incisors[:, 1].min(), incisors[:, 2].max()])
+    lip = after[skin.face_points[list(LIPS_MEET)]].mean(0)
+    _, up, ahead = head.rotation.T
+    goal = lip - INCISORS_SHOWN * up
+    depth = (around(edge) - goal) @ ahead
+    return Similarity(linear, goal + depth * ahead - linear @ edge)
+
+
+def _back_in_expressions(
+    template: Template, skin: Skin, fitted: NDArray[np.float64], placed: Similarity, head: Similarity
+) -> float:
+    """Metres by which what is `placed` in the mouth of the skin (S, 3) has to be set back so that, seen from the front, none of it
+    comes through what any of `_mouth_poses` makes of the face; what is seen between lips may be.
+
+    Skin and teeth move as the template's do, as large as the `head`."""
+    parts = triangulate(template.quads[template.faces(*MOUTH_PARTS)]).astype(np.int32)
+    hull = skin.triangles[skin.visible & skin.regions["face"][skin.triangles].all(1)]
+    inside = placed(template.vertices.astype(np.float64))
+    axes = head.rotation.T / FRONT_PIXEL  # to aside, up and ahead, in pixels
+    rest = inside[parts].reshape(-1, 3) @ axes.T
+    corner = np.floor(rest.min(0))
+    height, width = np.ceil(rest.max(0) - corner).astype(int)[1::-1] + 1
+    back = 0.0
+    for moved in _mouth_poses(template):
+        depths = []
+        for vertices, triangles in (
+            (fitted + head.offsets(moved[skin.vertices]), hull),
+            (inside + placed.offsets(moved), parts),
+        ):
+            seen = (vertices @ axes.T - corner) * [1, 1, -1]
+            depths.append(depth_map(seen.astype(np.float32), triangles, (height, width)))
+        both = np.isfinite(depths[0]) & np.isfinite(depths[1])
+        through = float((depths[0][both] - depths[1][both]).max(initial=-np.inf))
+        back = max(back, through * FRONT_PIXEL + EXPRESSION_DEPTH)
+    return back
+
+
+def _mouth_poses(template: Template) -> Iterator[NDArray[np.float32]]:
+    """Displacements (V, 3) of the template's vertices by each unit of the mouth, alone and with the jaw half open."""
+    half_open = template.face_units.displacement({"jawOpen": 0.5})
+    alone: list[Mapping[str, float]] = [{unit: 1.0} for unit in MOUTH_UNITS]
+    for weights in alone + [{f"{unit}Left": 1.0, f"{unit}Right": 1.0} for unit in SIDED_MOUTH_UNITS]:
+        moved = template.face_units.displacement(weights)
+        yield moved
+        yield moved + half_open
 
 
 def _behind_lips(

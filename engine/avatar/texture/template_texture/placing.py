@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from engine.avatar.registration.eyes.eyeballs import sphere
 from engine.avatar.registration.template_skin.skin import EYE_PARTS
@@ -27,6 +28,14 @@ from engine.render.rasteriser import Raster
 
 SOCKET_LIGHT = 0.35
 """Of the light on an eyeball, what its socket has where it shows between this and the lids."""
+ABOUT_EYE = 0.5
+"""Widths of an eye from the rim of its lower lid within which the skin below has the lids' colour, in the median ..."""
+LID_FADING = 0.2
+"""... and from the upper's rim to where shut lids have that of the skin above, which is in the shade of the brow."""
+LASHES, LASH_WIDTH = 0.5, 0.0007
+"""Of the light, what lashes take along a shut lid's rim, and metres over which that fades."""
+RIM_STEPS = 8
+"""Places between two vertices of a rim from which it is measured."""
 WRIST_LENGTH, CUFF_LENGTH = 0.03, 0.004
 """Metres past the wrist over which what the arm's colours are filled with becomes the hand's: along bare skin, and where a sleeve ends."""
 SLEEVE = (-0.025, 0.0)
@@ -81,6 +90,32 @@ def place_eyes(
     dark = SOCKET_LIGHT * np.median(colours[eyes.off_axis > IRIS_RADIUS], axis=0)
     socket.put(texture, np.broadcast_to(dark, (len(socket.texels), 3)))
     return bool(len(iris) and len(white))
+
+
+def place_lids(
+    texture: NDArray[np.uint8], surface: TemplateSurface, vertices: NDArray[np.floating], raster: Raster
+) -> None:
+    """Paint what lies in the lids' folds of the person whose template vertices are (V, 3) like the skin below the eyes, with lashes along
+    the rim, into a `texture` (S, S, 3), in place."""
+    places = np.asarray(vertices, np.float64)
+    flat = texture.reshape(-1, 3)
+    folds = surface.lid_folds(places)
+    skin = surface.of("body") & ~surface.sockets & ~surface.mouth & ~np.any(list(folds.values()), axis=0)
+    for part, folded in folds.items():
+        rim = places[surface.lid_rims[part]]
+        loop = cKDTree(np.concatenate([rim + k / RIM_STEPS * (np.roll(rim, -1, 0) - rim) for k in range(RIM_STEPS)]))
+        width = float(np.ptp(rim, axis=0).max())
+        middles = places[surface.triangles].mean(1)
+        near = np.isfinite(loop.query(middles, distance_upper_bound=ABOUT_EYE * width)[0])
+        about = PartTexels.of(raster, skin & near & (middles[:, 1] < rim[:, 1].mean()))
+        lids = PartTexels.of(raster, folded)
+        if not len(about.texels) or not len(lids.texels):
+            continue
+        tone = np.median(flat[about.texels], axis=0)
+        away = loop.query(lids.blend(places, surface.triangles))[0]
+        share = np.clip(away / (LID_FADING * width), 0, 1)[:, None]
+        skin_light = (1 - LASHES * np.exp(-away / LASH_WIDTH))[:, None]
+        lids.put(texture, skin_light * (tone + share * (flat[lids.texels] - tone)))
 
 
 def place_hands(

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from engine.avatar.registration.eyes.blinking import BLINKS, before_the_eye, meeting_rims
 from engine.avatar.registration.eyes.eyeballs import sphere
+from engine.avatar.registration.face.expressions import FOLD
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.models import HumanModels
 
@@ -25,6 +27,18 @@ def test_a_blink_closes_the_eye_and_keeps_lids_before_the_ball(
     for share in (0.0, 0.5, 1.0):
         away = np.linalg.norm((rest + share * moved)[lids] - middle, axis=1)
         assert away.min() > radius - 2e-5
+
+
+@pytest.mark.parametrize("blink", BLINKS)
+def test_what_is_above_the_fold_of_a_lid_stays_in_a_blink(
+    models: HumanModels, fitted: FittedTemplate, blink: str
+) -> None:
+    skin = models.skin
+    rest = fitted.rest[skin.vertices].astype(np.float64)
+    rim = rest[skin.regions[f"{BLINKS[blink]}_rim"]]
+    away = cKDTree(rim).query(rest)[0]
+    beyond = (away > FOLD * np.ptp(rim, axis=0).max()) & ~skin.regions["inner"]
+    assert not fitted.expressions[blink][skin.vertices[beyond]].any()
 
 
 def test_half_the_way_across_a_ball_is_outside_of_it() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.avatar.registration.face.expressions import transferred_units
+from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.models import HumanModels
 from engine.body.face.visemes import VISEMES, viseme_displacements
 from engine.body.template import FACE_UNITS
@@ -20,6 +21,12 @@ def test_the_template_itself_has_its_own_and_one_twice_as_large_has_them_twice(m
             for part in ("body", "lower_teeth", "left_eye"):
                 at = template.vertices_of(part)
                 assert np.abs(units[name][at] - own[at]).max() < 1e-4 * scale
+
+
+def test_a_mouth_that_opens_leaves_the_upper_lip(models: HumanModels, fitted: FittedTemplate) -> None:
+    lip = models.skin.vertices[models.skin.face_points[[61, 62, 63]]]
+    own = models.template.face_units.displacement({"jawOpen": 1.0})[lip]
+    assert np.abs(fitted.expressions["jawOpen"][lip] - own).max() < 0.002
 
 
 def test_visemes_are_sums_of_units() -> None:

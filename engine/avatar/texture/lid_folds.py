@@ -1,0 +1,51 @@
+"""Skin of the lids that lies in their folds while eyes are open, and comes out of them when they shut."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from engine.avatar.registration.eyes.eyeballs import sphere
+from engine.geometry.camera import Camera
+from engine.render.visibility import depth_buffer, seen_points, view_cosines
+
+FOLD = 0.25
+"""Widths of an eye from the rims of its lids within which skin may lie in a fold."""
+DISTANCE, PIXELS, WIDTH = 0.5, 480, 0.06
+"""Metres from the eye to the camera that looks at it, and the pixels and the metres at the eye that its picture is wide."""
+LEAST_COSINE = 0.35
+"""To the way to that camera; skin that is seen more from the side is in the shade of lids and lashes, as what is in the fold is."""
+SLACK = 5e-4
+"""Metres behind the surface at which a triangle's middle is seen."""
+
+
+def in_lid_fold(
+    vertices: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+    rim: NDArray[np.integer],
+    eyeball: NDArray[np.integer],
+) -> NDArray[np.bool_]:
+    """(T,) which of the triangles (T, 3) of a skin are near the `rim` of an eye's lids and not seen from before the `eyeball`.
+
+    Both are numbers of `vertices` (V, 3), metres. Frames from below or aside do see some of them, at grazing angles, and show
+    lashes, shadow and eyeball there; what shut lids show is skin.
+    """
+    middle = sphere(vertices[eyeball])[0]
+    loop = vertices[rim]
+    ahead = loop.mean(0) - middle
+    half = (PIXELS - 1) / 2
+    lens = Camera((0.0, 0.0, 0.0), PIXELS * DISTANCE / WIDTH, (half, half), (PIXELS, PIXELS))
+    camera = lens.aimed(middle + DISTANCE * ahead / np.linalg.norm(ahead), middle)
+    corners = np.asarray(triangles)
+    middles = vertices[corners].mean(1)
+    reach = FOLD * float(np.ptp(loop, axis=0).max())
+    near = np.flatnonzero(np.isfinite(cKDTree(loop).query(middles, distance_upper_bound=reach)[0]))
+    a, b, c = (vertices[corners[near, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    seen = seen_points(depth_buffer(camera, vertices, corners), camera.project(middles[near]), SLACK)
+    seen &= view_cosines(camera, middles[near], normals) > LEAST_COSINE
+    out = np.zeros(len(corners), np.bool_)
+    out[near[~seen]] = True
+    return out
