@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.shell.colours.behind import seen_through
+from engine.character.texture.behind import seen_through
 from engine.imaging.masks.mask_distance import dilate_mask
 
 HEIGHT_M = 1.7

@@ -13,7 +13,7 @@ from engine.character.figure.silhouette import Silhouette
 from engine.character.parts.label_map import Labels
 from engine.character.shell.colours.evidence import witness
 from engine.character.shell.colours.head_back import head_round
-from engine.character.shell.colours.round import BackTexture, coloured_round
+from engine.character.shell.colours.round import ACROSS, BackTexture, coloured_round, with_the_other
 from engine.character.shell.colours.unrolled import ANGLES, unrolled_parts
 from engine.character.shell.shell import Shell
 from engine.character.shell.template_mesh import template_mesh
@@ -33,6 +33,12 @@ SAMPLED = 97
 """One texel of so many is looked at for the mean of all."""
 UNSURE = 0.02
 """How much a part counts, where two meet, whose row has nothing to say."""
+OTHER = {
+    f"{one}_{limb}": f"{two}_{limb}"
+    for one, two in (("left", "right"), ("right", "left"))
+    for limb in ("arm", "leg", "foot")
+}
+"""Which limb is the other side's."""
 STRIP = 256
 """Rows of the texture that are judged at once."""
 
@@ -65,15 +71,22 @@ def paint_shell(
     """
     told = witness(rgb, silhouette, labels, shell, hides)
     triangles = shell.mesh.triangles
-    rows, sure = [], []
-    for part in unrolled_parts():
+    parts = unrolled_parts()
+    evidence = {}
+    for part in parts:
         points = interpolate(told.attributes, triangles, part.raster)
         seen = told.of(points)
-        source, facing = seen.source & part.covered, points[..., 3]
+        evidence[part.name] = seen.colours, seen.source & part.covered, points[..., 3]
+    rows, sure = [], []
+    for part in parts:
+        own = evidence[part.name]
         if part.name == "head":
-            around, known = head_round(seen.colours, source, facing), np.ones(len(points), np.float32)
+            around, known = head_round(*own), np.ones(len(own[0]), np.float32)
         else:
-            around, known = coloured_round(seen.colours, source, facing, back, part.yoke)
+            if part.name in OTHER:
+                own = with_the_other(own, evidence[OTHER[part.name]])
+            across = 0.0 if part.name in OTHER else ACROSS
+            around, known = coloured_round(*own, back, part.yoke, across)
         rows.append(around)
         sure.append(known)
     firsts = np.cumsum([0, *(len(each) for each in rows)])

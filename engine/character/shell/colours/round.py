@@ -47,7 +47,7 @@ UNLIKE = 40.0
 ROBUST_ROUNDS = 3
 """Times by which a side's mean is freed from what is unlike it."""
 ACROSS = 0.15
-"""Metres along a part that are as far as its other side."""
+"""Metres along the trunk that are as far as its other side; rows of limbs are rings."""
 CROSSING = 0.03
 """How much the other side of a row counts where this one is seen."""
 BEST = 0.8
@@ -73,18 +73,19 @@ def coloured_round(
     facing: NDArray[np.floating],
     back: BackTexture = "see_through",
     yoke: int | None = None,
+    across: float = ACROSS,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """The colours (A, `ANGLES`, 3) of an unrolled part, sRGB levels: those of its `source` (A, `ANGLES`), and continued round it;
     and how sure (A,) each row is of them, from 0 to 1.
 
     `facing` (A, `ANGLES`): cosine to the viewer of each cell, negative behind. From the row `yoke` upwards a front has a neckline
-    and no back has one: there the rows below are mirrored. Where nothing is a source, nothing changes.
+    and no back has one: there the rows below are mirrored. `across`: metres along the part that are as far as its other side. Where nothing is a source, nothing changes.
     """
     if not source.any():
         return colours, np.zeros(len(colours), np.float32)
     turns = row_middles(facing)
     seen, known, near = (turned_rows(each, -turns) for each in (colours, source, facing))
-    model = row_model(seen, known * np.maximum(near, 0) * SIDEWAYS**2)  # sides, as far as they are well seen
+    model = row_model(seen, known * np.maximum(near, 0) * SIDEWAYS**2, across)  # sides, as far as they are well seen
     kind = _of_the_kind(seen, model, known)
     through = {"mirror": known.astype(np.float32), "inpaint": 0 * kind, "see_through": kind}[back]
     rows, partner = (
@@ -96,6 +97,23 @@ def coloured_round(
     detail = (through[..., None] * (seen - model.colours))[rows[:, None], partner]
     filled = joined(model.colours + detail, seen, known, known * kind)
     return turned_rows(np.where(known[..., None], seen, filled), turns), model.sure
+
+
+def with_the_other(
+    own: tuple[NDArray, NDArray, NDArray], other: tuple[NDArray, NDArray, NDArray]
+) -> tuple[NDArray, NDArray, NDArray]:
+    """Colours (A, `ANGLES`, 3), source and facing (A, `ANGLES`) of an unrolled limb, with those of the other side's limb in rows of which
+    hardly anything is seen: both are dressed alike."""
+    count = min(len(own[0]), len(other[0]))
+    few = own[1].sum(1) < ENOUGH
+    few[:count] &= other[1][:count].sum(1) >= ENOUGH
+    few[count:] = False
+    found = []
+    for one, instead in zip(own, other, strict=True):
+        mixed = one.copy()
+        mixed[few] = instead[:count][few[:count], ::-1]
+        found.append(mixed)
+    return found[0], found[1], found[2]
 
 
 def row_middles(facing: NDArray[np.floating]) -> NDArray[np.intp]:
@@ -111,14 +129,14 @@ def turned_rows(values: NDArray, by: NDArray[np.intp]) -> NDArray:
     return values[np.arange(len(values))[:, None], columns]
 
 
-def row_model(seen: NDArray[np.floating], weight: NDArray[np.floating]) -> RowModel:
+def row_model(seen: NDArray[np.floating], weight: NDArray[np.floating], across: float = ACROSS) -> RowModel:
     """What is `seen` (A, `ANGLES`, 3) of the sides of each row, the middle column facing the viewer; `weight` (A, `ANGLES`): how
-    well."""
+    well; `across`: metres along the part that are as far as the other side."""
     sides = [_side(seen, weight * (side * SIDEWAYS > 0)) for side in (-1, 1)]
     values, counts = (np.stack(each, 1) for each in zip(*sides, strict=True))  # (A, 2, 3 + 1), (A, 2)
     known, other = counts[..., None], CROSSING * counts[:, ::-1, None]
     values = (known * values + other * values[:, ::-1]) / np.maximum(known + other, 1e-6)
-    values = _on_both_sides(_nearest_rows(values, (known + other)[..., 0]))
+    values = _on_both_sides(_nearest_rows(values, (known + other)[..., 0], across))
     share = (np.clip(SIDEWAYS / BEST, -1, 1) * 0.5 + 0.5)[None, :, None]
     between = np.asarray((1 - share) * values[:, :1] + share * values[:, 1:], np.float32)
     sure = np.clip(counts.max(1) / ENOUGH, 0, 1).astype(np.float32)
@@ -156,9 +174,9 @@ def _on_both_sides(values: NDArray[np.floating]) -> NDArray[np.float32]:
     return np.asarray(values - share * more[:, None] * np.array([1, -1])[None, :, None], np.float32)
 
 
-def _nearest_rows(values: NDArray[np.floating], count: NDArray[np.floating]) -> NDArray[np.float32]:
+def _nearest_rows(values: NDArray[np.floating], count: NDArray[np.floating], across: float) -> NDArray[np.float32]:
     """Values (A, 2, C) of a part's rows, those that few cells (A, 2) tell of as the nearest row has them that more do, of the same
-    side, or, `ACROSS` further off, of the other: no garment fades into the next."""
+    side, or, where that is `across` further off, of the other: no garment fades into the next."""
     known = count >= min(ENOUGH, float(count.max()))
     rows = np.arange(len(values))
     places, away = np.zeros((2, len(values)), np.intp), np.full((2, len(values)), np.inf)
@@ -172,7 +190,7 @@ def _nearest_rows(values: NDArray[np.floating], count: NDArray[np.floating]) -> 
             away[side] = np.abs(places[side] - rows) * STEP
     whole = np.empty_like(values)
     for side in (0, 1):
-        own = away[side] <= away[1 - side] + ACROSS
+        own = away[side] <= away[1 - side] + across
         whole[:, side] = np.where(own[:, None], values[places[side], side], values[places[1 - side], 1 - side])
     return _blurred(whole, ROW / 2)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from engine.character.shell.colours.round import ANGLE, SIDEWAYS, coloured_round
+from engine.character.shell.colours.round import ANGLE, SIDEWAYS, coloured_round, with_the_other
 from engine.character.shell.colours.unrolled import ANGLES
 
 ROWS = 160
@@ -85,3 +85,28 @@ def test_whoever_is_turned_has_a_tie_seen_aside_not_on_the_back() -> None:
     facing, source = np.roll(FACING, turned, 1), np.roll(SOURCE, turned, 1)
     found = coloured_round(cloth, source, facing)[0]
     assert np.abs(found[np.roll(BEHIND, turned, 1)] - NAVY).max() < 8
+
+
+def test_what_is_hidden_of_a_sleeve_is_as_the_other_side_s() -> None:
+    other = roll((slice(0, 80), WHITE), (slice(120, ROWS), RED))
+    other[:, (ANGLE > 0.2) & (ANGLE < 0.5)] = WHITE
+    hidden = (np.arange(ROWS) > 40)[:, None] & np.ones_like(SOURCE)
+    own = other[:, ::-1].copy()
+    own[hidden] = 255
+    colours, source, facing = with_the_other((own, SOURCE & ~hidden, FACING), (other, SOURCE, FACING))
+    seen = SOURCE[:, ::-1]
+    assert (colours[seen] == other[:, ::-1][seen]).all() and (source == SOURCE).all() and (facing == FACING).all()
+
+
+def test_what_is_seen_of_a_sleeve_is_its_own() -> None:
+    own = roll(), SOURCE, FACING
+    for found, before in zip(with_the_other(own, (roll(ground=RED), SOURCE, FACING)), own, strict=True):
+        assert (found == before).all()
+
+
+def test_a_limb_of_which_one_side_is_seen_is_a_ring_of_that() -> None:
+    cloth = roll((slice(0, 80), WHITE))
+    left = np.broadcast_to(ANGLE < 0, SOURCE.shape) & SOURCE
+    source = np.where((np.arange(ROWS) < 70)[:, None], SOURCE & ~left, SOURCE)
+    found = coloured_round(cloth, source, FACING, across=0.0)[0]
+    assert np.abs(found[:64] - WHITE).max() < 6

@@ -14,8 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
-from engine.imaging.filling.pull_push import pull_push
-
 MEET = np.radians(34.0)
 """From the middle, where both sides end that are drawn together over it: beyond half of the way to the outline in the picture."""
 JOIN = np.radians(9.0)
@@ -24,6 +22,8 @@ FAR = 0.2
 """Metres of rows to each side over which the light is one."""
 UNUSUAL, LEAST = 3.0, 24.0
 """How many times as far as is usual, and how many sRGB levels at least, sides are apart where one has something of its own."""
+FEW = 0.5
+"""Share of the cells that are usually known in a row, below which it is not told by those that are."""
 SOFT = 0.01
 """Metres over which what is seen of a side goes over into what the other says of it."""
 
@@ -47,30 +47,35 @@ def seen_through(
     there = known[:, :columns], known[:, ::-1][:, :columns]
     if not (there[0] | there[1]).any():
         return np.asarray(seen, np.float32)
-    inner = slice(columns // 2, columns)
-    light = _light(left[:, inner], right[:, inner], (there[0] & there[1])[:, inner], step)[:, None]
-    sides = _whole(left, right - light, *there, step), _whole(right, left + light, *there[::-1], step)
-    sides = _agreed(sides[0], sides[1], light, step)
+    aside = np.abs(np.sin(angle[:columns])).astype(np.float32)[None, :, None]
+    inner = slice(int(np.searchsorted(angle, -JOIN * pace - MEET)), columns)
+    light = _light(left[:, inner], right[:, inner], (there[0] & there[1])[:, inner], aside[:, inner], step)[:, None]
+    sides = _whole(left, right - light * aside, *there, step), _whole(right, left + light * aside, *there[::-1], step)
+    sides = _agreed(sides[0], sides[1], light * aside, step)
     reach = int(np.searchsorted(angle, JOIN))
-    wide = np.arange(reach, dtype=np.float32) * np.float32(pace)
-    share = (np.arange(reach, dtype=np.float32) / np.float32(len(angle)))[None, :, None]
+    down = np.ascontiguousarray(np.broadcast_to(np.arange(len(seen), dtype=np.float32)[:, None], (len(seen), reach)))
+    across = np.ascontiguousarray(np.broadcast_to(np.arange(reach, dtype=np.float32) * np.float32(pace), down.shape))
+    nearer = (np.sin(np.pi / 2 - (angle[:reach] + np.pi / 2) * pace) + np.sin(angle[:reach])) / 2
     halves = []
     for side, sign in zip(sides, (1, -1), strict=True):
-        down = np.broadcast_to(np.arange(len(seen), dtype=np.float32)[:, None], (len(seen), reach))
-        across = np.broadcast_to(wide, down.shape)
-        drawn = cv2.remap(side, np.ascontiguousarray(across), np.ascontiguousarray(down), cv2.INTER_LINEAR)
-        halves.append(drawn + sign * share * light)
+        drawn = cv2.remap(side, across, down, cv2.INTER_LINEAR)
+        halves.append(drawn + sign * nearer.astype(np.float32)[None, :, None] * light)
     return sewn(halves[0], halves[1][:, ::-1], 2 * reach - len(angle))
 
 
 def _light(
-    left: NDArray[np.float32], right: NDArray[np.float32], both: NDArray[np.bool_], step: float
+    left: NDArray[np.float32],
+    right: NDArray[np.float32],
+    both: NDArray[np.bool_],
+    aside: NDArray[np.float32],
+    step: float,
 ) -> NDArray[np.float32]:
-    """By how much (A, 3) the right side (A, n, 3) is lighter than the left, over all that is `FAR` around, by what is known of `both` (A, n)."""
+    """By how much (A, 3) the right side (A, n, 3) is lighter than the left at the outline, over all that is `FAR` around, by what is known of `both`
+    (A, n); in between it is as much of that as cells are `aside` (1, n, 1)."""
     rows = np.flatnonzero(both.any(1))
     if not len(rows):
         return np.zeros((len(left), 3), np.float32)
-    apart = np.nanmedian(np.where(both[rows][..., None], right[rows] - left[rows], np.nan), 1)
+    apart = np.nanmedian(np.where(both[rows][..., None], (right[rows] - left[rows]) / aside, np.nan), 1)
     size = 2 * round(FAR / step) + 1
     calm = median_filter(apart, (size, 1), mode="nearest")
     whole = np.stack([np.interp(np.arange(len(left)), rows, one) for one in calm.T], 1).astype(np.float32)
@@ -85,16 +90,34 @@ def _whole(
     of_other: NDArray[np.bool_],
     step: float,
 ) -> NDArray[np.float32]:
-    """One side (A, n, 3): its `own` colours where they are `known` (A, n), where not the `other`'s, and where neither are, what is around."""
+    """One side (A, n, 3): its `own` colours where they are `known` (A, n), where not the `other`'s, and where neither are, those of the
+    nearest of its row, and of rows of which nothing is known what lies between those before and after."""
     if known.all():
         return own
     either = known | of_other
     said = np.where(known[..., None], own, other)
-    said = np.where(either[..., None], said, pull_push(said, either.astype(np.float32)))
+    said = _in_its_row(said, either)
     share = cv2.GaussianBlur(known.astype(np.float32), (0, 0), SOFT / step)
     share = np.where(known, np.clip(2 * share - 1, 0, 1), 0)[..., None]
     behind = np.where(of_other[..., None], other, said)
     return np.asarray(share * own + (1 - share) * behind, np.float32)
+
+
+def _in_its_row(colours: NDArray[np.float32], known: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """Colours (A, n, 3) where they are `known` (A, n), which they are somewhere; elsewhere the nearest of the row, or between rows."""
+    columns = np.arange(known.shape[1])[None]
+    before = np.maximum.accumulate(np.where(known, columns, -1), 1)
+    after = np.minimum.accumulate(np.where(known, columns, known.shape[1])[:, ::-1], 1)[:, ::-1]
+    nearer = (before >= 0) & ((columns - before <= after - columns) | (after >= known.shape[1]))
+    nearest = np.clip(np.where(nearer, before, after), 0, known.shape[1] - 1)
+    whole = np.take_along_axis(colours, nearest[..., None], 1)
+    count, rows = known.sum(1), np.arange(len(known))
+    told = np.flatnonzero(count >= max(1.0, FEW * float(np.median(count[count > 0]))))
+    at = np.interp(rows, told, np.arange(len(told)))
+    low = np.floor(at).astype(np.intp)
+    share = (at - low).astype(np.float32)[:, None, None]
+    between = (1 - share) * whole[told[low]] + share * whole[told[np.minimum(low + 1, len(told) - 1)]]
+    return np.where(known[..., None], colours, between).astype(np.float32)
 
 
 def _agreed(
