@@ -26,12 +26,8 @@ from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_
 from engine.face_animation.motion_transfer.head_proxy import HeadProxy, chin_length, move_head
 from engine.face_animation.motion_transfer.head_room import hold_back, skull_shift, turned_in_picture
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
-from engine.face_animation.motion_transfer.lids_and_lips import (
-    close_lips,
-    constrain_lids_and_lips,
-    lid_ratio,
-    lips_met_share,
-)
+from engine.face_animation.motion_transfer.lids_and_lips import constrain_lids_and_lips, lid_ratio
+from engine.face_animation.mouth.closing import ClosingLips
 from engine.face_animation.mouth.lips_and_skin import keep_lips_off_skin, philtrum_compression
 from engine.geometry.registration.rigid import Similarity
 from engine.perception.face_track.track import FaceTrack
@@ -97,6 +93,7 @@ class MotionTransfer:
         self._target, self._control, self._proxy, self._residuals = target, control, proxy, residuals
         self._phi = align(self._rest, target)
         self._turned = turned_in_picture(target)
+        self._lips = ClosingLips(self._rest, target)
         self._unit = float(eye_distance(target[:, :2]))
         self._maps = local_maps(self._phi, self._rest, target, float(eye_distance(self._rest[:, :2])))
         self._follow = part_weights(options.follow)
@@ -146,7 +143,7 @@ class MotionTransfer:
         expression = self._strength * self._follow[:, None] * carry_expression(self._maps, self._phi, motion.expression)
         upright, acted = rest + motion.expression, target + expression
         ratio = 1 + self._eyes * (lid_ratio(upright, rest, target) - 1)
-        close_lips(acted, self._mouth * lips_met_share(upright, rest))
+        self._lips.close(acted, upright, self._mouth)
         keep_lips_off_skin(acted, target, philtrum_compression(upright, rest))
         expression = constrain_lids_and_lips(acted, target, np.maximum(ratio, 0)) - target
         look = self._eyes * gaze_offsets(upright, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]

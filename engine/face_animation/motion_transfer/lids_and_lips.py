@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import eye_opening, mouth_opening
+from engine.perception.landmarks import eye_opening
 
 LID_PAIRS = (
     *((246, 7), (161, 163), (160, 144), (159, 145), (158, 153), (157, 154), (173, 155)),
@@ -29,10 +29,6 @@ OPEN_GAP_SHARE = 0.6
 """Share of its usual gap above which an eye's gap is carried as it is."""
 MAX_GAP_RATIO = 1.5
 """An eye opens at most to this multiple of its gap in the picture."""
-PARTED_OPENINGS = (0.04, 0.08)
-"""Openings of a mouth, its gap over its width, up to which its lips count as closed, and from which on as parted."""
-LIP_GAP_SHARES = (0.15, 0.5)
-"""Shares of its usual gap at which a mouth whose lips are usually parted has closed, and begins to."""
 
 
 def lid_ratio(
@@ -55,24 +51,6 @@ def lid_ratio(
         least = np.minimum(eye_opening(meshes) / np.maximum(eye_opening(target), 1e-6), 1)
         ratio = np.maximum(ratio, np.repeat(least, 7, axis=1))
     return np.asarray(np.clip(ratio, 0, MAX_GAP_RATIO) * (shut * shut * (3 - 2 * shut)), float)
-
-
-def lips_met_share(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(N,) how far the lips of meshes (N, 478, 3) have met that are parted in the `neutral` (478, 3) frame; 0 where they are closed there."""
-    rest = float(mouth_opening(neutral))
-    parted = np.clip((rest - PARTED_OPENINGS[0]) / (PARTED_OPENINGS[1] - PARTED_OPENINGS[0]), 0, 1)
-    left = np.asarray(mouth_opening(meshes)) / max(rest, 1e-6)
-    t = np.clip((left - LIP_GAP_SHARES[0]) / (LIP_GAP_SHARES[1] - LIP_GAP_SHARES[0]), 0, 1)
-    return np.asarray(parted * (1 - t * t * (3 - 2 * t)), float)
-
-
-def close_lips(positions: NDArray[np.floating], met: NDArray[np.floating]) -> None:
-    """Bring the inner lips of positions (N, 478, 3) together, in place, by shares `met` (N,) of their gap: as offsets alone, a smile
-    that is broader than its driver's would stay open between lips that are pressed together."""
-    top, bottom = np.array(INNER_LIP_PAIRS).T
-    half = met[:, None, None] * (positions[:, bottom] - positions[:, top]) / 2
-    positions[:, top] += half
-    positions[:, bottom] -= half
 
 
 def constrain_lids_and_lips(

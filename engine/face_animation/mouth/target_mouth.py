@@ -10,9 +10,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.mouth.closing import PARTED_OPENINGS
 from engine.face_animation.mouth.lip_contours import LUMINANCE_WEIGHTS, MIN_TEETH_OPENING
+from engine.face_animation.mouth.lip_seam import LipSeam
 from engine.face_animation.mouth.modelled.modelled_mouth import ModelledMouth
-from engine.face_animation.mouth.modelled.mouth_colours import mouth_colours
+from engine.face_animation.mouth.modelled.mouth_colours import lip_colour, mouth_colours
 from engine.face_animation.mouth.modelled.picture_softness import picture_softness
 from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
 from engine.face_animation.mouth.mouth_interior import MouthInterior
@@ -28,7 +30,15 @@ from engine.perception.landmarks import eye_distance, mouth_opening
 
 def target_mouth(target: TargetFace) -> MouthInterior:
     """The inside of a target's mouth. Where its picture shows crowns of upper teeth, which are lighter than skin, these are it; where it
-    shows anything else, a tongue or teeth in the dark, its own is seen until the mouth opens further than in the picture."""
+    shows anything else, a tongue or teeth in the dark, its own is seen until the mouth opens further than in the picture. Lips that are parted
+    there meet in a line (`LipSeam`)."""
+    inside = _inside(target)
+    if float(mouth_opening(target.mesh)) <= PARTED_OPENINGS[0]:
+        return inside
+    return LipSeam(inside, lip_colour(target.rgb, target.mesh))
+
+
+def _inside(target: TargetFace) -> MouthInterior:
     rgb, mesh = target.rgb, target.mesh
     general = frontalise(canonical_face()[None].astype(np.float64))[0]
     at, softness = resting_mouth(frontalise(mesh[None])[0], general), picture_softness(rgb, mesh)

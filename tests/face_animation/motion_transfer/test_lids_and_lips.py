@@ -11,10 +11,8 @@ from engine.face_animation.motion_transfer.lids_and_lips import (
     INNER_LIP_PAIRS,
     LID_PAIRS,
     MAX_GAP_RATIO,
-    close_lips,
     constrain_lids_and_lips,
     lid_ratio,
-    lips_met_share,
 )
 from engine.perception.head_pose import canonical_face, mirror_vertices
 from engine.perception.landmarks import eye_opening
@@ -144,25 +142,6 @@ def test_crossing_lips_meet_half_way(target: NDArray) -> None:
     out = constrain_lids_and_lips(crossed[None], target, np.ones((1, 14)))[0]
     np.testing.assert_allclose(out[TOP], target[TOP] + 7 * down, atol=1e-3)
     np.testing.assert_allclose(out[BOTTOM], out[TOP], atol=1e-3)
-
-
-def test_lips_that_are_parted_at_rest_meet_where_the_driver_s_meet() -> None:
-    """A smile that is broader than its driver's would stay open by what it is broader."""
-    rest, broad = opened(placed(60), 0.12), opened(placed(90), 0.25)
-    gaps = (0.12, 0.05, 0.01)
-    met = lips_met_share(np.stack([opened(placed(60), gap) for gap in gaps]), rest)
-    assert met[0] == 0
-    assert 0 < met[1] < 1
-    assert met[2] == pytest.approx(1)
-    face = np.repeat(broad[None].astype(float), 3, axis=0)
-    close_lips(face, met)
-    left = np.linalg.norm(face[:, 13] - face[:, 14], axis=1) / np.linalg.norm(broad[13] - broad[14])
-    np.testing.assert_allclose(left, 1 - met, atol=1e-9)
-
-
-def test_lips_that_are_closed_at_rest_are_left_to_their_offsets() -> None:
-    rest = placed(60)
-    assert not lips_met_share(np.stack([rest, opened(rest, 0.3)]), rest).any()
 
 
 def test_what_is_left_of_wide_eyes_is_no_squint_of_narrower_ones(driver: NDArray) -> None:

@@ -8,6 +8,7 @@ import pytest
 from made_face import SKIN, opened, painted, placed
 from numpy.typing import NDArray
 
+from engine.face_animation.mouth.lip_seam import LipSeam
 from engine.face_animation.mouth.modelled.modelled_mouth import ModelledMouth
 from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth
 from engine.face_animation.mouth.target_mouth import target_mouth
@@ -42,8 +43,9 @@ def with_teeth(mesh: NDArray[np.float32], crowns: bool) -> NDArray[np.uint8]:
 def test_a_picture_s_own_teeth_are_kept_where_crowns_are_seen() -> None:
     smiling = opened(placed(90, (160, 120)), SMILE)
     own, band = (target_mouth(target(smiling, with_teeth(smiling, crowns))) for crowns in (True, False))
-    assert isinstance(own, PhotoTeeth)
-    assert isinstance(band, ModelledMouth)
+    assert isinstance(own, LipSeam) and isinstance(band, LipSeam)
+    assert isinstance(own.inside, PhotoTeeth)
+    assert isinstance(band.inside, ModelledMouth)
 
 
 def test_at_rest_a_closed_mouth_stays_as_it_is_and_what_opens_is_drawn_within_the_lips() -> None:

@@ -61,7 +61,7 @@ def mouth_colours(
     skin = skin_colour(rgb, mesh)
     luminance = max(float(skin @ LUMINANCE_WEIGHTS), 1.0)
     light = float(np.clip(luminance / USUAL_SKIN, *LIGHT_RANGE))
-    lips = _lips(rgb, mesh)
+    lips = lip_colour(rgb, mesh)
     flesh = {
         name: _blended(light * colour, lips)
         for name, colour in (("gum", GUM), ("tongue", TONGUE), ("lining", LINING), ("throat", THROAT))
@@ -105,7 +105,8 @@ def _blended(colour: NDArray[np.float64], lips: NDArray[np.float64]) -> NDArray[
     return np.asarray((1 - LIPS_SHARE) * colour + LIPS_SHARE * other, np.float64)
 
 
-def _lips(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:
+def lip_colour(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(3,) the mean colour of the lips of a face at `mesh` (478, 2 or 3) of a picture (H, W, 3)."""
     mask = np.zeros(rgb.shape[:2], np.uint8)
     cv2.fillPoly(mask, [mesh[list(LIPS_OUTER), :2].round().astype(np.int32)], 1)
     cv2.fillPoly(mask, [mesh[list(LIPS_INNER), :2].round().astype(np.int32)], 0)

@@ -1,0 +1,63 @@
+"""Where lips meet that the picture shows parted: a dark line, as between any closed lips, which the picture does not have.
+
+What the picture has there is a rest of its teeth, as narrow as landmarks are wrong.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.mouth.lip_contours import LOWER_INNER_LIP, UPPER_INNER_LIP, box_around
+from engine.face_animation.mouth.mouth_interior import MouthInterior
+from engine.perception.landmarks import LIPS_INNER, eye_distance, mouth_opening
+
+MEETING = (0.012, 0.05)
+"""Openings of a mouth, its gap over its width, up to which its lips have met, and from which on they have not."""
+WIDTH, SOFTNESS, LEAST_PIXELS = 0.03, 0.01, 0.8
+"""Eye distances, of the line and of its edges, and pixels that either has at least."""
+DARKNESS = 0.42
+"""Of the lips' light, that is left between them."""
+TAPER = (0.2, 0.4, 0.7, 0.9, 1.0, 1.0, 1.0, 0.9, 0.7, 0.4, 0.2)
+"""Of its width, that the line has from corner to corner."""
+
+
+class LipSeam:
+    """`MouthInterior` of parted lips: `inside`, and as they close a line in the lips' `colour` (3,), darkened."""
+
+    def __init__(self, inside: MouthInterior, colour: NDArray[np.floating]):
+        self.inside, self._colour = inside, DARKNESS * np.asarray(colour, np.float32)
+
+    def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], driver_frame: int) -> None:
+        """As `MouthInterior.draw`."""
+        share = met_share(float(mouth_opening(face)))
+        if share < 1:
+            self.inside.draw(frame, face, driver_frame)
+        unit = float(eye_distance(face))
+        width, soft = (max(one * unit, LEAST_PIXELS) for one in (WIDTH, SOFTNESS))
+        box = box_around(face[list(LIPS_INNER), :2].astype(np.float32), frame.shape[:2])
+        if share == 0 or box is None:
+            return
+        x0, y0, x1, y1 = box
+        mask = np.zeros((y1 - y0, x1 - x0), np.uint8)
+        cv2.fillPoly(mask, [np.round(16 * (seam(face, width) - (x0, y0))).astype(np.int32)], 255, cv2.LINE_AA, 4)
+        alpha = share * cv2.GaussianBlur(mask.astype(np.float32) / 255, (0, 0), soft)[..., None]
+        part = frame[y0:y1, x0:x1]
+        part[:] = np.clip(part + alpha * (self._colour - part) + 0.5, 0, 255).astype(np.uint8)
+
+
+def met_share(opening: float) -> float:
+    """How far the lips of a mouth of this opening have met."""
+    t = float(np.clip((MEETING[1] - opening) / (MEETING[1] - MEETING[0]), 0, 1))
+    return t * t * (3 - 2 * t)
+
+
+def seam(face: NDArray[np.floating], width: float) -> NDArray[np.float64]:
+    """(22, 2) the outline of the line between the lips of a face (478, 2), pixels: what is left of their gap, and `width` at least."""
+    upper, lower = face[list(UPPER_INNER_LIP), :2].astype(float), face[list(LOWER_INNER_LIP), :2].astype(float)
+    middle, half = (upper + lower) / 2, np.linalg.norm(lower - upper, axis=1) / 2
+    across = middle[-1] - middle[0]
+    down = np.array([-across[1], across[0]]) / max(float(np.linalg.norm(across)), 1e-6)
+    reach = np.maximum(half, np.array(TAPER) * width / 2)[:, None] * down
+    return np.concatenate([middle - reach, (middle + reach)[::-1]])
