@@ -45,9 +45,9 @@ from engine.character.shell.shell import Shell
 from engine.character.surface.face_warp import seen_face
 from engine.character.surface.layers import build_layers
 from engine.character.surface.sheets import ClosedMesh, close
-from engine.character.texture.head_sides import with_round_sides
 from engine.character.texture.limb_texture import LimbSurfaces
 from engine.character.texture.rings import limb_heights
+from engine.character.texture.round_sides import with_round_sides
 from engine.character.texture.texture import SURE, BackTexture, PictureOnGrid, Tiles, atlas, paint_tiles
 from engine.geometry.simplification.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
@@ -254,10 +254,12 @@ def _made_of(
 ) -> Character:
     head = labels.labels == BODY_PARTS.index("head")
     face = face_ellipse(figure, silhouette.to_grid, head)
-    if face is not None and not in_profile(
-        figure
-    ):  # where a turned face ends at the outline, a cheek goes on beyond it
-        mesh = with_round_sides(mesh, head, within_oval(face * CHEEK, head.shape), 0)
+    round_it, cheek = labels.labels >= 0, np.zeros_like(head)
+    if face is None or in_profile(figure):
+        round_it &= ~head
+    else:  # where a turned face ends at the outline, a cheek goes on beyond it
+        cheek = within_oval(face * CHEEK, head.shape)
+    mesh = with_round_sides(mesh, round_it, cheek, 0)
     texture, uv = atlas(tiles, mesh, 0)
     camera = silhouette.camera(fitted.picture_camera())
     inside = cv2.erode(silhouette.mask.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0

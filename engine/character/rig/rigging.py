@@ -15,6 +15,7 @@ from engine.character.fit.template_fit import FittedBody
 from engine.character.surface.sheets import ClosedMesh
 from engine.character.surface.soles import with_soles
 from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.welding import same_rows
 from engine.motion.clip import Clip
 
 LEAST_VOLUME, KEPT_VOLUME = 0.35, 0.6
@@ -63,7 +64,11 @@ def bind(
         inside = (x >= 0) & (y >= 0) & (x < mask.shape[1]) & (y < mask.shape[0])
         return inside & mask[np.where(inside, y, 0), np.where(inside, x, 0)]
 
-    vertices = with_soles(vertices, mesh.triangles, _feet(mesh, joints.rest.names), ~mesh.front & ~mesh.rim, covered)
+    point = same_rows(
+        mesh.vertices
+    )  # where sides are coloured as the back is, vertices of the front are there once more
+    in_front = np.isin(point, point[mesh.front])
+    vertices = with_soles(vertices, mesh.triangles, _feet(mesh, joints.rest.names), ~in_front & ~mesh.rim, covered)
     lift = np.array([0.0, -vertices[:, 1].min(), 0.0])
     bound = SkinnedMesh(
         joints.lifted(lift),

@@ -12,8 +12,8 @@ from engine.character.figure.face_region import face_turn
 from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheets import ClosedMesh, Layer, close
 from engine.character.texture.head_area import measure_head
-from engine.character.texture.head_sides import with_round_sides
 from engine.character.texture.head_texture import back_of_the_head, nape_height
+from engine.character.texture.round_sides import with_round_sides
 from engine.geometry.welding import is_closed
 
 SKIN, BROWN, WHITE, BLACK, PINK = (225, 175, 150), (75, 48, 32), (205, 203, 200), (12, 12, 14), (220, 60, 150)

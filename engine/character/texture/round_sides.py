@@ -1,8 +1,8 @@
-"""The sides of a head: where the back's colours begin, and how they are laid over the surface.
+"""The sides of head and body: where the back's colours begin, and how they are laid over the surface.
 
-Seen from the front, a head shows its sides in a pixel or two, stretched over a third of it. So the back's colours begin
+Seen from the front, a head or a trunk shows its sides in a pixel or two, stretched over a third of it. So the back's colours begin
 there, within the outline, and are laid from there to the middle of the back at the pace of the surface, as if it were round:
-what is painted as an inch of hair is an inch of hair wherever it is seen from.
+what is painted as an inch of hair or cloth is an inch wherever it is seen from.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from engine.character.surface.sheets import ClosedMesh
 from engine.imaging.masks.mask_distance import dilate_mask
 
 THINNEST = 4.0
-"""Pixels from the outline to the middle from which a part of a head is round."""
+"""Pixels from the outline to the middle from which something is round."""
 SMOOTH = 1.5
 """Pixels by which distances from the outline are smoothed: their gradients lead inward."""
 STEP, STEPS = 0.5, 120
@@ -26,30 +26,32 @@ STEP, STEPS = 0.5, 120
 RISING = 0.4
 """How fast the distance must grow on the way, or it is at the middle."""
 FADE = 10.0
-"""Pixels over which the back's colours come to lie as they are on the rest of the body; they begin to at half as many above the
-head's lower end."""
+"""Pixels over which the back's colours come to lie as they are on the rest of the body, if there is any; they begin to at half as many
+within."""
 
 
-def with_round_sides(mesh: ClosedMesh, head: NDArray[np.bool_], face: NDArray[np.bool_], body_layer: int) -> ClosedMesh:
-    """The mesh whose outermost triangles of the front take the back's colours where they are the `head`'s (h, w), and whose
+def with_round_sides(
+    mesh: ClosedMesh, where: NDArray[np.bool_], face: NDArray[np.bool_], body_layer: int
+) -> ClosedMesh:
+    """The mesh whose outermost triangles of the front take the back's colours where they are `where` (h, w) the body is round, and whose
     back takes them at the pace of the surface. Where the `face` (h, w) comes to the outline, as a turned one's does, its cheek
     goes on."""
     body = mesh.layer == body_layer
-    met = mesh.pixels(np.flatnonzero(body), head.shape).astype(np.uint8)
+    met = mesh.pixels(np.flatnonzero(body), where.shape).astype(np.uint8)
     whole = cv2.morphologyEx(met, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8)) > 0  # its border lies between pixels
-    near = dilate_mask(head, 2)  # a border lies between pixels
+    near = dilate_mask(where, 2)  # a border lies between pixels
     rest = (whole & ~near).astype(np.uint8)
-    on_head = body & near[_pixels(mesh, head.shape)]
+    on_it = body & near[_pixels(mesh, where.shape)]
     triangles = mesh.triangles
-    outermost = mesh.front[triangles].all(1) & (mesh.rim & on_head)[triangles].any(1) & on_head[triangles].all(1)
-    outermost &= ~face[_pixels(mesh, head.shape)][triangles].any(1)
+    outermost = mesh.front[triangles].all(1) & (mesh.rim & on_it)[triangles].any(1) & on_it[triangles].all(1)
+    outermost &= ~face[_pixels(mesh, where.shape)][triangles].any(1)
     if not outermost.any():
         return mesh
     joined, copied = _with_copies(mesh, outermost)
     within, without = (cv2.distanceTransform(one.astype(np.uint8), cv2.DIST_L2, 5) for one in (whole, ~whole))
     depth = np.where(whole, within - 0.5, 0.5 - without)
     share = np.clip(np.asarray(cv2.distanceTransform(1 - rest, cv2.DIST_L2, 5)) / FADE - 0.5, 0, 1)
-    y, x = _pixels(joined, head.shape)
+    y, x = _pixels(joined, where.shape)
     back = (joined.layer == body_layer) & ~joined.front & near[y, x]
     moved = np.flatnonzero(back & (joined.rim | ~copied))  # and not the seam
     start = joined.vertices[moved, :2]
