@@ -27,12 +27,26 @@ IRIS_ROOM = 0.85
 """Radii of the iris that are between its middle and a corner of the eye, at least."""
 FREE_SHARE = 0.6
 """Of the way to there, that an iris goes freely."""
+LEAST_VERGENCE = 0.1
+"""Eye widths by which each iris has to go against the other's before eyes are taken to converge: a tracker errs by less."""
+INWARD = np.array([1.0, -1.0])[:, None]
+"""Of both eyes, right eye first: from the outer corner to the inner one, along the picture's right or against it."""
 
 
 def gaze_offsets(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N, 2, 2) how far each iris has moved against the neutral frame, right eye first, in eye widths along
     and across the line between the eye's corners. A shut eye does not look anywhere: it moves back to rest."""
-    return iris_positions(meshes) - iris_positions(neutral[None])
+    return conjugate(iris_positions(meshes) - iris_positions(neutral[None]))
+
+
+def conjugate(looks: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Looks (N, 2, 2) of two eyes that move together, as `gaze_offsets` has them: both go the mean of what each was seen to do, and only what
+    they differ by beyond `LEAST_VERGENCE` remains: whoever crosses their eyes means it."""
+    across_picture = looks * INWARD
+    together = across_picture.mean(axis=1, keepdims=True)
+    apart = across_picture - together
+    meant = np.sign(apart) * np.maximum(np.abs(apart) - LEAST_VERGENCE, 0)
+    return np.asarray((together + meant) * INWARD, float)
 
 
 def iris_positions(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -52,9 +66,19 @@ def _look(meshes: NDArray[np.floating], side: tuple) -> NDArray[np.float64]:
     return np.stack([(centre * along).sum(1), (centre * across).sum(1)], axis=1) / width
 
 
-def held_look(eye: Eyeball, look: NDArray[np.floating]) -> NDArray[np.float64]:
-    """A `look` (2,), as `gaze_offsets` gives it, with the iris within the eye: one that is larger than the driver's, or nearer to a corner
-    in the picture, goes less far."""
+def held_looks(eyes: tuple[Eyeball | None, Eyeball | None], looks: NDArray[np.floating]) -> NDArray[np.float64]:
+    """`looks` (2, 2), as `gaze_offsets` gives them, with each iris within its eye: ones that are larger than the driver's, or nearer to a corner
+    in the picture, go less far, and so does the other eye's, by the same share: eyes that are held are not crossed."""
+    shares = [
+        held_along(eye, float(look[0])) / look[0]
+        for eye, look in zip(eyes, looks, strict=True)
+        if eye is not None and abs(look[0]) > 1e-6
+    ]
+    return np.asarray(looks * (min(shares, default=1.0), 1.0), float)
+
+
+def held_along(eye: Eyeball, look: float) -> float:
+    """How far an iris goes along its eye that wants to go as far as `look`, in eye widths."""
     most = max(0.5 - IRIS_ROOM * eye.radius, 0.05)
     free = FREE_SHARE * most
 
@@ -63,7 +87,7 @@ def held_look(eye: Eyeball, look: NDArray[np.floating]) -> NDArray[np.float64]:
         return float(np.sign(at) * (min(abs(at), free) + (most - free) * np.tanh(over / (most - free))))
 
     rest = float(eye.centre[0])
-    return np.array([held(rest + float(look[0])) - held(rest), float(look[1])])
+    return held(rest + look) - held(rest)
 
 
 def draw_eye(
@@ -73,7 +97,7 @@ def draw_eye(
 
     Parameters
     ----------
-    mesh : (478, 2) the face in this frame. side : 0 right, 1 left. look : (2,) from `gaze_offsets`.
+    mesh : (478, 2) the face in this frame. side : 0 right, 1 left. look : (2,) from `held_looks`.
     """
     contour, _, outer, inner = EYE_VERTICES[side]
     opening = mesh[list(contour), :2].astype(np.float32)
@@ -85,7 +109,6 @@ def draw_eye(
     cover = np.zeros(shape, np.uint8)
     cv2.fillPoly(cover, [np.round((opening - low) * 16).astype(np.int32)], 255, cv2.LINE_AA, 4)
     place = _place(eye, mesh[[outer, inner], :2], low)
-    look = held_look(eye, look)
     white = cv2.warpAffine(eye.white, place, shape[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     along = place[:, :2] @ (eye.ends[1] - eye.ends[0])
     across = np.array([-along[1], along[0]])

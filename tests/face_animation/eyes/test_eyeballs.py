@@ -13,7 +13,7 @@ from made_face import BROWN, SKIN, WHITE, painted, placed, shut
 from numpy.typing import NDArray
 
 from engine.face_animation.eyes.eyeball import MIN_EYE_WIDTH, prepare_eyes
-from engine.face_animation.eyes.eyes import draw_eye, gaze_offsets, held_look
+from engine.face_animation.eyes.eyes import LEAST_VERGENCE, conjugate, draw_eye, gaze_offsets, held_along, held_looks
 from engine.face_animation.motion_transfer.lids_and_lips import LID_PAIRS
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
@@ -196,11 +196,31 @@ def test_a_catch_light_stays_nearly_where_it_was(mesh: NDArray) -> None:
 def test_an_iris_stays_within_its_eye_however_far_it_is_told_to_look(picture: NDArray, mesh: NDArray) -> None:
     eye = prepare_eyes(picture, mesh)[0]
     assert eye is not None
-    looks = [held_look(eye, np.array([far, 0.0]))[0] for far in np.linspace(-0.6, 0.6, 25)]
+    looks = [held_along(eye, far) for far in np.linspace(-0.6, 0.6, 25)]
     assert (np.diff(looks) > 0).all(), "further is further"
-    assert held_look(eye, REST)[0] == pytest.approx(0)
+    assert held_along(eye, 0.0) == pytest.approx(0)
     assert abs(eye.centre[0] + looks[-1]) < 0.5 - 0.8 * eye.radius
-    assert held_look(eye, np.array([0.05, 0.0]))[0] == pytest.approx(0.05, abs=0.005), "a usual look is as it is"
+    assert held_along(eye, 0.05) == pytest.approx(0.05, abs=0.005), "a usual look is as it is"
+
+
+def test_eyes_look_the_same_way_but_where_they_are_crossed() -> None:
+    """A tracker that has one iris go further than the other errs; irises that both go far inwards are meant."""
+    one_errs = np.array([[[0.12, -0.04], [-0.06, 0.0]]])
+    np.testing.assert_allclose(conjugate(one_errs), [[[0.09, -0.02], [-0.09, 0.02]]])
+    crossed = np.array([[[0.2, 0.0], [0.2, 0.0]]])
+    np.testing.assert_allclose(conjugate(crossed), crossed - np.array([LEAST_VERGENCE, 0.0]))
+
+
+def test_an_eye_that_is_held_holds_the_other(picture: NDArray, mesh: NDArray) -> None:
+    """Of a face whose irises do not rest in the middle one comes to its corner before the other."""
+    right, left = prepare_eyes(picture, mesh)
+    assert right is not None and left is not None
+    aside = replace(right, centre=right.centre + np.array([0.1, 0.0]))
+    looks = np.array([[0.3, 0.05], [-0.3, -0.05]])
+    held = held_looks((aside, left), looks)
+    assert held[0, 0] == pytest.approx(held_along(aside, 0.3))
+    np.testing.assert_allclose(held * [[1], [-1]], held[[0, 0]])
+    np.testing.assert_allclose(held_looks((None, left), looks)[1, 0], held_along(left, -0.3))
 
 
 def test_small_and_shut_eyes_of_a_picture_have_no_layer(mesh: NDArray) -> None:
