@@ -80,6 +80,18 @@ def rim_distance(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> ND
     return np.array([-cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in points])
 
 
+def contour_spots(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(P, 36) weights of the contour's vertices that give the spot of a face's contour (478, 2 or 3) next to each of points (P, 2): two of
+    each row."""
+    everywhere = np.ones(len(mesh), bool)
+    edge, share, _ = _nearest(mesh, everywhere, everywhere[: len(FACE_OVAL)], points)
+    weights = np.zeros((len(points), len(FACE_OVAL)))
+    rows = np.arange(len(points))
+    weights[rows, edge] = 1 - share
+    weights[rows, (edge + 1) % len(FACE_OVAL)] = share
+    return weights
+
+
 def beside_contour(mesh: NDArray[np.floating], seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(478,) whether each vertex of a mesh (478, 2 or 3) lies beside the cheeks' contour and is none of its own; only where
     the contour's vertices are `seen` (478,): elsewhere others are the picture's outline."""
@@ -175,17 +187,21 @@ def _inward(ring: NDArray[np.floating]) -> NDArray[np.floating]:
 
 
 def _nearest(
-    mesh: NDArray[np.floating], seen: NDArray[np.bool_], edges: NDArray[np.bool_]
+    mesh: NDArray[np.floating],
+    seen: NDArray[np.bool_],
+    edges: NDArray[np.bool_],
+    points: NDArray[np.floating] | None = None,
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
-    """The spot of some seen edges (36,) of the contour next to each vertex: its edge (478,), its share of the way along
-    that, and how far away it is, pixels; nowhere if none is seen."""
+    """The spot of some seen edges (36,) of the contour next to each of points (P, 2), or to each vertex: its edge (P,), its share of the way
+    along that, and how far away it is, pixels; nowhere if none is seen."""
+    places = mesh[:, :2] if points is None else points
     oval = list(FACE_OVAL)
     ring = mesh[oval, :2].astype(float)
     way = np.roll(ring, -1, axis=0) - ring
-    to = mesh[:, None, :2] - ring
+    to = places[:, None] - ring
     along = np.clip((to * way).sum(axis=2) / (way**2).sum(axis=1), 0, 1)
     apart = np.linalg.norm(to - along[..., None] * way, axis=2)
     apart[:, ~(edges & seen[oval] & np.roll(seen[oval], -1))] = np.inf
     edge = apart.argmin(axis=1)
-    spots = np.arange(len(mesh)), edge
+    spots = np.arange(len(places)), edge
     return edge, along[spots], apart[spots]

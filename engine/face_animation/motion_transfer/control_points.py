@@ -12,14 +12,15 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.motion_transfer.contour import beside_contour
+from engine.face_animation.motion_transfer.contour import beside_contour, rim_distance
 from engine.face_animation.motion_transfer.head_room import head_room
+from engine.face_animation.warping.contour_rings import contour_rings, rings_end
 from engine.geometry.registration.rigid import Similarity
 from engine.geometry.surface import area_vectors, summed_at_corners
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.window import Window
 from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import FACE_OVAL, LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
+from engine.perception.landmarks import LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
 
 PERIPHERY_SPACING = 0.5
 """Distance of peripheral points, in eye distances."""
@@ -80,8 +81,8 @@ def place_control_points(
     grid = grid[(grid[:, 0] > spacing / 2) & (grid[:, 0] < width - 1 - spacing / 2)]
     away = cv2.distanceTransform((person <= 0.3).astype(np.uint8), cv2.DIST_L2, 5)
     grid = grid[away[grid[:, 1].astype(int), grid[:, 0].astype(int)] <= spacing]
-    oval = mesh[list(FACE_OVAL), :2].astype(np.float32)
-    grid = grid[[cv2.pointPolygonTest(oval, (float(x), float(y)), True) < -0.35 * spacing for x, y in grid]]
+    grid = grid[rim_distance(mesh, grid) > rings_end(mesh) + 0.25 * spacing]
+    grid = np.concatenate([contour_rings(mesh, person.shape), grid])
     count = BORDER_POINTS
     step = max(height, width) / count
     across, down = (

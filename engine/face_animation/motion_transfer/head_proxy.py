@@ -1,7 +1,7 @@
 """The head as one solid: the face mesh, carried on over ears and hair, turned in space.
 
 The paper warps in the plane and names turns of the head as its limit (section 7.3); its outlook is "to map the face over a
-template 3D face". Here every control point of the head has a depth: the mesh's own on the face, a paraboloid's around it. The
+template 3D face". Here every control point of the head has a depth: the mesh's own on the face, an ellipsoid's around it. The
 driver's motion is split into the head's rigid motion and the expression, and the rigid part moves all of the head in space.
 What the skull's outline shows is another part of it after a turn, and as wide: it goes along and turns in the plane alone.
 Towards the shoulders the head hands over to the body (`body_motion`).
@@ -14,21 +14,24 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.motion_transfer.contour import even_depth
+from engine.face_animation.motion_transfer.contour import contour_spots, even_depth, rim_distance
 from engine.face_animation.motion_transfer.head_motion import SOFT_WEIGHT, HeadMotion
 from engine.face_animation.motion_transfer.head_room import skull_centre, skull_shift
 from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES
 
-NECK_FADE_CHIN_LENGTHS = (0.9, 1.7)
+NECK_FADE_CHIN_LENGTHS = (1.05, 1.75)
 """The head's rigid motion fades out between these distances below the eyes, in lengths from eyes to chin."""
 SHOULDER_FADE, BESIDE_NECK = (0.6, 1.0), (0.7, 1.2)
 """Lengths from eyes to chin: where shoulders begin beside the neck, below the eyes, and how far aside they do."""
-CONTOUR_REACH, CONTOUR_SPREAD = 0.5, 0.15
-"""Lengths from eyes to chin: as far from the contour what it does beyond the head has faded; and how far along it points
-beside it take part in each other's."""
-RIM_TO_SKULL = 0.12
-"""Outside the face its rim passes over into the skull within this share of the face's width."""
+CONTOUR_REACH, CONTOUR_SPREAD, SPOT_REACH = 0.5, 0.15, 0.3
+"""Lengths from eyes to chin: as far from the contour what it does beyond the head has faded; how far along it points
+beside it take part in each other's, and how far from it they do so fully."""
+RIM_TO_SKULL, RIM_TO_OUTLINE = 0.3, 0.06
+"""Outside the face's skin its rim passes over into the skull, in depth, and into the skull's outline, in motion, within these shares of the
+face's width."""
+SKIN_BAND, CHEEKS = 0.05, 0.5
+"""Widths of the face by which skin may reach beyond the contour, from there on that many lengths from eyes to chin below the eyes."""
 SKULL_HALF_WIDTH, SKULL_HEIGHT = 0.56, 1.5
 """Half axes of the skull seen from the front: in widths of the face, and in lengths from eyes to chin."""
 OUTLINE_RADII = (0.85, 1.15)
@@ -61,15 +64,21 @@ def build_head_proxy(points: NDArray[np.floating], mesh: NDArray[np.floating]) -
 
 
 def contour_weights(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(P, 36) how much points (P, 2) around a face follow each vertex of its contour: the nearest, and with the distance ever
-    more of them, ever less, so that a jaw which opens squeezes the neck evenly instead of folding over it."""
-    oval = mesh[list(FACE_OVAL), :2].astype(float)
+    """(P, 36) how much points (P, 2) around a face follow each vertex of its contour, ever less with the distance from it, so that a jaw
+    which opens squeezes the neck evenly instead of folding over it."""
+    fading = 1 - _smooth_step(rim_distance(mesh, points) / (CONTOUR_REACH * chin_length(mesh)))
+    return np.asarray(fading[:, None] * beside_rim(mesh, points))
+
+
+def beside_rim(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(P, 36) what each vertex of a face's contour counts for points (P, 2) around it; rows sum to one. At the contour it is the spot next to them
+    alone, so that nothing parts there, and with the distance ever more of it."""
     length = chin_length(mesh)
-    apart = np.linalg.norm(oval[None] - points[:, None], axis=2)
+    apart = np.linalg.norm(mesh[list(FACE_OVAL), :2].astype(float)[None] - points[:, None], axis=2)
     nearest = apart.min(axis=1, keepdims=True)
     near = np.exp(-0.5 * ((apart - nearest) / (CONTOUR_SPREAD * length + 0.5 * nearest)) ** 2)
-    t = np.clip(nearest / (CONTOUR_REACH * length), 0, 1)
-    return np.asarray((1 - t * t * (3 - 2 * t)) * near / near.sum(axis=1, keepdims=True))
+    away = _smooth_step(rim_distance(mesh, points) / (SPOT_REACH * length))[:, None]
+    return np.asarray((1 - away) * contour_spots(mesh, points) + away * near / near.sum(axis=1, keepdims=True))
 
 
 def chin_length(mesh: NDArray[np.floating]) -> float:
@@ -86,30 +95,29 @@ def chin_lengths_below(mesh: NDArray[np.floating], points: NDArray[np.floating])
 
 def outline_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """(P,) how far points (P, 2) outside the face move as the skull's outline does: none on its front, all beyond it."""
-    oval = mesh[list(FACE_OVAL), :2].astype(float)
-    nearest = np.linalg.norm(oval[None] - points[:, None], axis=2).min(axis=1)
     begin, end = OUTLINE_RADII
     share = _smooth_step((skull_radius(mesh, points) - begin) / (end - begin))
-    return share * _smooth_step(nearest / (RIM_TO_SKULL * _face_width(mesh)))
+    return share * _smooth_step(_beyond_skin(mesh, points) / RIM_TO_OUTLINE)
 
 
 def surface_depth(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """Depth (P,) at points outside the face: the face's rim, passing over into the skull's, pixels.
 
-    The skull is a paraboloid around its middle, as deep as the bridge of the nose lies before that: no steeper anywhere than
-    what the largest turn would fold.
+    The skull is an ellipsoid around its middle, as deep as the bridge of the nose lies before that.
     """
     mesh = mesh.astype(float)
-    oval = mesh[list(FACE_OVAL)]
-    width = _face_width(mesh)
     centre = skull_centre(mesh)
     front = centre[2] - mesh[NOSE_BRIDGE, 2]
-    skull = centre[2] - front * np.clip(1 - skull_radius(mesh, points) ** 2, 0, 1)
-    apart = np.linalg.norm(oval[None, :, :2] - points[:, None], axis=2)
-    nearest = apart.min(axis=1)
-    near = np.exp(-0.5 * ((apart - nearest[:, None]) / (0.1 * width)) ** 2)
-    rim = near @ oval[:, 2] / near.sum(axis=1)
-    return np.asarray(rim + _smooth_step(nearest / (RIM_TO_SKULL * width)) * (skull - rim), float)
+    skull = centre[2] - front * np.sqrt(np.clip(1 - skull_radius(mesh, points) ** 2, 0, 1))
+    rim = beside_rim(mesh, points) @ even_depth(mesh)[list(FACE_OVAL)]
+    away = _smooth_step(_beyond_skin(mesh, points) / RIM_TO_SKULL)
+    return np.asarray(rim + away * (skull - rim), float)
+
+
+def _beyond_skin(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(P,) how far points (P, 2) lie outside a face's skin, in widths of the face: beside cheeks and jaw it ends a little outside of the contour."""
+    band = SKIN_BAND * _smooth_step(chin_lengths_below(mesh, points) / CHEEKS)
+    return np.asarray(rim_distance(mesh, points) / _face_width(mesh) - band)
 
 
 def skull_radius(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:

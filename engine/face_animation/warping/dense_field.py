@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
+from engine.face_animation.warping.contour_rings import contour_rings, rings_end
 from engine.face_animation.warping.warp_mesh import WarpMesh
 from engine.imaging.warping.delaunay import delaunay
 from engine.perception.landmarks import FACE_OVAL
@@ -88,7 +89,8 @@ def build_warp_mesh(
     spacing = diagonal / VERTICES_ON_DIAGONAL
     used = np.arange(len(control)) if usable is None else np.flatnonzero(usable)
     on_face = used[used < len(face)]
-    vertices = np.concatenate([face[on_face, :2].astype(float), _grid_around(face, shape, spacing)])
+    around = contour_rings(face, shape), _grid_around(face, shape, spacing)
+    vertices = np.concatenate([face[on_face, :2].astype(float), *around])
     triangles = delaunay(control[used])
     corners, weights = interpolation(control[used], triangles, vertices)
     corners[: len(on_face)], weights[: len(on_face)] = np.arange(len(on_face))[:, None], (1, 0, 0)
@@ -121,7 +123,7 @@ def build_warp_mesh(
 
 
 def _grid_around(face: NDArray[np.floating], shape: tuple[int, int], spacing: float) -> NDArray[np.float64]:
-    """A regular grid outside the face's contour that reaches the image's corners, and one ring of vertices beyond its
+    """A regular grid outside the rings around the face's contour that reaches the image's corners, and one ring of vertices beyond its
     border: what it brings into the picture repeats the image's border."""
     height, width = shape
     beyond = BEYOND_BORDER * float(np.hypot(height, width))
@@ -131,8 +133,8 @@ def _grid_around(face: NDArray[np.floating], shape: tuple[int, int], spacing: fl
     )
     grid = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)
     oval = face[list(FACE_OVAL), :2].astype(np.float32)
-    distance = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in grid])
-    return grid[distance < -0.4 * spacing]
+    outside = np.array([-cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in grid])
+    return grid[outside > rings_end(face) + 0.4 * spacing]
 
 
 @njit(nogil=True)

@@ -10,7 +10,10 @@ from numpy.typing import NDArray
 from scipy.interpolate import LinearNDInterpolator
 from scipy.spatial import Delaunay
 
+from engine.face_animation.motion_transfer.contour import rim_distance
 from engine.face_animation.motion_transfer.control_points import ControlPoints, place_control_points
+from engine.face_animation.motion_transfer.head_proxy import contour_weights
+from engine.face_animation.warping.contour_rings import rings_end
 from engine.face_animation.warping.dense_field import (
     BLUR_KERNELS,
     FALLOFF_DIAGONALS,
@@ -55,8 +58,12 @@ def offsets(face: NDArray, control: ControlPoints) -> NDArray[np.float32]:
     head = np.array([5.0, -2.0]) + 0.05 * np.stack([-points[:, 1], points[:, 0]], axis=1)
     fade = 1 / (1 + np.exp((points[:, 1] - 110) / 12))
     out[:] = head * fade[:, None]
-    out[:MESH_SIZE] += smiling(face, 0.15)[:, :2] - face[:, :2]
-    out[control.periphery] += np.random.default_rng(0).normal(0, 0.8, (control.peripheral, 2))
+    smile = smiling(face, 0.15)[:, :2] - face[:, :2]
+    out[:MESH_SIZE] += smile
+    around = control.points[control.periphery]
+    out[control.periphery] += contour_weights(face, around) @ smile[list(FACE_OVAL)]
+    beyond = rim_distance(face, around) > rings_end(face)
+    out[control.periphery][beyond] += np.random.default_rng(0).normal(0, 0.7, (beyond.sum(), 2))
     out[control.border] = 0
     return out
 
