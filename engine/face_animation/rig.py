@@ -28,6 +28,7 @@ def rig_target(
 ) -> Rig:
     """Section 4 as far as it does not depend on the driver; `smoothing` as `build_warp_mesh` takes it, `details` the region
     if it is known already."""
-    control = place_control_points(target.mesh, layers.person[..., 3] / np.float32(255), layers.inner)
+    person = layers.person[..., 3] / np.float32(255)
+    control = place_control_points(target.mesh, person, layers.inner, target.rgb)
     mesh = build_warp_mesh(control.points, target.mesh, target.rgb.shape[:2], smoothing, control.usable)
     return Rig(control, mesh, details or detail_region(target.rgb, target.mesh))

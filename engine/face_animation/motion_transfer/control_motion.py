@@ -21,6 +21,7 @@ from engine.face_animation.motion_transfer.body_motion import (
 )
 from engine.face_animation.motion_transfer.contour import even_expression, keep_inside, rim_distance
 from engine.face_animation.motion_transfer.control_points import ControlPoints, carry_fiducials, carry_periphery
+from engine.face_animation.motion_transfer.even_brows import even_brows
 from engine.face_animation.motion_transfer.expression_transfer import carry_expression, local_maps
 from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_motion, turn_angles
 from engine.face_animation.motion_transfer.head_proxy import HeadProxy, chin_length, move_head
@@ -96,7 +97,7 @@ class MotionTransfer:
         self._lips = ClosingLips(self._rest, target)
         self._unit = float(eye_distance(target[:, :2]))
         self._maps = local_maps(self._phi, self._rest, target, float(eye_distance(self._rest[:, :2])))
-        self._follow = part_weights(options.follow)
+        self._follow = part_weights(options.follow) * control.bare.astype(np.float32)
         self._even = even_expression(target, control.usable[:MESH_SIZE])
         self._strength = options.strength
         self._head = options.strength if "head" in options.follow else 0.0
@@ -140,7 +141,12 @@ class MotionTransfer:
     def _acted(self, motion: HeadMotion) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
         """The expression on the target's upright face, (N, 478, 3) offsets, and where its irises look."""
         rest, target = self._rest, self._target
-        expression = self._strength * self._follow[:, None] * carry_expression(self._maps, self._phi, motion.expression)
+        expression = (
+            self._strength
+            * self._follow[:, None]
+            * even_brows()
+            @ carry_expression(self._maps, self._phi, motion.expression)
+        )
         upright, acted = rest + motion.expression, target + expression
         ratio = 1 + self._eyes * (lid_ratio(upright, rest, target) - 1)
         self._lips.close(acted, upright, self._mouth)

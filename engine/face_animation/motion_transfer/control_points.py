@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.contour import beside_contour, rim_distance
+from engine.face_animation.motion_transfer.fringe import fringe_share
 from engine.face_animation.motion_transfer.head_room import head_room
 from engine.face_animation.warping.contour_rings import contour_rings, rings_end
 from engine.geometry.registration.rigid import Similarity
@@ -44,12 +45,14 @@ class ControlPoints:
         nothing about the pixels there; those beside its contour, which carries them; and the irises, which stay behind the
         lids that move over them.
     room : (2, 2) how far the head may go, pixels, see `head_room`.
+    bare : (478,) how far each point of the face may move by itself, in [0, 1]: not where hair hangs before it, see `fringe`.
     """
 
     points: NDArray[np.float64]
     peripheral: int
     usable: NDArray[np.bool_]
     room: NDArray[np.float64]
+    bare: NDArray[np.float64]
 
     @property
     def periphery(self) -> slice:
@@ -61,13 +64,17 @@ class ControlPoints:
 
 
 def place_control_points(
-    mesh: NDArray[np.floating], person: NDArray[np.floating], inner: Window | None = None
+    mesh: NDArray[np.floating],
+    person: NDArray[np.floating],
+    inner: Window | None = None,
+    rgb: NDArray[np.uint8] | None = None,
 ) -> ControlPoints:
     """Control points for a target.
 
     Parameters
     ----------
     mesh : (478, 3) the target's face, pixels. person : (H, W) mask [0, 1]. inner : the picture within a frame, which cuts the person.
+    rgb : (H, W, 3) the picture, where it is to be asked for hair before the face.
     """
     height, width = person.shape
     shown = inner or Window(0, 0, width, height)
@@ -97,7 +104,8 @@ def place_control_points(
     usable = np.concatenate([seen & ~beside_contour(mesh, seen), np.ones(len(points) - MESH_SIZE, bool)])
     usable[list(RIGHT_IRIS + LEFT_IRIS)] = False
     room = head_room(mesh[:, :2] - np.array([shown.left, shown.top]), person[shown.pixels])
-    return ControlPoints(points, len(grid), usable, room)
+    bare = np.ones(MESH_SIZE) if rgb is None else 1 - fringe_share(rgb, mesh)
+    return ControlPoints(points, len(grid), usable, room, bare)
 
 
 def facing(mesh: NDArray[np.floating]) -> NDArray[np.bool_]:

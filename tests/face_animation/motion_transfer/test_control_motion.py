@@ -77,5 +77,5 @@ def test_what_is_named_follows_and_the_rest_stays(tmp_path: Path, part: Part, in
         most = np.linalg.norm(everything.offsets[vertices], axis=1).max()
         assert most > 2
         wanted = everything.offsets[vertices] if name == part else 0.0
-        assert np.linalg.norm(made.offsets[vertices] - wanted, axis=1).max() < 0.1 * most, name
+        assert np.linalg.norm(made.offsets[vertices] - wanted, axis=1).max() < 0.12 * most, name
     assert np.abs(made.look).max() > 0.02 if part == "eyes" else not made.look.any()

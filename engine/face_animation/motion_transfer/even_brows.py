@@ -1,0 +1,30 @@
+"""Brows move as bands: what their tracked points do is evened out along them.
+
+A tracker's points of one brow part by more than a brow bends: its middle goes up by itself. Carried to another brow, that lies elsewhere
+between those points, it becomes a hook.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.head_pose import canonical_face
+
+BROWS_BEGIN, BROWS_END = -0.18, -0.28
+"""Heights between which a face becomes brows and forehead (`canonical_face`)."""
+SPREAD_EYE_DISTANCES = 0.2
+"""Over which it is evened out, as a Gaussian: a brow is 0.6 long."""
+
+
+@cache
+def even_brows() -> NDArray[np.float64]:
+    """(478, 478) evens out what brows and forehead do; products with (478, ...)."""
+    face = canonical_face()[:, :2].astype(float)
+    share = np.clip((face[:, 1] - BROWS_BEGIN) / (BROWS_END - BROWS_BEGIN), 0, 1)
+    apart = np.linalg.norm(face[:, None] - face, axis=2)
+    near = np.exp(-0.5 * (apart / SPREAD_EYE_DISTANCES) ** 2) * share
+    near /= np.maximum(near.sum(axis=1, keepdims=True), 1e-12)
+    return np.asarray(share[:, None] * near + np.diag(1 - share))
