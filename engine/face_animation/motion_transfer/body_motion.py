@@ -111,3 +111,14 @@ def body_shift(skull: NDArray[np.floating], body: NDArray[np.floating], chin_len
 def body_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """(P,) how much of the shoulders' shift points (P, 2) take: all of it down to the shoulders, none at the waist."""
     return np.asarray(np.clip((WAIST - chin_lengths_below(mesh, points)) / (WAIST - SHOULDERS), 0, 1))
+
+
+def keep_on_floor(
+    offsets: NDArray[np.floating], points: NDArray[np.floating], mesh: NDArray[np.floating], floor: float
+) -> None:
+    """Keep points (P, 2) below the face of a mesh (478, 2 or 3) from rising off the picture's lower border at `floor`, in place: offsets (N, P, 2)
+    upwards become less from the chin on and none at the border, which has nothing to show beneath it.
+    """
+    chin = float(mesh[152, 1])
+    free = np.clip((floor - points[:, 1]) / max(floor - chin, 1.0), 0, 1)
+    offsets[..., 1] = np.where(offsets[..., 1] < 0, free * offsets[..., 1], offsets[..., 1])

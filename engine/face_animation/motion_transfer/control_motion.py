@@ -16,6 +16,7 @@ from engine.face_animation.motion_transfer.body_motion import (
     body_share,
     body_shift,
     hair_share,
+    keep_on_floor,
     tracked_body,
     tracked_hair,
 )
@@ -181,7 +182,9 @@ class MotionTransfer:
         above = solid[:, MESH_SIZE:] - points + hair_share(target, points)[:, None] * hair
         below = body_share(target, points)[:, None] * body[:, None]
         beyond = proxy.contour @ (faces[:, oval] - solid[:, oval])
-        return np.asarray(share * above + (1 - share) * below + beyond, np.float32)
+        moved = np.asarray(share * above + (1 - share) * below + beyond, np.float32)
+        keep_on_floor(moved, points, target, self._control.floor)
+        return moved
 
 
 def carry_motion(

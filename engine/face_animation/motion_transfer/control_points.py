@@ -45,6 +45,7 @@ class ControlPoints:
         nothing about the pixels there; those beside its contour, which carries them; and the irises, which stay behind the
         lids that move over them.
     room : (2, 2) how far the head may go, pixels, see `head_room`.
+    floor : where the picture ends below, pixels.
     bare : (478,) how far each point of the face may move by itself, in [0, 1]: not where hair hangs before it, see `fringe`.
     """
 
@@ -52,6 +53,7 @@ class ControlPoints:
     peripheral: int
     usable: NDArray[np.bool_]
     room: NDArray[np.float64]
+    floor: float
     bare: NDArray[np.float64]
 
     @property
@@ -105,7 +107,7 @@ def place_control_points(
     usable[list(RIGHT_IRIS + LEFT_IRIS)] = False
     room = head_room(mesh[:, :2] - np.array([shown.left, shown.top]), person[shown.pixels])
     bare = np.ones(MESH_SIZE) if rgb is None else 1 - fringe_share(rgb, mesh)
-    return ControlPoints(points, len(grid), usable, room, bare)
+    return ControlPoints(points, len(grid), usable, room, float(shown.bottom - 1), bare)
 
 
 def facing(mesh: NDArray[np.floating]) -> NDArray[np.bool_]:

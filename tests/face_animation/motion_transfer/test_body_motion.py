@@ -10,6 +10,7 @@ from engine.face_animation.motion_transfer.body_motion import (
     NECK_ROOM,
     body_share,
     body_shift,
+    keep_on_floor,
     tracked_body,
     tracked_hair,
 )
@@ -78,3 +79,17 @@ def test_hair_that_stays_undoes_most_of_a_tilt_that_its_face_seems_to_make() -> 
     carried = move_head(proxy, motion, FACE)[0, MESH_SIZE:, :2] - hair
     left = carried + tracked_hair(motion, hair, still, trust, hair)[0]
     assert np.linalg.norm(left, axis=1).mean() < 0.35 * np.linalg.norm(carried, axis=1).mean()
+
+
+def test_a_body_that_the_picture_cuts_does_not_rise_off_its_border() -> None:
+    """Half-way between chin and border it rises half as far; nothing that sinks or goes aside is held."""
+    chin = float(FACE[152, 1])
+    floor = chin + 100.0
+    points = np.array([[100.0, chin - 20], [100.0, chin + 50], [100.0, floor], [100.0, floor + 30]])
+    offsets = np.tile([[6.0, -10.0]], (1, 4, 1))
+    sinking = -offsets
+    keep_on_floor(offsets, points, FACE, floor)
+    np.testing.assert_allclose(offsets[0], [[6, -10], [6, -5], [6, 0], [6, 0]])
+    kept = sinking.copy()
+    keep_on_floor(kept, points, FACE, floor)
+    np.testing.assert_array_equal(kept, sinking)
