@@ -31,6 +31,7 @@ from engine.face_animation.motion_transfer.landmark_residuals import LandmarkRes
 from engine.face_animation.motion_transfer.lids_and_lips import constrain_lids_and_lips, lid_ratio
 from engine.face_animation.mouth.closing import ClosingLips
 from engine.face_animation.mouth.lips_and_skin import keep_lips_off_skin, philtrum_compression
+from engine.face_animation.mouth.smile_curve import SmileCurve
 from engine.geometry.registration.rigid import Similarity
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.head_pose import canonical_face
@@ -95,7 +96,7 @@ class MotionTransfer:
         self._target, self._control, self._proxy, self._residuals = target, control, proxy, residuals
         self._phi = align(self._rest, target)
         self._turned = turned_in_picture(target)
-        self._lips = ClosingLips(self._rest, target)
+        self._lips, self._smile = ClosingLips(self._rest, target), SmileCurve(self._rest, target)
         self._unit = float(eye_distance(target[:, :2]))
         self._maps = local_maps(self._phi, self._rest, target, float(eye_distance(self._rest[:, :2])))
         self._follow = part_weights(options.follow) * control.bare.astype(np.float32)
@@ -150,6 +151,7 @@ class MotionTransfer:
         )
         upright, acted = rest + motion.expression, target + expression
         ratio = 1 + self._eyes * (lid_ratio(upright, rest, target) - 1)
+        self._smile.lift(acted, upright, self._mouth)
         self._lips.close(acted, upright, self._mouth)
         keep_lips_off_skin(acted, target, philtrum_compression(upright, rest))
         expression = constrain_lids_and_lips(acted, target, np.maximum(ratio, 0)) - target

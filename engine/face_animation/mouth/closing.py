@@ -17,10 +17,8 @@ from engine.face_animation.mouth.lips_and_skin import (
     SKIN_BELOW_COLUMNS,
     UPPER_LIP_COLUMNS,
 )
-from engine.geometry.adjacency import edges
-from engine.perception.face_tessellation import face_triangles
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, mouth_opening
+from engine.face_animation.mouth.skin_around_lips import with_lips
+from engine.perception.landmarks import mouth_opening
 
 UPPER_SHARE = 0.6
 """Of the gap, that the upper lip goes down: teeth that a smile bares are the upper ones."""
@@ -30,8 +28,6 @@ PARTED_SHARES = (0.2, 0.6)
 """Shares of a target's opening up to which its driver's mouth counts as closed beside it, and from which on as parted, too."""
 LIP_GAP_SHARES = (0.15, 0.5)
 """Shares of its usual gap at which a mouth whose lips are usually parted has closed, and begins to."""
-NOSE_BASE = 2
-"""The skin above it stays."""
 _COLUMNS = (
     tuple((*lip, skin[0]) for lip, skin in zip(UPPER_LIP_COLUMNS, SKIN_ABOVE_COLUMNS, strict=True)),
     tuple((*lip, skin[0]) for lip, skin in zip(LOWER_LIP_COLUMNS, SKIN_BELOW_COLUMNS, strict=True)),
@@ -73,23 +69,10 @@ class ClosingLips:
 @cache
 def lip_influence() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(478, 9) each, how much a vertex goes along with each of nine columns of the upper lip, and of the lower: all of it in the lip itself,
-    none at the other one's, at the nose and at the contour, and harmonic in between, so that nothing folds that was even."""
-    face = canonical_face().astype(float)
-    pairs = edges(face_triangles())
-    weight = 1 / np.maximum(np.linalg.norm(face[pairs[:, 0]] - face[pairs[:, 1]], axis=1), 1e-6)
-    graph = np.zeros((MESH_SIZE, MESH_SIZE))
-    graph[pairs[:, 0], pairs[:, 1]] = graph[pairs[:, 1], pairs[:, 0]] = weight
-    laplacian = np.diag(graph.sum(axis=1)) - graph
-    columns = np.array(_COLUMNS)
-    given = np.zeros((MESH_SIZE, 2 * columns.shape[1]))
-    held = (face[:, 1] <= face[NOSE_BASE, 1]) | (graph.sum(axis=1) == 0)
-    held[list(FACE_OVAL)] = True
-    for number, column in enumerate(columns.reshape(-1, columns.shape[-1])):
-        given[column, number] = 1
-        held[column] = True
-    free = ~held
-    given[free] = np.linalg.solve(laplacian[np.ix_(free, free)], -laplacian[np.ix_(free, held)] @ given[held])
-    upper, lower = np.split(given, 2, axis=1)
+    none at the other one's."""
+    columns = np.array(_COLUMNS).reshape(-1, len(_COLUMNS[0][0]))
+    vertices = columns.ravel()
+    upper, lower = np.split(with_lips(vertices, np.repeat(np.eye(len(columns)), columns.shape[1], axis=0)), 2, axis=1)
     return upper, lower
 
 

@@ -1,0 +1,90 @@
+"""A driver's smile on a mouth whose corners hang lower at rest: it ends as curved as the driver's.
+
+Carried as offsets alone, a smile widens and raises such a mouth, and leaves it flat or bent down: it does not read as a smile.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.mouth.lips_and_skin import (
+    LOWER_LIP_COLUMNS,
+    SKIN_ABOVE_COLUMNS,
+    SKIN_BELOW_COLUMNS,
+    UPPER_LIP_COLUMNS,
+)
+from engine.face_animation.mouth.skin_around_lips import with_lips
+from engine.perception.head_pose import canonical_face
+
+CORNERS = (61, 291)
+"""Of the mouth."""
+CORNER_VERTICES = (61, 76, 62, 78, 291, 306, 292, 308)
+LIPS_MIDDLE = (0, 13, 14, 17)
+BROW_VERTEX, CHIN_VERTEX = 10, 152
+"""Where the face's axis begins and ends."""
+WIDER, HIGHER = (0.05, 0.2), (0.02, 0.12)
+"""By how much of its width at rest a mouth gets wider and its corners higher, from which on it smiles, and fully: both together, for lips that
+are drawn wide alone say e, or are afraid."""
+MOST_LIFT = 0.1
+"""Of the mouth's width, by which its corners are raised beside what the driver's are, at most."""
+
+
+class SmileCurve:
+    """A target's mouth, whose smile is curved as its driver's is: of `rest` (478, 2 or 3), which stands for the `target` (478, 2 or 3), as
+    pictured."""
+
+    def __init__(self, rest: NDArray[np.floating], target: NDArray[np.floating]):
+        self._rest = rest[:, :2].astype(float)
+        own = target[:, :2].astype(float)
+        self._lift = float(np.clip(corner_height(rest) - corner_height(target), 0, MOST_LIFT)) * _width(own) * _up(own)
+
+    def lift(self, positions: NDArray[np.floating], meshes: NDArray[np.floating], strength: float) -> None:
+        """Raise the corners of the target's mouth at `positions` (N, 478, 3) as the driver of the `meshes` (N, 478, 2 or 3), upright as at rest,
+        smiles, in place; `strength` in [0, 1]."""
+        share = strength * smile_share(meshes, self._rest)
+        positions[..., :2] += share[:, None, None] * corner_influence()[:, None] * self._lift
+
+
+def corner_height(face: NDArray[np.floating]) -> float:
+    """How much higher a mouth's corners are than its middle, of a face (478, 2 or 3), in widths of the mouth."""
+    plane = face[:, :2].astype(float)
+    return float((plane[list(CORNERS)].mean(axis=0) - plane[list(LIPS_MIDDLE)].mean(axis=0)) @ _up(plane)) / _width(
+        plane
+    )
+
+
+def smile_share(meshes: NDArray[np.floating], rest: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) how far faces (N, 478, 2 or 3), upright as at `rest` (478, 2 or 3), smile: their mouths are wider, and their corners higher."""
+    right, left = (meshes[:, corner, :2].astype(float) for corner in CORNERS)
+    usual = rest[:, :2].astype(float)
+    wider = np.linalg.norm(left - right, axis=1) / _width(usual) - 1
+    higher = ((right + left) / 2 - usual[list(CORNERS)].mean(axis=0)) @ _up(usual) / _width(usual)
+    return _step(wider, WIDER) * _step(higher, HIGHER)
+
+
+@cache
+def corner_influence() -> NDArray[np.float64]:
+    """(478,) how much each vertex goes along with the mouth's corners: the lips bend as a parabola, and the skin around them with them."""
+    skin = [column[0] for columns in (SKIN_ABOVE_COLUMNS, SKIN_BELOW_COLUMNS) for column in columns]
+    lips = np.unique([*np.ravel(UPPER_LIP_COLUMNS), *np.ravel(LOWER_LIP_COLUMNS), *skin, *CORNER_VERTICES])
+    across = canonical_face()[:, 0].astype(float)
+    bend = np.minimum((across[lips] / across[CORNERS[1]]) ** 2, 1)
+    return with_lips(lips, bend[:, None])[:, 0]
+
+
+def _width(face: NDArray[np.float64]) -> float:
+    return max(float(np.linalg.norm(face[CORNERS[1]] - face[CORNERS[0]])), 1e-6)
+
+
+def _up(face: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(2,) the way up a face (478, 2)."""
+    axis = face[BROW_VERTEX] - face[CHIN_VERTEX]
+    return np.asarray(axis / max(float(np.linalg.norm(axis)), 1e-6), float)
+
+
+def _step(value: NDArray[np.floating], between: tuple[float, float]) -> NDArray[np.float64]:
+    t = np.clip((value - between[0]) / (between[1] - between[0]), 0, 1)
+    return np.asarray(t * t * (3 - 2 * t), float)

@@ -1,0 +1,72 @@
+"""A smile arrives on mouths whose corners hang, and nothing but a smile raises them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from made_face import opened, placed, smiling
+from numpy.typing import NDArray
+
+from engine.face_animation.mouth.smile_curve import (
+    CORNERS,
+    MOST_LIFT,
+    SmileCurve,
+    corner_height,
+    corner_influence,
+    smile_share,
+)
+from engine.perception.landmarks import FACE_OVAL
+
+
+def hanging(face: NDArray, share: float) -> NDArray:
+    """A face whose mouth's corners hang by a share of its width; upright."""
+    bent = face.astype(float).copy()
+    width = np.linalg.norm(face[CORNERS[1]] - face[CORNERS[0]])
+    bent[:, 1] += share * width * corner_influence()
+    return bent
+
+
+def acted(target: NDArray, rest: NDArray, driver: NDArray, strength: float = 1.0) -> NDArray:
+    face = target[None].astype(float).copy()
+    SmileCurve(rest, target).lift(face, driver[None], strength)
+    return face[0]
+
+
+def test_a_full_smile_raises_hanging_corners_to_the_driver_s() -> None:
+    rest = placed(60)
+    sad, smile = hanging(placed(90), 0.06), smiling(rest, 0.5)
+    assert smile_share(smile[None], rest)[0] == 1
+    assert corner_height(acted(sad, rest, smile)) == pytest.approx(corner_height(rest), abs=0.003)
+    half = corner_height(acted(sad, rest, smile, 0.5))
+    assert half == pytest.approx((corner_height(sad) + corner_height(rest)) / 2, abs=0.003)
+
+
+def test_no_more_than_so_much_is_added() -> None:
+    rest = placed(60)
+    sad = hanging(placed(90), 0.3)
+    assert corner_height(acted(sad, rest, smiling(rest, 0.5))) - corner_height(sad) < MOST_LIFT + 0.01
+
+
+def test_nothing_but_a_smile_raises_corners() -> None:
+    rest = placed(60)
+    width = np.linalg.norm(rest[CORNERS[1]] - rest[CORNERS[0]])
+    wide, high = rest.copy(), rest.copy()
+    wide[CORNERS[0], 0] -= 0.15 * width
+    wide[CORNERS[1], 0] += 0.15 * width
+    high[list(CORNERS), 1] -= 0.15 * width
+    assert not smile_share(np.stack([rest, opened(rest, 0.4), wide, high]), rest).any()
+
+
+def test_faces_that_are_bent_alike_are_left_to_their_offsets() -> None:
+    rest, target = placed(60), placed(90)
+    np.testing.assert_allclose(acted(target, rest, smiling(rest, 0.5)), target, atol=1e-3)
+    merry = hanging(target, -0.05)
+    np.testing.assert_array_equal(acted(merry, rest, smiling(rest, 0.5)), merry)
+
+
+def test_lips_bend_about_their_middle_within_the_face() -> None:
+    influence = corner_influence()
+    assert influence.min() >= -1e-9 and influence.max() <= 1 + 1e-9
+    np.testing.assert_allclose(influence[list(CORNERS)], 1, atol=0.01)
+    np.testing.assert_allclose(influence[[0, 13, 14, 17]], 0, atol=1e-3)
+    assert not influence[list(FACE_OVAL)].any()
