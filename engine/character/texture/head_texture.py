@@ -44,6 +44,8 @@ TYPICAL = 4
 """Colours that stand for all of a face's, or of hair's."""
 HANGING = 0.3
 """Share of it that is above the chin, if it is hair that hangs down."""
+DARKEST = 0.4
+"""Share of a face that may be beard, brows, spectacles or their shadow, and so has hair's colours."""
 CLEARLY = 0.7
 """How much nearer to hair than to skin a colour must be."""
 MIXED, PURER, RIM = 0.2, 0.1, 8.0
@@ -138,7 +140,8 @@ def find_hair(
     sample = crown & (head.depth < INSIDE + CROWN)
     if sample.sum() < 8 or face.sum() < 8:
         return sample, np.zeros_like(sample)
-    other = sample & (_distance(colours, sample, colours[face]) > ALIKE)
+    skin = face & (colours[..., 0] >= np.quantile(colours[face][:, 0], DARKEST))
+    other = sample & (_distance(colours, sample, colours[skin]) > ALIKE)
     if other.sum() > MOST * sample.sum():
         sample = other
     contrast = np.linalg.norm(colours - behind, axis=-1)
@@ -147,7 +150,7 @@ def find_hair(
     own = inside & ~mixed
     if (sample & own).sum() >= 8:
         sample &= own
-    from_skin, from_hair = (_distance(colours, head.mask, colours[where]) for where in (face, sample))
+    from_skin, from_hair = (_distance(colours, head.mask, colours[where]) for where in (skin, sample))
     found = sample | (own & (from_hair < np.minimum(CLEARLY * from_skin, 1.5 * ALIKE)))
     found = _beside_the_face(found, sample, head)
     found |= own & ~pieces_touching(~found, face | ~head.mask)  # a lock that shines, within

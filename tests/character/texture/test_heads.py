@@ -12,7 +12,7 @@ from engine.character.figure.face_region import face_turn
 from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheets import ClosedMesh, Layer, close
 from engine.character.texture.head_area import measure_head
-from engine.character.texture.head_texture import back_of_the_head, nape_height
+from engine.character.texture.head_texture import back_of_the_head, find_hair, nape_height
 from engine.character.texture.round_sides import with_round_sides
 from engine.geometry.welding import is_closed
 
@@ -63,6 +63,17 @@ def test_above_the_nape_the_back_is_of_the_hair_s_colour_and_below_it_is_the_nec
         assert np.percentile(away(back[crown], SKIN), 1) > 0.6 * np.linalg.norm(np.subtract(SKIN, hair))
         assert np.median(away(back[185:215, 80:120], SKIN)) < 20
         np.testing.assert_array_equal(back[~mask], rgb[~mask])
+
+
+def test_a_beard_and_dark_spectacles_keep_no_hair_from_being_hair() -> None:
+    rgb, mask, _ = head(BROWN, (150, 160, 170))
+    where = measure_head(mask, mask, FACE, SCALE)
+    bare, _ = find_hair(rgb, rgb, where)
+    chin = np.zeros(mask.shape, np.uint8)
+    cv2.ellipse(chin, (100, 138), (28, 14), 0, 0, 360, (1,), -1)
+    rgb[chin > 0] = rgb[95:104, 70:130] = BROWN
+    bearded, _ = find_hair(rgb, rgb, where)
+    np.testing.assert_array_equal(bearded, bare)
 
 
 def test_long_hair_hides_the_neck() -> None:
