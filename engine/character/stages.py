@@ -32,7 +32,7 @@ from engine.character.options import LabelStroke
 from engine.character.parts.crossed_labels import label_crossed
 from engine.character.parts.hem import with_cloth
 from engine.character.parts.label_map import LabelHints, Labels, label_parts
-from engine.character.parts.labels import ARMS
+from engine.character.parts.labels import ARMS, LEGS
 from engine.character.parts.limb_edges import border
 from engine.character.parts.unfound_hands import unfound_hands
 from engine.character.rig.measures import picture_camera, pose
@@ -259,7 +259,8 @@ def _made_of(
         round_it &= ~head
     else:  # where a turned face ends at the outline, a cheek goes on beyond it
         cheek = within_oval(face * CHEEK, head.shape)
-    mesh = with_round_sides(mesh, round_it, cheek, 0)
+    upright = np.isin(labels.labels, (BODY_PARTS.index("torso"), *LEGS))
+    mesh = with_round_sides(mesh, round_it, cheek, 0, upright)
     texture, uv = atlas(tiles, mesh, 0)
     camera = silhouette.camera(fitted.picture_camera())
     inside = cv2.erode(silhouette.mask.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0

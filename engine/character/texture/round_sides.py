@@ -31,11 +31,15 @@ within."""
 
 
 def with_round_sides(
-    mesh: ClosedMesh, where: NDArray[np.bool_], face: NDArray[np.bool_], body_layer: int
+    mesh: ClosedMesh,
+    where: NDArray[np.bool_],
+    face: NDArray[np.bool_],
+    body_layer: int,
+    upright: NDArray[np.bool_] | None = None,
 ) -> ClosedMesh:
     """The mesh whose outermost triangles of the front take the back's colours where they are `where` (h, w) the body is round, and whose
     back takes them at the pace of the surface. Where the `face` (h, w) comes to the outline, as a turned one's does, its cheek
-    goes on."""
+    goes on. What is `upright` (h, w), trunk and legs, keeps its height: a belt or a hem goes round level."""
     body = mesh.layer == body_layer
     met = mesh.pixels(np.flatnonzero(body), where.shape).astype(np.uint8)
     whole = cv2.morphologyEx(met, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8)) > 0  # its border lies between pixels
@@ -57,7 +61,11 @@ def with_round_sides(
     start = joined.vertices[moved, :2]
     places = joined.places.copy()
     laid = _at_the_surfaces_pace(start, depth.astype(np.float32), seam_depth=1.0)
-    places[moved] = start + share[y[moved], x[moved], None] * (laid - start)
+    way = share[y[moved], x[moved], None] * (laid - start)
+    if upright is not None:
+        level = cv2.blur(upright.astype(np.float32), (round(FADE), round(FADE)))
+        way[:, 1] *= 1 - level[y[moved], x[moved]]
+    places[moved] = start + way
     return replace(joined, places=places)
 
 

@@ -136,6 +136,18 @@ def test_the_back_s_colours_begin_within_the_outline_and_lie_at_the_pace_of_the_
     assert np.linalg.norm(laid[middle] - mesh.vertices[middle, :2], axis=1).max() < 2.5
 
 
+def test_what_is_upright_keeps_its_height() -> None:
+    before, mask = ball()
+    nothing = np.zeros_like(mask)
+    mesh = with_round_sides(before, mask, nothing, 0, mask)
+    laid = np.isfinite(mesh.places[:, 0])
+    inner = laid & (np.abs(mesh.vertices[:, :2] - 39.5).max(1) < 12)
+    np.testing.assert_allclose(mesh.places[inner, 1], mesh.vertices[inner, 1], atol=1e-3)
+    free = with_round_sides(before, mask, nothing, 0)
+    assert np.abs(free.places[inner, 1] - free.vertices[inner, 1]).max() > 1
+    np.testing.assert_allclose(mesh.places[inner, 0], free.places[inner, 0])
+
+
 def test_a_head_that_fills_the_picture_has_round_sides_too() -> None:
     mesh, mask = ball(108)
     assert len(with_round_sides(mesh, mask, np.zeros_like(mask), 0).vertices) > len(mesh.vertices) > 70_000
