@@ -13,7 +13,7 @@ from engine.character.figure.silhouette import Silhouette
 from engine.character.parts.label_map import Labels
 from engine.character.shell.colours.evidence import witness
 from engine.character.shell.colours.head_back import head_round
-from engine.character.shell.colours.round import ACROSS, BackTexture, coloured_round, with_the_other
+from engine.character.shell.colours.round import BackTexture, coloured_round, with_the_other
 from engine.character.shell.colours.unrolled import ANGLES, unrolled_parts
 from engine.character.shell.shell import Shell
 from engine.character.shell.template_mesh import template_mesh
@@ -85,8 +85,7 @@ def paint_shell(
         else:
             if part.name in OTHER:
                 own = with_the_other(own, evidence[OTHER[part.name]])
-            across = 0.0 if part.name in OTHER else ACROSS
-            around, known = coloured_round(*own, back, part.yoke, across)
+            around, known = coloured_round(*own, back, part.yoke, part.name in OTHER)
         rows.append(around)
         sure.append(known)
     firsts = np.cumsum([0, *(len(each) for each in rows)])

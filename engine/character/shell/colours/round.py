@@ -73,19 +73,23 @@ def coloured_round(
     facing: NDArray[np.floating],
     back: BackTexture = "see_through",
     yoke: int | None = None,
-    across: float = ACROSS,
+    ring: bool = False,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """The colours (A, `ANGLES`, 3) of an unrolled part, sRGB levels: those of its `source` (A, `ANGLES`), and continued round it;
     and how sure (A,) each row is of them, from 0 to 1.
 
     `facing` (A, `ANGLES`): cosine to the viewer of each cell, negative behind. From the row `yoke` upwards a front has a neckline
-    and no back has one: there the rows below are mirrored. `across`: metres along the part that are as far as its other side. Where nothing is a source, nothing changes.
+    and no back has one: there the rows below are mirrored. A `ring`, as a limb is, is told by all that is seen
+    of a row, and not by its sides alone. Where nothing is a source, nothing changes.
     """
     if not source.any():
         return colours, np.zeros(len(colours), np.float32)
     turns = row_middles(facing)
     seen, known, near = (turned_rows(each, -turns) for each in (colours, source, facing))
-    model = row_model(seen, known * np.maximum(near, 0) * SIDEWAYS**2, across)  # sides, as far as they are well seen
+    weight = (
+        known.astype(np.float32) if ring else known * np.maximum(near, 0) * SIDEWAYS**2
+    )  # sides, as far as they are well seen
+    model = row_model(seen, weight, 0.0 if ring else ACROSS)
     kind = _of_the_kind(seen, model, known)
     through = {"mirror": known.astype(np.float32), "inpaint": 0 * kind, "see_through": kind}[back]
     rows, partner = (

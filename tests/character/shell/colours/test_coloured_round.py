@@ -108,5 +108,13 @@ def test_a_limb_of_which_one_side_is_seen_is_a_ring_of_that() -> None:
     cloth = roll((slice(0, 80), WHITE))
     left = np.broadcast_to(ANGLE < 0, SOURCE.shape) & SOURCE
     source = np.where((np.arange(ROWS) < 70)[:, None], SOURCE & ~left, SOURCE)
-    found = coloured_round(cloth, source, FACING, across=0.0)[0]
+    found = coloured_round(cloth, source, FACING, ring=True)[0]
     assert np.abs(found[:64] - WHITE).max() < 6
+
+
+def test_a_limb_of_which_a_strip_of_its_middle_is_seen_is_a_ring_of_that() -> None:
+    cloth = roll((slice(0, 80), WHITE))
+    strip = np.broadcast_to(np.abs(ANGLE) < 0.12, SOURCE.shape)
+    source = np.where((np.arange(ROWS) < 84)[:, None], SOURCE & strip, SOURCE)
+    found = coloured_round(cloth, source, FACING, ring=True)[0]
+    assert np.abs(found[:70] - WHITE).max() < 6
