@@ -22,6 +22,7 @@ from engine.character.texture.rings import Heights
 from engine.imaging.filling.inpaint import inpaint
 from engine.imaging.filling.nearest import continued_colours
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
+from engine.imaging.masks.mask_pieces import bounding_box
 from engine.imaging.masks.usual_colours import usual_colours
 from engine.imaging.resample import enlarged_mask
 
@@ -134,13 +135,17 @@ def filled(
 ) -> NDArray[np.uint8]:
     """A picture (h, w, 3) with a `hole` (h, w) filled with patches of the `source` (h, w): of all of it, or, where it is known what limbs are like all
     round, `rings` (h, w, 3), of what is fine about them."""
-    if rings is None:
+    if rings is None or not hole.any():
         return inpaint(rgb, hole, source)
-    fine = np.clip(MIDDLE + rgb.astype(np.float32) - rings, 0, 255).astype(np.uint8)
-    kept = source & (np.abs(fine.astype(np.float32) - MIDDLE).max(-1) < LOUD)
-    fine = inpaint(fine, hole, kept) if kept.any() else np.full_like(fine, MIDDLE)
-    made = np.clip(rings + fine.astype(np.float32) - MIDDLE + 0.5, 0, 255).astype(np.uint8)
-    return np.where(hole[..., None], made, rgb)
+    box = bounding_box(hole | source)
+    like, lost = rings[box], hole[box]
+    fine = np.clip(MIDDLE + rgb[box].astype(np.float32) - like, 0, 255).astype(np.uint8)
+    kept = source[box] & (cv2.absdiff(fine, np.full_like(fine, MIDDLE)) < LOUD).all(-1)
+    fine = inpaint(fine, lost, kept) if kept.any() else np.full_like(fine, MIDDLE)
+    out = rgb.copy()
+    made = like[lost] + fine[lost] - np.float32(MIDDLE) + np.float32(0.5)
+    out[box][lost] = np.clip(made, 0, 255).astype(np.uint8)
+    return out
 
 
 def _laid(

@@ -6,7 +6,7 @@ the same height; where it shows nothing, that of the other one; and where neithe
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass
 
 import cv2
@@ -64,6 +64,7 @@ def rings(
     clean: NDArray[np.bool_],
     heights: Mapping[int, Heights],
     skin: NDArray[np.floating] | None,
+    wanted: Container[int] | None = None,
 ) -> dict[int, NDArray[np.float32]]:
     """Pictures (H, W, 3) of what each limb is coloured like, levels, wherever it is; of those alone of which, or of whose other side, something is
     seen.
@@ -74,7 +75,10 @@ def rings(
     labels : (h, w) on the grid, what its pixels show; `clean` (H, W): where colours are those of what is labelled alone.
     heights : of limbs, on the grid.
     skin : (3,) the colour of hands of which none is seen; None if it is not known.
+    wanted : the limbs of which pictures are wanted; all unless they are given.
     """
+    if wanted is not None:
+        heights = {limb: one for limb, one in heights.items() if limb in wanted or OTHER_SIDE[limb] in wanted}
     size = (rgb.shape[1], rgb.shape[0])
     along = {
         limb: np.asarray(cv2.resize(one.along, size, interpolation=cv2.INTER_LINEAR), np.float32)
@@ -85,7 +89,8 @@ def rings(
         own = cv2.resize((labels == limb).astype(np.float32), size, interpolation=cv2.INTER_LINEAR) > 0.5
         told[limb] = _told(rgb, np.asarray(own & clean), one)
     found = {}
-    for limb, one in along.items():
+    for limb in along if wanted is None else [limb for limb in along if limb in wanted]:
+        one = along[limb]
         colours = _whole(told[limb], told.get(OTHER_SIDE[limb]), heights[limb].hand, skin)
         if colours is not None:
             at = np.clip(one / RING_M, 0, len(colours) - 1).astype(np.float32)

@@ -128,7 +128,9 @@ def paint_tiles(
     oval = None if face is None else face * np.array([*[scale] * 4, 1])
     deep = own & (distance_inside(around | ~own) > EDGE * scale) | own & ~around
     skin = None if oval is None else np.median(seen[within_oval(oval, own.shape) & own], axis=0)
-    round_them = rings(seen, labels.labels, deep, surfaces.heights, skin)
+    wanted = {int(limb) for limb in labels.apart}
+    wanted |= set(LEGS) if wanted & set(LEGS) else set()
+    round_them = rings(seen, labels.labels, deep, surfaces.heights, skin, wanted)
     body = _behind_the_limbs(seen, labels, around, own, oval, round_them) if limbs.any() else seen
     if along is not None:
         body = np.where((enlarged_mask(along & limbs, size) & own)[..., None], seen, body)
