@@ -15,8 +15,8 @@ from engine.perception.head_pose import canonical_face
 
 BROWS_BEGIN, BROWS_END = -0.18, -0.28
 """Heights between which a face becomes brows and forehead (`canonical_face`)."""
-SPREAD_EYE_DISTANCES = 0.2
-"""Over which it is evened out, as a Gaussian: a brow is 0.6 long."""
+SPREAD_EYE_DISTANCES = (0.2, 0.05)
+"""Along brows and across them, over which it is evened out, as a Gaussian: a brow is 0.6 long."""
 
 
 @cache
@@ -24,7 +24,7 @@ def even_brows() -> NDArray[np.float64]:
     """(478, 478) evens out what brows and forehead do; products with (478, ...)."""
     face = canonical_face()[:, :2].astype(float)
     share = np.clip((face[:, 1] - BROWS_BEGIN) / (BROWS_END - BROWS_BEGIN), 0, 1)
-    apart = np.linalg.norm(face[:, None] - face, axis=2)
-    near = np.exp(-0.5 * (apart / SPREAD_EYE_DISTANCES) ** 2) * share
+    apart = ((face[:, None] - face) / SPREAD_EYE_DISTANCES) ** 2
+    near = np.exp(-0.5 * apart.sum(axis=2)) * share
     near /= np.maximum(near.sum(axis=1, keepdims=True), 1e-12)
     return np.asarray(share[:, None] * near + np.diag(1 - share))

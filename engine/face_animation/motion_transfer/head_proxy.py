@@ -20,17 +20,17 @@ from engine.face_animation.motion_transfer.head_room import skull_centre, skull_
 from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES
 
-NECK_FADE_CHIN_LENGTHS = (1.05, 1.75)
+NECK_FADE_CHIN_LENGTHS = (0.9, 1.7)
 """The head's rigid motion fades out between these distances below the eyes, in lengths from eyes to chin."""
 SHOULDER_FADE, BESIDE_NECK = (0.6, 1.0), (0.7, 1.2)
 """Lengths from eyes to chin: where shoulders begin beside the neck, below the eyes, and how far aside they do."""
 CONTOUR_REACH, CONTOUR_SPREAD, SPOT_REACH = 0.5, 0.15, 0.3
 """Lengths from eyes to chin: as far from the contour what it does beyond the head has faded; how far along it points
 beside it take part in each other's, and how far from it they do so fully."""
-RIM_TO_SKULL, RIM_TO_OUTLINE = 0.3, 0.06
+RIM_TO_SKULL, RIM_TO_OUTLINE = 0.3, 0.12
 """Outside the face's skin its rim passes over into the skull, in depth, and into the skull's outline, in motion, within these shares of the
 face's width."""
-SKIN_BAND, CHEEKS = 0.05, 0.5
+SKIN_BAND, CHEEKS = 0.03, 0.5
 """Widths of the face by which skin may reach beyond the contour, from there on that many lengths from eyes to chin below the eyes."""
 SKULL_HALF_WIDTH, SKULL_HEIGHT = 0.56, 1.5
 """Half axes of the skull seen from the front: in widths of the face, and in lengths from eyes to chin."""
