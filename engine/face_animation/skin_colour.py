@@ -11,6 +11,8 @@ SKIN_RING = (164, 167, 393, 18, 200, 92, 322, 186, 410)
 """Vertices on the skin around the mouth."""
 SAMPLE_RADIUS = 0.06
 """Eye distances about each of them."""
+CHROMA_FLOOR = 48.0
+"""Added to the sum of a colour's channels, so that the dark has no colour."""
 GREY_SATURATION = 0.06
 """Of skin, below which a picture is black and white."""
 
@@ -30,3 +32,11 @@ def is_grey(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> bool:
     """Whether a picture of a face at `mesh` (478, 2 or 3) is black and white."""
     skin = skin_colour(rgb, mesh)
     return float((skin.max() - skin.min()) / max(float(skin.max()), 1.0)) < GREY_SATURATION
+
+
+def chroma(colours: NDArray[np.number]) -> NDArray[np.float32]:
+    """(..., 2) the shares of red and blue of colours (..., 3), levels."""
+    levels = colours.astype(np.float32)
+    return np.asarray(
+        (levels[..., ::2] + CHROMA_FLOOR / 3) / (levels.sum(axis=-1, keepdims=True) + CHROMA_FLOOR), np.float32
+    )

@@ -11,6 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.skin_colour import chroma
 from engine.perception.face_track.face_crop import CROP_EYES
 from engine.perception.landmarks import FACE_OVAL, LEFT_BROW, LEFT_EYE, LIPS_OUTER, RIGHT_BROW, RIGHT_EYE
 
@@ -19,8 +20,6 @@ CELL_PIXELS = 3
 UNIT = (CROP_EYES[1][0] - CROP_EYES[0][0]) / CELL_PIXELS
 """An eye distance of what is looked at, pixels."""
 LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114], np.float32)
-CHROMA_FLOOR = 48.0
-"""Added to the sum of a pixel's channels, so that the dark has no colour."""
 SKIN_CHROMA, OTHER_CHROMA = 0.025, 0.05
 """By how much a pixel's shares of red and blue differ from those of the skin, up to which it is skin, and from which on it is not."""
 SKIN_LIGHT = (0.55, 0.75, 1.3, 1.5)
@@ -42,7 +41,7 @@ class SkinInBoth:
 
     def __init__(self, neutral: NDArray[np.uint8], rest: NDArray[np.floating]):
         small = _small(neutral)
-        self._light, self._chroma = _light(small), _chroma(small)
+        self._light, self._chroma = _light(small), chroma(small)
         self._face = _filled(rest, (FACE_OVAL,), small.shape[:2])
         features = _filled(rest, (RIGHT_EYE, LEFT_EYE, LIPS_OUTER), small.shape[:2])
         brows = np.zeros(small.shape[:2], np.float32)
@@ -76,7 +75,7 @@ class SkinInBoth:
         ratio = (light + 12) / (self._light + 12)
         other = 1 - _ramp(self._beside_skin(ratio), *CREASE_LIGHT)
         other = np.maximum(
-            other, _ramp(np.abs(_chroma(np.asarray(aligned)) - self._chroma).max(axis=-1), SKIN_CHROMA, OTHER_CHROMA)
+            other, _ramp(np.abs(chroma(np.asarray(aligned)) - self._chroma).max(axis=-1), SKIN_CHROMA, OTHER_CHROMA)
         )
         other = np.asarray(cv2.dilate(other * self._face, _disk(BESIDE_EYE_DISTANCES)), np.float32)
         fine = _sharpness(light, self._face) / max(self._sharpness, 1e-3)
@@ -105,14 +104,6 @@ def _small(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 def _light(rgb: NDArray[np.uint8]) -> NDArray[np.float32]:
     return np.asarray(rgb.astype(np.float32) @ LUMINANCE_WEIGHTS, np.float32)
-
-
-def _chroma(rgb: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """(h, w, 2) the shares of red and blue."""
-    colours = rgb.astype(np.float32)
-    return np.asarray(
-        (colours[..., ::2] + CHROMA_FLOOR / 3) / (colours.sum(axis=-1, keepdims=True) + CHROMA_FLOOR), np.float32
-    )
 
 
 def _filled(

@@ -20,6 +20,7 @@ from engine.face_animation.motion_transfer.head_proxy import (
     move_head,
 )
 from engine.face_animation.motion_transfer.head_room import soft_limit
+from engine.face_animation.smoothstep import smoothstep
 from engine.perception.landmarks import MESH_SIZE
 
 NECK_ROOM = (0.35, (0.18, 0.25))
@@ -84,8 +85,7 @@ def tracked_hair(
 
 def hair_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """(P,) how far points (P, 2) outside the face belong to hair and skull: rising from 0 at the face's rim to 1."""
-    t = np.clip(rim_distance(mesh, points) / (HAIR_BEGINS * chin_length(mesh)), 0, 1)
-    return np.asarray(t * t * (3 - 2 * t))
+    return smoothstep(rim_distance(mesh, points) / chin_length(mesh), 0, HAIR_BEGINS)
 
 
 def _trusted_mean(values: NDArray[np.floating], weight: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -14,6 +14,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.smoothstep import smoothstep
 from engine.perception.landmarks import FACE_OVAL, eye_distance
 
 CHEEK_EDGES = (*range(8, 14), *range(22, 28))
@@ -122,8 +123,7 @@ def even_expression(mesh: NDArray[np.floating], usable: NDArray[np.bool_]) -> ND
     share = _even_band(mesh, EVEN_BAND_EYE_DISTANCES)
     eyes, chin = mesh[[33, 133, 263, 362], :2].mean(axis=0), mesh[152, :2]
     below = (mesh[:, :2] - eyes) @ (chin - eyes) / float((chin - eyes) @ (chin - eyes))
-    t = np.clip((below - JAW_CHIN_LENGTHS[0]) / (JAW_CHIN_LENGTHS[1] - JAW_CHIN_LENGTHS[0]), 0, 1)
-    jaw = (t * t * (3 - 2 * t))[:, None]
+    jaw = smoothstep(below, *JAW_CHIN_LENGTHS)[:, None]
     return np.asarray(share * jaw * _neighbours(mesh, usable) + (1 - share) * np.eye(len(mesh)))
 
 
@@ -137,8 +137,7 @@ def _neighbours(mesh: NDArray[np.floating], usable: NDArray[np.bool_]) -> NDArra
 def _even_band(mesh: NDArray[np.floating], band: float) -> NDArray[np.float64]:
     """(478, 1) how far each vertex lies beside the contour, within `band` eye distances, or outside of it."""
     unit = float(eye_distance(mesh[:, :2]))
-    inside = np.clip(-rim_distance(mesh, mesh[:, :2]) / unit / band, 0, 1)
-    return np.asarray(1 - inside * inside * (3 - 2 * inside))[:, None]
+    return 1 - smoothstep(-rim_distance(mesh, mesh[:, :2]) / unit, 0, band)[:, None]
 
 
 def keep_inside(faces: NDArray[np.floating], rest: NDArray[np.floating], seen: NDArray[np.bool_]) -> None:

@@ -22,7 +22,7 @@ from engine.face_animation.motion_transfer.body_motion import (
 )
 from engine.face_animation.motion_transfer.contour import even_expression, keep_inside, rim_distance
 from engine.face_animation.motion_transfer.control_points import ControlPoints, carry_fiducials, carry_periphery
-from engine.face_animation.motion_transfer.even_brows import even_brows
+from engine.face_animation.motion_transfer.even_brows import brow_share, even_brows
 from engine.face_animation.motion_transfer.expression_transfer import carry_expression, local_maps
 from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_motion, turn_angles
 from engine.face_animation.motion_transfer.head_proxy import HeadProxy, chin_length, move_head
@@ -32,6 +32,7 @@ from engine.face_animation.motion_transfer.lids_and_lips import constrain_lids_a
 from engine.face_animation.mouth.closing import ClosingLips
 from engine.face_animation.mouth.lips_and_skin import keep_lips_off_skin, philtrum_compression
 from engine.face_animation.mouth.smile_curve import SmileCurve
+from engine.face_animation.smoothstep import smoothstep
 from engine.geometry.registration.rigid import Similarity
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.head_pose import canonical_face
@@ -101,7 +102,7 @@ class MotionTransfer:
         self._maps = local_maps(self._phi, self._rest, target, float(eye_distance(self._rest[:, :2])))
         self._follow = part_weights(options.follow) * control.bare.astype(np.float32)
         self._even = even_expression(target, control.usable[:MESH_SIZE])
-        self._strength = options.strength
+        self._acts = options.strength * self._follow[:, None] * even_brows()
         self._head = options.strength if "head" in options.follow else 0.0
         self._eyes = options.strength if "eyes" in options.follow else 0.0
         self._mouth = min(options.strength, 1.0) if "mouth" in options.follow else 0.0
@@ -143,12 +144,7 @@ class MotionTransfer:
     def _acted(self, motion: HeadMotion) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
         """The expression on the target's upright face, (N, 478, 3) offsets, and where its irises look."""
         rest, target = self._rest, self._target
-        expression = (
-            self._strength
-            * self._follow[:, None]
-            * even_brows()
-            @ carry_expression(self._maps, self._phi, motion.expression)
-        )
+        expression = self._acts @ carry_expression(self._maps, self._phi, motion.expression)
         upright, acted = rest + motion.expression, target + expression
         ratio = 1 + self._eyes * (lid_ratio(upright, rest, target) - 1)
         self._smile.lift(acted, upright, self._mouth)
@@ -226,7 +222,7 @@ def plane_share(target: NDArray[np.floating]) -> NDArray[np.float64]:
     return (
         PLANE_SHARE
         * np.clip((slant - PLANE_TURN_DEGREES[0]) / (PLANE_TURN_DEGREES[1] - PLANE_TURN_DEGREES[0]), 0, 1)
-        * _step(inside, 0, PLANE_RISE_EYE_DISTANCES)
+        * smoothstep(inside, 0, PLANE_RISE_EYE_DISTANCES)
     )
 
 
@@ -248,13 +244,8 @@ def part_weights(follow: tuple[Part, ...]) -> NDArray[np.float32]:
     The parts meet softly: brows above the eyes, eyes around them, mouth from the nose's wings down.
     """
     y = canonical_face()[:, 1].astype(float)
-    brows = _step(y, -0.15, -0.25)
-    mouth = _step(y, 0.3, 0.55)
+    brows = brow_share()
+    mouth = smoothstep(y, 0.3, 0.55)
     weights = {"brows": brows, "mouth": mouth, "eyes": (1 - brows) * (1 - mouth)}
     total = np.sum([weights[part] for part in weights if part in follow], axis=0) if follow else 0.0
     return np.broadcast_to(np.asarray(total, np.float32), (len(y),)).copy()
-
-
-def _step(x: NDArray[np.floating], start: float, end: float) -> NDArray[np.float64]:
-    t = np.clip((x - start) / (end - start), 0, 1)
-    return np.asarray(t * t * (3 - 2 * t), float)

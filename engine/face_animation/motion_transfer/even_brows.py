@@ -11,19 +11,25 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.smoothstep import smoothstep
 from engine.perception.head_pose import canonical_face
 
-BROWS_BEGIN, BROWS_END = -0.18, -0.28
+BROWS = (-0.15, -0.25)
 """Heights between which a face becomes brows and forehead (`canonical_face`)."""
 SPREAD_EYE_DISTANCES = (0.2, 0.05)
 """Along brows and across them, over which it is evened out, as a Gaussian: a brow is 0.6 long."""
+
+
+def brow_share() -> NDArray[np.float64]:
+    """(478,) how far each vertex belongs to brows and forehead."""
+    return smoothstep(canonical_face()[:, 1], *BROWS)
 
 
 @cache
 def even_brows() -> NDArray[np.float64]:
     """(478, 478) evens out what brows and forehead do; products with (478, ...)."""
     face = canonical_face()[:, :2].astype(float)
-    share = np.clip((face[:, 1] - BROWS_BEGIN) / (BROWS_END - BROWS_BEGIN), 0, 1)
+    share = brow_share()
     apart = ((face[:, None] - face) / SPREAD_EYE_DISTANCES) ** 2
     near = np.exp(-0.5 * apart.sum(axis=2)) * share
     near /= np.maximum(near.sum(axis=1, keepdims=True), 1e-12)

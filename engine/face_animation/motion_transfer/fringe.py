@@ -10,6 +10,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.motion_transfer.even_brows import brow_share
+from engine.face_animation.skin_colour import chroma
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import MESH_SIZE, eye_distance
 
@@ -17,8 +19,6 @@ SKIN_VERTICES = (8, 168, 6, 50, 280, 117, 346, 205, 425)
 """Between the brows, on the nose's bridge and on the cheeks, which hair seldom covers."""
 SKIN_LIGHT = (0.38, 0.52)
 """Of the skin's light: what has less is hair, and what has more is skin."""
-CHROMA_FLOOR = 48.0
-"""Added to the sum of a pixel's channels, so that the dark has no colour."""
 SKIN_CHROMA = (0.1, 0.16)
 """By how much a pixel's shares of red and blue differ from the skin's, up to which it is skin, and from which on it is hair."""
 ABOVE_BROW = (-0.32, -0.7)
@@ -27,8 +27,6 @@ AROUND_EYE_DISTANCES = 0.14
 """Over which what is hair and what is skin is averaged."""
 COVERED_SHARES = (0.5, 0.8)
 """Of the pixels around a place, that are hair where it begins to be covered, and is."""
-BROWS_BEGIN, BROWS_END = -0.12, -0.22
-"""Eye distances above the eyes between which a face becomes brows and forehead (`canonical_face`)."""
 
 
 def fringe_share(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -44,20 +42,14 @@ def fringe_share(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[
     skin = np.median(smooth[places[list(SKIN_VERTICES), 1], places[list(SKIN_VERTICES), 0]], axis=0)
     light = smooth.sum(axis=2) / max(float(skin.sum()), 1.0)
     hair = 1 - _ramp(light, *SKIN_LIGHT)
-    hair = np.maximum(hair, _ramp(np.abs(_chroma(smooth) - _chroma(skin)).max(axis=2), *SKIN_CHROMA))
+    hair = np.maximum(hair, _ramp(np.abs(chroma(smooth) - chroma(skin)).max(axis=2), *SKIN_CHROMA))
     around = cv2.GaussianBlur(hair.astype(np.float32), (0, 0), AROUND_EYE_DISTANCES * unit)
     upright = canonical_face()[:, 1]
-    forehead = _ramp(-upright, -BROWS_BEGIN, -BROWS_END)
     above = (upright < ABOVE_BROW[0]) & (upright > ABOVE_BROW[1])
     column = np.abs(mesh[:, None, 0] - mesh[None, above, 0]) / unit
     weight = np.exp(-0.5 * (column / AROUND_EYE_DISTANCES) ** 2)
     covered = (weight * around[places[above, 1], places[above, 0]]).sum(axis=1) / weight.sum(axis=1)
-    return np.asarray(forehead * _ramp(covered, *COVERED_SHARES), float)
-
-
-def _chroma(colours: NDArray[np.floating]) -> NDArray[np.floating]:
-    """(..., 2) the shares of red and blue of colours (..., 3)."""
-    return (colours[..., ::2] + CHROMA_FLOOR / 3) / (colours.sum(axis=-1, keepdims=True) + CHROMA_FLOOR)
+    return np.asarray(brow_share() * _ramp(covered, *COVERED_SHARES), float)
 
 
 def _ramp(value: NDArray[np.floating], low: float, high: float) -> NDArray[np.floating]:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from engine.face_animation.motion_transfer.contour import contour_spots, even_depth, rim_distance
 from engine.face_animation.motion_transfer.head_motion import SOFT_WEIGHT, HeadMotion
 from engine.face_animation.motion_transfer.head_room import skull_centre, skull_shift
+from engine.face_animation.smoothstep import smoothstep
 from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES
 
@@ -66,7 +67,7 @@ def build_head_proxy(points: NDArray[np.floating], mesh: NDArray[np.floating]) -
 def contour_weights(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """(P, 36) how much points (P, 2) around a face follow each vertex of its contour, ever less with the distance from it, so that a jaw
     which opens squeezes the neck evenly instead of folding over it."""
-    fading = 1 - _smooth_step(rim_distance(mesh, points) / (CONTOUR_REACH * chin_length(mesh)))
+    fading = 1 - smoothstep(rim_distance(mesh, points) / (CONTOUR_REACH * chin_length(mesh)))
     return np.asarray(fading[:, None] * beside_rim(mesh, points))
 
 
@@ -77,7 +78,7 @@ def beside_rim(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDAr
     apart = np.linalg.norm(mesh[list(FACE_OVAL), :2].astype(float)[None] - points[:, None], axis=2)
     nearest = apart.min(axis=1, keepdims=True)
     near = np.exp(-0.5 * ((apart - nearest) / (CONTOUR_SPREAD * length + 0.5 * nearest)) ** 2)
-    away = _smooth_step(rim_distance(mesh, points) / (SPOT_REACH * length))[:, None]
+    away = smoothstep(rim_distance(mesh, points) / (SPOT_REACH * length))[:, None]
     return np.asarray((1 - away) * contour_spots(mesh, points) + away * near / near.sum(axis=1, keepdims=True))
 
 
@@ -96,8 +97,8 @@ def chin_lengths_below(mesh: NDArray[np.floating], points: NDArray[np.floating])
 def outline_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """(P,) how far points (P, 2) outside the face move as the skull's outline does: none on its front, all beyond it."""
     begin, end = OUTLINE_RADII
-    share = _smooth_step((skull_radius(mesh, points) - begin) / (end - begin))
-    return share * _smooth_step(_beyond_skin(mesh, points) / RIM_TO_OUTLINE)
+    share = smoothstep(skull_radius(mesh, points), begin, end)
+    return share * smoothstep(_beyond_skin(mesh, points) / RIM_TO_OUTLINE)
 
 
 def surface_depth(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -110,13 +111,13 @@ def surface_depth(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> N
     front = centre[2] - mesh[NOSE_BRIDGE, 2]
     skull = centre[2] - front * np.sqrt(np.clip(1 - skull_radius(mesh, points) ** 2, 0, 1))
     rim = beside_rim(mesh, points) @ even_depth(mesh)[list(FACE_OVAL)]
-    away = _smooth_step(_beyond_skin(mesh, points) / RIM_TO_SKULL)
+    away = smoothstep(_beyond_skin(mesh, points) / RIM_TO_SKULL)
     return np.asarray(rim + away * (skull - rim), float)
 
 
 def _beyond_skin(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """(P,) how far points (P, 2) lie outside a face's skin, in widths of the face: beside cheeks and jaw it ends a little outside of the contour."""
-    band = SKIN_BAND * _smooth_step(chin_lengths_below(mesh, points) / CHEEKS)
+    band = SKIN_BAND * smoothstep(chin_lengths_below(mesh, points) / CHEEKS)
     return np.asarray(rim_distance(mesh, points) / _face_width(mesh) - band)
 
 
@@ -135,11 +136,6 @@ def _face_width(mesh: NDArray[np.floating]) -> float:
     return float(np.linalg.norm(mesh[454, :2] - mesh[234, :2]))
 
 
-def _smooth_step(t: NDArray[np.floating]) -> NDArray[np.float64]:
-    t = np.clip(t, 0, 1)
-    return np.asarray(t * t * (3 - 2 * t), float)
-
-
 def head_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """How far points (P, 2) belong to the head: 1 above the chin, fading to 0 down the neck, and aside of it, where shoulders are."""
     below = chin_lengths_below(mesh, points)
@@ -147,9 +143,9 @@ def head_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDAr
     down = (mesh[152, :2] - eyes) / chin_length(mesh)
     aside = np.abs((points - eyes) @ (down[::-1] * (1, -1))) / chin_length(mesh)
     begin, end = NECK_FADE_CHIN_LENGTHS
-    fading = _smooth_step((below - begin) / (end - begin))
-    shoulder = _smooth_step((below - SHOULDER_FADE[0]) / (SHOULDER_FADE[1] - SHOULDER_FADE[0]))
-    beside = _smooth_step((aside - BESIDE_NECK[0]) / (BESIDE_NECK[1] - BESIDE_NECK[0]))
+    fading = smoothstep(below, begin, end)
+    shoulder = smoothstep(below, *SHOULDER_FADE)
+    beside = smoothstep(aside, *BESIDE_NECK)
     return np.asarray((1 - fading) * (1 - shoulder * beside), float)
 
 

@@ -18,6 +18,7 @@ from engine.face_animation.mouth.lips_and_skin import (
     UPPER_LIP_COLUMNS,
 )
 from engine.face_animation.mouth.skin_around_lips import with_lips
+from engine.face_animation.smoothstep import smoothstep
 from engine.perception.landmarks import mouth_opening
 
 UPPER_SHARE = 0.6
@@ -45,16 +46,16 @@ class ClosingLips:
     def __init__(self, rest: NDArray[np.floating], target: NDArray[np.floating]):
         own, drivers = float(mouth_opening(target)), float(mouth_opening(rest))
         self._usual = max(drivers, PARTED_OPENINGS[0])
-        parted = _step(own, PARTED_OPENINGS)
-        self._at_rest = parted * (1 - _step(drivers / max(own, 1e-6), PARTED_SHARES))
-        self._meets = max(parted, _step(drivers, PARTED_OPENINGS))
+        parted = smoothstep(own, *PARTED_OPENINGS)
+        self._at_rest = parted * (1 - smoothstep(drivers / max(own, 1e-6), *PARTED_SHARES))
+        self._meets = max(parted, smoothstep(drivers, *PARTED_OPENINGS))
         top, bottom = _inner_edges()
         self._gap = np.linalg.norm(target[bottom].astype(float) - target[top], axis=-1)
 
     def met(self, meshes: NDArray[np.floating]) -> NDArray[np.float64]:
         """(N,) how far the lips of the driver's meshes (N, 478, 3) have met; 0 where they and the target's are closed at rest."""
         left = np.asarray(mouth_opening(meshes)) / self._usual
-        return np.asarray(self._meets * (1 - _step(left, LIP_GAP_SHARES)))
+        return np.asarray(self._meets * (1 - smoothstep(left, *LIP_GAP_SHARES)))
 
     def close(self, positions: NDArray[np.floating], meshes: NDArray[np.floating], strength: float) -> None:
         """Close the lips of the target at `positions` (N, 478, 3) as those of the driver's `meshes` (N, 478, 3) are, in place; `strength` in [0, 1]."""
@@ -79,8 +80,3 @@ def lip_influence() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def _inner_edges() -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """(9,) each, the vertices, column by column, of the inner edges of the upper and the lower lip."""
     return np.array(UPPER_INNER_LIP[1:-1]), np.array(LOWER_INNER_LIP[1:-1])
-
-
-def _step(value: float | NDArray[np.floating], between: tuple[float, float]) -> float | NDArray[np.float64]:
-    t = np.clip((value - between[0]) / (between[1] - between[0]), 0, 1)
-    return t * t * (3 - 2 * t)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.mouth.lip_contours import LOWER_INNER_LIP, UPPER_INNER_LIP, box_around
 from engine.face_animation.mouth.mouth_interior import MouthInterior
+from engine.face_animation.smoothstep import smoothstep
 from engine.perception.landmarks import LIPS_INNER, eye_distance, mouth_opening
 
 MEETING = (0.012, 0.05)
@@ -49,8 +50,7 @@ class LipSeam:
 
 def met_share(opening: float) -> float:
     """How far the lips of a mouth of this opening have met."""
-    t = float(np.clip((MEETING[1] - opening) / (MEETING[1] - MEETING[0]), 0, 1))
-    return t * t * (3 - 2 * t)
+    return 1 - float(smoothstep(opening, *MEETING))
 
 
 def seam(face: NDArray[np.floating], width: float) -> NDArray[np.float64]:

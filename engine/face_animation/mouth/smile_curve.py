@@ -17,6 +17,7 @@ from engine.face_animation.mouth.lips_and_skin import (
     UPPER_LIP_COLUMNS,
 )
 from engine.face_animation.mouth.skin_around_lips import with_lips
+from engine.face_animation.smoothstep import smoothstep
 from engine.perception.head_pose import canonical_face
 
 CORNERS = (61, 291)
@@ -62,7 +63,7 @@ def smile_share(meshes: NDArray[np.floating], rest: NDArray[np.floating]) -> NDA
     usual = rest[:, :2].astype(float)
     wider = np.linalg.norm(left - right, axis=1) / _width(usual) - 1
     higher = ((right + left) / 2 - usual[list(CORNERS)].mean(axis=0)) @ _up(usual) / _width(usual)
-    return _step(wider, WIDER) * _step(higher, HIGHER)
+    return smoothstep(wider, *WIDER) * smoothstep(higher, *HIGHER)
 
 
 @cache
@@ -83,8 +84,3 @@ def _up(face: NDArray[np.float64]) -> NDArray[np.float64]:
     """(2,) the way up a face (478, 2)."""
     axis = face[BROW_VERTEX] - face[CHIN_VERTEX]
     return np.asarray(axis / max(float(np.linalg.norm(axis)), 1e-6), float)
-
-
-def _step(value: NDArray[np.floating], between: tuple[float, float]) -> NDArray[np.float64]:
-    t = np.clip((value - between[0]) / (between[1] - between[0]), 0, 1)
-    return np.asarray(t * t * (3 - 2 * t), float)

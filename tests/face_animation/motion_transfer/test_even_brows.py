@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.face_animation.motion_transfer.even_brows import BROWS_BEGIN, even_brows
+from engine.face_animation.motion_transfer.even_brows import brow_share, even_brows
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LEFT_BROW, RIGHT_BROW
 
 FACE = canonical_face()[:, :2].astype(float)
-BELOW = FACE[:, 1] > BROWS_BEGIN
+BELOW = brow_share() == 0
 
 
 def test_a_raised_forehead_stays_raised_and_the_rest_of_the_face_as_it_is() -> None:

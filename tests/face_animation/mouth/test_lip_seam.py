@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from made_face import opened, placed
 from numpy.typing import NDArray
 
@@ -42,4 +43,4 @@ def test_the_line_comes_with_the_closing() -> None:
     shares = [met_share(opening) for opening in np.linspace(0, 0.1, 21)]
     assert shares[0] == 1 and shares[-1] == 0
     assert (np.diff(shares) <= 0).all()
-    assert met_share(sum(MEETING) / 2) == 0.5
+    assert met_share(sum(MEETING) / 2) == pytest.approx(0.5)
