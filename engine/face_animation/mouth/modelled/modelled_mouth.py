@@ -36,6 +36,8 @@ AMBIENT = 0.75
 """Of the light on a surface, that it has wherever it faces."""
 DARKENING, ROW_DARKENING = 0.9, 0.45
 """Eye distances behind the upper teeth at which a third of the light is left, on the tongue and on teeth: cheeks are beside these."""
+INCISORS_SHARE = 0.25
+"""Of the teeth, which are the foremost."""
 UPPER_LIP_MIDDLE = 13
 LOWER_MIDDLE, ABOVE_LIP, BELOW_LIP = 14, 0.03, 0.05
 """The middle of the lower inner lip, and eye distances above and below it between which lower teeth end: where a face opens its mouth farther or
@@ -149,7 +151,7 @@ class ModelledMouth:
 
     @cached_property
     def _shade(self) -> NDArray[np.float32]:
-        """(V,) the light that is left: less on what faces aside, and in the depth."""
+        """(V,) the light that is left: less on what faces aside, and in the depth; incisors have, in the mean, the light that their colours are of."""
         vertices = np.concatenate([self._vertices, np.zeros((self._bag_vertices, 3))])
         normals = vertex_normals(vertices, self._triangles)
         facing = AMBIENT + (1 - AMBIENT) * np.clip(-normals[:, 2], 0, 1)
@@ -157,6 +159,9 @@ class ModelledMouth:
         deep = np.exp(-np.maximum(vertices[:, 2] - self._at.depth, 0) / reach)
         shade = facing * deep
         shade[: len(self._light)] *= self._light
+        row = slice(0, self._ends[1])
+        before = vertices[row, 2] <= np.quantile(vertices[row, 2], INCISORS_SHARE)
+        shade[row] = np.minimum(shade[row] / shade[row][before].mean(), 1)
         shade[len(self._vertices) :] = 1  # its ramp has its light
         return np.asarray(shade, np.float32)
 

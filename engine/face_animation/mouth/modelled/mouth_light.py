@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.face_animation.mouth.lip_contours import UPPER_INNER_LIP
 
-LIP_SHADE, LIP_SHADE_WIDTH = 0.28, 0.12
+LIP_SHADE, LIP_SHADE_WIDTH = 0.28, 0.06
 """Of the light, that the upper lip keeps from teeth at its edge, and widths of the mouth below it up to which it does."""
 CORNER_SHADE, CORNER_SHADE_WIDTH = 0.45, 0.3
 
