@@ -29,6 +29,7 @@ from engine.face_animation.motion_transfer.head_proxy import HeadProxy, chin_len
 from engine.face_animation.motion_transfer.head_room import hold_back, skull_shift, turned_in_picture
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
 from engine.face_animation.motion_transfer.lids_and_lips import constrain_lids_and_lips, lid_ratio
+from engine.face_animation.motion_transfer.pose_refinement import refine_pose
 from engine.face_animation.mouth.closing import ClosingLips
 from engine.face_animation.mouth.lips_and_skin import keep_lips_off_skin, philtrum_compression
 from engine.face_animation.mouth.smile_curve import SmileCurve
@@ -112,6 +113,9 @@ class MotionTransfer:
         """Of each frame the `offsets` (N, C, 2), the `depth` (N, C) and the `look` (N, 2, 2) of a `ControlMotion`."""
         rest, target, control, proxy, phi = self._rest, self._target, self._control, self._proxy, self._phi
         motion = split_motion(frames.meshes, rest)
+        if proxy is not None:
+            around, trust = frames.periphery - self._around, frames.trust * self._trust
+            motion = refine_pose(motion, frames.meshes, self._around, around, trust)
         expression, look = self._acted(motion)
         scaled = scale_motion(motion, self._head)
         offsets = np.zeros((len(frames.meshes), len(control.points), 2), np.float32)

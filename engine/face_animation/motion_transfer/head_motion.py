@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,5 +46,12 @@ def split_motion(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) ->
     weights = np.full(len(neutral), SOFT_WEIGHT)
     weights[list(RIGID_VERTICES)] = 1.0
     scale, rotation, shift = fit_similarities(neutral, meshes, weights)
-    at_rest = np.einsum("nji,nvj->nvi", rotation, meshes - shift[:, None]) / scale[:, None, None]
-    return HeadMotion(neutral.astype(float), scale, rotation, shift, (at_rest - neutral).astype(np.float32))
+    still = np.zeros(meshes.shape, np.float32)
+    motion = HeadMotion(neutral.astype(float), scale, rotation, shift, still)
+    return with_expression(motion, meshes)
+
+
+def with_expression(motion: HeadMotion, meshes: NDArray[np.floating]) -> HeadMotion:
+    """A motion whose expression is all that meshes (N, 478, 3) do beyond its rigid part."""
+    at_rest = (meshes - motion.shift[:, None]) @ motion.rotation / motion.scale[:, None, None]
+    return replace(motion, expression=(at_rest - motion.neutral).astype(np.float32))
