@@ -30,6 +30,7 @@ from engine.face_animation.motion_transfer.head_room import hold_back, skull_shi
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
 from engine.face_animation.motion_transfer.lids_and_lips import constrain_lids_and_lips, lid_ratio
 from engine.face_animation.motion_transfer.pose_refinement import refine_pose
+from engine.face_animation.motion_transfer.turned_expression import even_out_turned
 from engine.face_animation.mouth.closing import ClosingLips
 from engine.face_animation.mouth.lips_and_skin import keep_lips_off_skin, philtrum_compression
 from engine.face_animation.mouth.smile_curve import SmileCurve
@@ -148,14 +149,15 @@ class MotionTransfer:
     def _acted(self, motion: HeadMotion) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
         """The expression on the target's upright face, (N, 478, 3) offsets, and where its irises look."""
         rest, target = self._rest, self._target
-        expression = self._acts @ carry_expression(self._maps, self._phi, motion.expression)
-        upright, acted = rest + motion.expression, target + expression
+        even = even_out_turned(motion)
+        expression = self._acts @ carry_expression(self._maps, self._phi, even)
+        upright, acted = rest + even, target + expression
         ratio = 1 + self._eyes * (lid_ratio(upright, rest, target) - 1)
         self._smile.lift(acted, upright, self._mouth)
         self._lips.close(acted, upright, self._mouth)
         keep_lips_off_skin(acted, target, philtrum_compression(upright, rest))
         expression = constrain_lids_and_lips(acted, target, np.maximum(ratio, 0)) - target
-        look = self._eyes * gaze_offsets(upright, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
+        look = self._eyes * gaze_offsets(rest + motion.expression, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
         return expression, look.astype(np.float32)
 
     def _carried_around(self, frames: DriverFrames) -> NDArray[np.floating]:
