@@ -30,6 +30,8 @@ LARGEST_TURN = np.deg2rad(25.0)
 further. Faces are turned back to the front by as much."""
 FREE_TURN_SHARE = 0.8
 """Share of the largest turn up to which nothing is held back."""
+SIDE_SLANT = np.deg2rad(55.0)
+"""By which the sides of a face, its cheeks beside the eyes, slant away from its front."""
 LEAST_TURN = np.deg2rad(6.0)
 """By which a face may turn in any direction, however far it is turned in its picture."""
 LARGEST_APPROACH = 0.3
@@ -84,7 +86,7 @@ def soft_limit(
 
 def limit_rotation(rotation: NDArray[np.float64], turned: tuple[float, float] = (0.0, 0.0)) -> NDArray[np.float64]:
     """Rotations (N, 3, 3) with turns out of the picture plane held back softly to `LARGEST_TURN`, for a face that its picture shows `turned` out of
-    it, about x and y, radians: it has less room to the side to which it is turned."""
+    it, about x and y, radians: it has less room to the side to which it is turned, and less to turn back (`turn_back`)."""
     limited = rotation.copy()
     own = np.asarray(turned)
     for i, r in enumerate(rotation):
@@ -95,12 +97,20 @@ def limit_rotation(rotation: NDArray[np.float64], turned: tuple[float, float] = 
         along = float(own @ vector[:2]) / turn
         aside = float(own @ own) - along**2
         reach = np.sqrt(max(LARGEST_TURN**2 - aside, 0.0)) - along  # to where it would be turned by the largest
-        largest = float(np.clip(reach, LEAST_TURN, LARGEST_TURN))
+        largest = float(np.clip(min(reach, turn_back(-along)), LEAST_TURN, LARGEST_TURN))
         start = FREE_TURN_SHARE * largest
         if turn > start:
             vector[:2] *= (start + (largest - start) * np.tanh((turn - start) / (largest - start))) / turn
             limited[i] = cv2.Rodrigues(vector)[0]
     return limited
+
+
+def turn_back(turned: float) -> float:
+    """How far a face may turn back, radians, that its picture shows `turned` aside: until the side that it turns away there is stretched as much as the
+    sides of a face are that the picture shows from the front and that turns by `LARGEST_TURN`."""
+    slant = min(SIDE_SLANT + max(turned, 0.0), np.pi / 2)
+    most = np.cos(SIDE_SLANT - LARGEST_TURN) / np.cos(SIDE_SLANT)
+    return float(slant - np.arccos(np.clip(most * np.cos(slant), 0, 1)))
 
 
 def turned_in_picture(mesh: NDArray[np.floating]) -> tuple[float, float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 import pytest
 from made_face import placed, turn
@@ -12,10 +13,14 @@ from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_
 from engine.face_animation.motion_transfer.head_room import (
     FREE_SHARE,
     LARGEST_TURN,
+    LEAST_TURN,
+    SIDE_SLANT,
     head_room,
     hold_back,
+    limit_rotation,
     skull_shift,
     soft_limit,
+    turn_back,
 )
 from engine.perception.landmarks import FACE_OVAL
 
@@ -79,3 +84,25 @@ def test_large_motion_saturates_and_the_expression_stays(face: NDArray) -> None:
     turned = held.rotation[0] @ driver.T
     assert turn_angles(turned.T[None], driver)[0] <= LARGEST_TURN + 1e-6
     np.testing.assert_array_equal(held.expression, motion.expression)
+
+
+@pytest.mark.parametrize("turned", [0.0, 10.0, 20.0, 30.0])
+def test_a_face_that_turns_back_stretches_its_far_side_no_more_than_a_frontal_one(turned: float) -> None:
+    """A patch that slants by an angle is as wide as its cosine."""
+    own = np.deg2rad(turned)
+    stretch = np.cos(SIDE_SLANT + own - turn_back(own)) / np.cos(SIDE_SLANT + own)
+    assert stretch == pytest.approx(np.cos(SIDE_SLANT - LARGEST_TURN) / np.cos(SIDE_SLANT))
+    assert turn_back(own) <= LARGEST_TURN + 1e-9
+
+
+@pytest.mark.parametrize("turned", [-40.0, -20.0, 0.0, 20.0, 60.0])
+def test_turns_end_where_the_picture_shows_no_more(turned: float) -> None:
+    """Of a face that is turned about y, to either side; and they never fall back."""
+    own = float(np.deg2rad(turned))
+    for side in (-1, 1):
+        wanted = np.deg2rad(side * np.linspace(0, 60, 25))
+        rotations = np.stack([cv2.Rodrigues(np.array([0.0, angle, 0.0]))[0] for angle in wanted])
+        held = side * np.array([cv2.Rodrigues(r)[0][1, 0] for r in limit_rotation(rotations, (0.0, own))])
+        assert (np.diff(held) > -1e-6).all()
+        most = turn_back(abs(own)) if side * own < 0 else LARGEST_TURN - abs(own)
+        assert held[-1] <= max(most, LEAST_TURN) + 1e-6
