@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 from running import HERE, ROOT, Running
 
+from engine.body.cache import cache_folder
 from engine.character.sample import sample_picture
 from engine.media.image import write_image
 from engine.media.video import probe_video
@@ -63,15 +64,23 @@ class Installed:
         for name in PACKAGES:
             for module in (self.packages / name).rglob("*.py"):
                 self._take_over_compiled(module)
+        self._take_over_template()
         (folder / "elsewhere").mkdir()
 
     def _take_over_compiled(self, module: Path) -> None:
-        """What was compiled of a module serves its copy, of the same size and age, too: compiling takes minutes."""
+        """What was compiled of a module, by Python or by Numba, serves its copy, of the same size and age, too: compiling
+        takes minutes."""
         original = ROOT / module.relative_to(self.packages)
         os.utime(module, ns=(original.stat().st_atime_ns, original.stat().st_mtime_ns))
-        for kept in (original.parent / "__pycache__").glob(f"{original.stem}.*.nb*"):
+        for kept in (original.parent / "__pycache__").glob(f"{original.stem}.*"):
             (module.parent / "__pycache__").mkdir(exist_ok=True)
             shutil.copy(kept, module.parent / "__pycache__")
+
+    def _take_over_template(self) -> None:
+        """What this checkout has made of MakeHuman's files, if it has: reading them takes half a minute, wherever the
+        program that reads them lies (`engine.body.cache`)."""
+        if (template := cache_folder() / "template").is_dir():
+            shutil.copytree(template, self.data / "cache" / "template")
 
     def galatea(self, *arguments: object, **settings: str) -> subprocess.CompletedProcess[str]:
         settings = {"GALATEA_DATA_DIR": str(self.data), **settings}
