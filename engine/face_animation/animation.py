@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.creases.fine_details import shade
+from engine.face_animation.creases.own_folds import OwnFolds
 from engine.face_animation.eyes.eyes_and_lids import EyesAndLids
 from engine.face_animation.motion_transfer.contour import rim_distance
 from engine.face_animation.motion_transfer.control_motion import ControlMotion, carry_motion
@@ -116,6 +117,7 @@ class FaceAnimation:
         self._landing = target.rig.details.origin(track.in_crop(neutral))
         moves = set(options.follow) - {"head"}
         self._creases = min(options.strength, 1.0) if parts.details and moves else 0.0
+        self._folds = OwnFolds(face.rgb, face.mesh) if parts.details and "mouth" in options.follow else None
 
     def frames(self, ratios: Iterable[NDArray[np.float32]]) -> Iterator[NDArray[np.uint8]]:
         """The target acting out the whole driver: one (H, W, 3) uint8 frame for each of its frames, (H, W, 4) where alpha
@@ -158,6 +160,8 @@ class FaceAnimation:
         frame = composite_over(layer, np.ascontiguousarray(self._plate[window.pixels]))
         smooth_folds(frame, origin, FOLD_DISTANCE, self._rig.mesh.vertices + moved[:, :2], self._rig.mesh.triangles)
         face = self.face(motion) - corner
+        if self._folds is not None:
+            self._folds.ease(frame, origin, 2, face)
         if self._creases > 0:
             shade(frame, self._rig.details, self._landing, ratio, origin, 2, face, self._creases)
         if self._eyes is not None:

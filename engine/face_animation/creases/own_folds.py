@@ -1,0 +1,148 @@
+"""The folds that a smile leaves in the target's picture, eased where it does not smile any more.
+
+A picture that smiles wears folds from the nose down past the corners of its mouth. The warp moves them, and draws them out to wedges and scars where
+the mouth narrows; on a face they go with the smile. They are dark lines on skin: a closing of the picture has none of them, and what it lies above
+the picture is given back, as far as the mouth is narrower than the picture's.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.compiled import njit
+from engine.face_animation.creases.fine_details import NOSE_VERTICES
+from engine.face_animation.smoothstep import smoothstep
+from engine.perception.landmarks import FACE_OVAL, LIPS_OUTER, eye_distance
+
+EYE_DISTANCE_PIXELS = 80.0
+"""Eye distance, pixels, of the copy in which folds are looked for, at most."""
+FOLD_EYE_DISTANCES = 0.16
+"""Half the width of the widest fold."""
+SOFT_EYE_DISTANCES = 0.06
+"""Sigma of the skin that takes their place."""
+GRAIN_EYE_DISTANCES = 0.02
+"""Sigma below which it is the skin's grain and no fold: it stays."""
+BESIDE_LIPS, BEYOND_LIPS, BELOW_NOSE = (0.0, 0.08), (0.7, 1.1), (-0.35, -0.1)
+"""Eye distances from the lips from which folds are eased, and up to which; and from where on, down from the nose's base."""
+INSIDE_CONTOUR = 0.25
+"""Eye distances from the face's contour to where they are eased fully."""
+NARROWER = (0.05, 0.25)
+"""Shares by which the mouth is narrower than the picture's from which on folds fade, and at which they are gone."""
+MOUSTACHE_LIGHT = (0.45, 0.55)
+"""Of the cheeks' light: an upper lip darker than the first wears a moustache, whose ends are no folds; one lighter than the second does not."""
+PHILTRUM, CHEEKS = (97, 326, 269, 0, 39), ((50, 101, 118, 117, 111, 116, 123), (280, 330, 347, 346, 340, 345, 352))
+CORNERS, OUTER_EYES = (61, 291), (33, 263)
+NOSE_BASE = 2
+
+
+class OwnFolds:
+    """The folds around the mouth of a picture (H, W, 3) with its face at `mesh` (478, 2 or 3): what they lack of the skin's light."""
+
+    def __init__(self, rgb: NDArray[np.uint8], mesh: NDArray[np.floating]):
+        unit = float(eye_distance(mesh[:, :2]))
+        low, high = np.floor(mesh[:, :2].min(axis=0)).astype(int), np.ceil(mesh[:, :2].max(axis=0)).astype(int) + 1
+        (left, top), (right, bottom) = np.maximum(low, 0), np.minimum(high, rgb.shape[1::-1])
+        shrink = min(1.0, EYE_DISTANCE_PIXELS / unit)
+        patch = cv2.resize(rgb[top:bottom, left:right], None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA)
+        points = (mesh[:, :2] - (left, top) + 0.5) * shrink - 0.5
+        self._corner, self._shrink = (float(left), float(top)), float(shrink)
+        self._width = mouth_width(mesh)
+        self._lighter, self._skin = _folds(np.asarray(patch, np.uint8), points.astype(np.float32), unit * shrink)
+
+    def share(self, face: NDArray[np.floating]) -> float:
+        """How far a face (478, 2 or 3) has left the smile of its picture, [0, 1]."""
+        return float(smoothstep(1 - mouth_width(face) / self._width, *NARROWER))
+
+    def ease(
+        self, frame: NDArray[np.uint8], origin: NDArray[np.float32], scale: float, face: NDArray[np.floating]
+    ) -> None:
+        """Lighten the folds of a `frame` (H, W, 3), in place, with its face at (478, 2); `origin` (H, W, 2) is its inverse map, in pixels of the
+        picture enlarged by `scale`."""
+        share = self.share(face)
+        if share < 1e-3:
+            return
+        height, width = frame.shape[:2]
+        left, top = np.clip(np.floor(face[:, :2].min(axis=0)).astype(int), 0, (width, height)).tolist()
+        right, bottom = np.clip(np.ceil(face[:, :2].max(axis=0)).astype(int) + 1, 0, (width, height)).tolist()
+        there = (slice(top, bottom), slice(left, right))
+        place = np.float32(1 / scale), *(np.float32(at) for at in self._corner), np.float32(self._shrink)
+        _lighten(frame[there], self._lighter, self._skin, np.float32(share), origin[there], *place)
+
+
+def mouth_width(face: NDArray[np.floating]) -> float:
+    """Of a face (478, 2 or 3), in widths between the eyes' outer corners: turns aside shorten both."""
+    mouth, eyes = (float(np.linalg.norm(face[a, :2] - face[b, :2])) for a, b in (CORNERS, OUTER_EYES))
+    return mouth / max(eyes, 1e-6)
+
+
+def _folds(
+    rgb: NDArray[np.uint8], points: NDArray[np.float32], unit: float
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """(h, w, 3) grey levels by which folds around the mouth are darker than the skin that they lie in, and that skin; eye distance `unit` pixels."""
+    lips = np.zeros(rgb.shape[:2], np.uint8)
+    cv2.fillPoly(lips, [points[list(LIPS_OUTER)].round().astype(np.int32)], 1)
+    even = cv2.GaussianBlur(rgb.astype(np.float32), (0, 0), GRAIN_EYE_DISTANCES * unit)
+    radius = max(1, round(FOLD_EYE_DISTANCES * unit))
+    disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1, 2 * radius + 1))
+    red = cv2.dilate(lips, np.ones((3, 3), np.uint8))[..., None] > 0  # no light for the skin beside them
+    closed = cv2.morphologyEx(np.where(red, np.float32(0), even), cv2.MORPH_CLOSE, disk)
+    skin = cv2.GaussianBlur(closed, (0, 0), SOFT_EYE_DISTANCES * unit)
+    darker = np.maximum(skin - even, 0)
+    share = smoothstep(_upper_lip_light(even.mean(axis=2), points), *MOUSTACHE_LIGHT)
+    lighter = share * _around_mouth(lips, points, unit)[..., None] * darker
+    return lighter.astype(np.float32), np.asarray(skin, np.float32)
+
+
+def _upper_lip_light(light: NDArray[np.floating], points: NDArray[np.float32]) -> float:
+    """Of a picture's light (h, w): the median of the skin below the nose in that of the lighter cheek."""
+
+    def median(corners: tuple[int, ...]) -> float:
+        inside = np.zeros(light.shape, np.uint8)
+        cv2.fillPoly(inside, [points[list(corners)].round().astype(np.int32)], 1)
+        return float(np.median(light[inside > 0])) if inside.any() else 0.0
+
+    return median(PHILTRUM) / max(*(median(cheek) for cheek in CHEEKS), 1.0)
+
+
+def _around_mouth(lips: NDArray[np.uint8], points: NDArray[np.float32], unit: float) -> NDArray[np.float64]:
+    """(h, w) [0, 1] the skin around the mouth, without lips and nose."""
+    away = cv2.distanceTransform(1 - lips, cv2.DIST_L2, 5) / unit
+    down = (np.arange(lips.shape[0])[:, None] - points[NOSE_BASE, 1]) / unit
+    nose = np.zeros(lips.shape, np.float32)
+    hull = cv2.convexHull(points[list(NOSE_VERTICES)].round().astype(np.int32))
+    cv2.fillConvexPoly(nose, hull, 1.0)
+    grown = cv2.dilate(nose, np.ones((2 * round(0.05 * unit) + 1,) * 2, np.uint8))
+    oval = np.zeros(lips.shape, np.uint8)
+    cv2.fillPoly(oval, [points[list(FACE_OVAL)].round().astype(np.int32)], 1)
+    inside = np.clip(cv2.distanceTransform(oval, cv2.DIST_L2, 5) / (INSIDE_CONTOUR * unit), 0, 1)
+    near = smoothstep(away, *BESIDE_LIPS) * (1 - smoothstep(away, *BEYOND_LIPS)) * smoothstep(down, *BELOW_NOSE)
+    return np.asarray(near * inside * (1 - cv2.GaussianBlur(grown, (0, 0), 0.05 * unit)), float)
+
+
+@njit(fastmath=True, nogil=True)
+def _lighten(rgb, lighter, skin, share, origin, per_pixel, left, top, shrink):  # type: ignore[no-untyped-def]
+    """Colours with `share` of bilinear samples of `lighter` added, up to `skin`; both lie at (left, top) of the target, `shrink` times as large."""
+    rows, columns = lighter.shape[:2]
+    half = np.float32(0.5)
+    for y in range(rgb.shape[0]):
+        for x in range(rgb.shape[1]):
+            u = ((origin[y, x, 0] + half) * per_pixel - left) * shrink - half
+            v = ((origin[y, x, 1] + half) * per_pixel - top) * shrink - half
+            if not (u >= 0 and v >= 0 and u < columns - 1 and v < rows - 1):
+                continue
+            i, j = int(v), int(u)
+            a, b = v - np.float32(i), u - np.float32(j)
+            for c in range(3):
+                added = share * _sample(lighter, i, j, a, b, c)
+                if added >= half:
+                    most = max(_sample(skin, i, j, a, b, c), np.float32(rgb[y, x, c]))
+                    rgb[y, x, c] = np.uint8(min(rgb[y, x, c] + added, most, np.float32(254)) + half)
+
+
+@njit(fastmath=True, nogil=True)
+def _sample(image, i, j, a, b, c):  # type: ignore[no-untyped-def]
+    above = (1 - b) * image[i, j, c] + b * image[i, j + 1, c]
+    below = (1 - b) * image[i + 1, j, c] + b * image[i + 1, j + 1, c]
+    return (1 - a) * above + a * below
