@@ -28,7 +28,7 @@ from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_
 from engine.face_animation.motion_transfer.head_proxy import HeadProxy, chin_length, move_head
 from engine.face_animation.motion_transfer.head_room import hold_back, skull_shift, turned_in_picture
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
-from engine.face_animation.motion_transfer.lids_and_lips import constrain_lids_and_lips, lid_ratio
+from engine.face_animation.motion_transfer.lids_and_lips import constrain_lids_and_lips, lid_ratio, shut_lids
 from engine.face_animation.motion_transfer.pose_refinement import refine_pose
 from engine.face_animation.motion_transfer.turned_expression import even_out_turned
 from engine.face_animation.mouth.closing import ClosingLips
@@ -117,7 +117,7 @@ class MotionTransfer:
         if proxy is not None:
             around, trust = frames.periphery - self._around, frames.trust * self._trust
             motion = refine_pose(motion, frames.meshes, self._around, around, trust)
-        expression, look = self._acted(motion)
+        expression, look, ratio = self._acted(motion)
         scaled = scale_motion(motion, self._head)
         offsets = np.zeros((len(frames.meshes), len(control.points), 2), np.float32)
         depths = np.zeros(offsets.shape[:2], np.float32)
@@ -135,6 +135,7 @@ class MotionTransfer:
             placed = self._corrected(frames, face[..., :2] + plane_share(target)[:, None] * plane)
             rigid = solid[:, :MESH_SIZE, :2]
             placed = rigid + self._even @ (placed - rigid)
+            shut_lids(placed, rigid, ratio)
             offsets[:, MESH_SIZE:] = self._around_face(frames, motion, held, proxy, solid[..., :2], placed)
         offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
         return offsets, depths, look
@@ -146,8 +147,8 @@ class MotionTransfer:
         keep_inside(placed, self._target, self._control.usable[:MESH_SIZE])
         return placed
 
-    def _acted(self, motion: HeadMotion) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
-        """The expression on the target's upright face, (N, 478, 3) offsets, and where its irises look."""
+    def _acted(self, motion: HeadMotion) -> tuple[NDArray[np.float64], NDArray[np.float32], NDArray[np.float64]]:
+        """The expression on the target's upright face, (N, 478, 3) offsets; where its irises look; and how far its lids open, (N, 14) as `lid_ratio`."""
         rest, target = self._rest, self._target
         even = even_out_turned(motion)
         expression = self._acts @ carry_expression(self._maps, self._phi, even)
@@ -156,9 +157,10 @@ class MotionTransfer:
         self._smile.lift(acted, upright, self._mouth)
         self._lips.close(acted, upright, self._mouth)
         keep_lips_off_skin(acted, target, philtrum_compression(upright, rest))
-        expression = constrain_lids_and_lips(acted, target, np.maximum(ratio, 0)) - target
+        ratio = np.maximum(ratio, 0)
+        expression = constrain_lids_and_lips(acted, target, ratio) - target
         look = self._eyes * gaze_offsets(rest + motion.expression, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
-        return expression, look.astype(np.float32)
+        return expression, look.astype(np.float32), ratio
 
     def _carried_around(self, frames: DriverFrames) -> NDArray[np.floating]:
         """(N, P, 2) what the driver's tracked points around the face say of the target's peripheral points, pixels."""

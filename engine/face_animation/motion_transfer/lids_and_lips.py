@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.smoothstep import smoothstep
 from engine.perception.landmarks import eye_opening
 
 LID_PAIRS = (
@@ -83,3 +84,17 @@ def constrain_lids_and_lips(
     out[:, top] -= overlap
     out[:, bottom] += overlap
     return out
+
+
+def shut_lids(placed: NDArray[np.floating], rigid: NDArray[np.floating], ratio: NDArray[np.floating]) -> None:
+    """Have lids that shut meet where the face ended up, in place: what evens out a contour or corrects a point may have parted them again, most of
+    all in an eye that its picture shows at a slant.
+
+    Parameters
+    ----------
+    placed : (N, 478, 2) the face, pixels. rigid : (N, 478, 2) where the head alone carries its rest. ratio : (N, 14) from `lid_ratio`.
+    """
+    upper, lower = np.array(LID_PAIRS).T
+    meeting = placed[:, lower] + ratio[..., None] * (rigid[:, upper] - rigid[:, lower])
+    shut = 1 - smoothstep(ratio, 0, OPEN_GAP_SHARE)
+    placed[:, upper] += shut[..., None] * (meeting - placed[:, upper])

@@ -11,8 +11,10 @@ from engine.face_animation.motion_transfer.lids_and_lips import (
     INNER_LIP_PAIRS,
     LID_PAIRS,
     MAX_GAP_RATIO,
+    OPEN_GAP_SHARE,
     constrain_lids_and_lips,
     lid_ratio,
+    shut_lids,
 )
 from engine.perception.head_pose import canonical_face, mirror_vertices
 from engine.perception.landmarks import eye_opening
@@ -153,3 +155,19 @@ def test_what_is_left_of_wide_eyes_is_no_squint_of_narrower_ones(driver: NDArray
     np.testing.assert_allclose(narrower[1], 1, rtol=0.02)  # as open as the driver's are
     assert (narrower[2] > same_person[2]).all() and (narrower[2] < 0.85).all()
     assert not narrower[3].any()
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.3, 0.6, 1.0])
+def test_shut_lids_meet_wherever_the_face_ended_up(target: NDArray, ratio: float) -> None:
+    """Points that something parted again are put together in a shut eye; one that is open keeps what was made of it."""
+    rigid = target[None, :, :2] + np.array([20.0, -8.0])
+    parted = rigid + np.random.default_rng(4).normal(scale=2.0, size=rigid.shape)
+    upper, lower = np.array(LID_PAIRS).T
+    placed = parted.copy()
+    shut_lids(placed, rigid, np.full((1, 14), ratio))
+    if ratio == 0:
+        np.testing.assert_allclose(placed[:, upper], parted[:, lower])
+    if ratio >= OPEN_GAP_SHARE:
+        np.testing.assert_array_equal(placed, parted)
+    rest = np.setdiff1d(np.arange(478), upper)
+    np.testing.assert_array_equal(placed[:, rest], parted[:, rest])
