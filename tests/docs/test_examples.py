@@ -26,7 +26,9 @@ ADDRESS = "http://127.0.0.1:8000"
 
 @pytest.fixture(scope="module")
 def shared_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
-    service = Running(tmp_path_factory.mktemp("data") / "data", kinds="engine.kinds:KINDS", wait_seconds=200)
+    served = "portrait,moments,character,motion"  # what the guides order
+    data = tmp_path_factory.mktemp("data") / "data"
+    service = Running(data, kinds="engine.kinds:KINDS", worker_kinds=served, wait_seconds=200)
     yield service
     service.stop()
 
@@ -37,9 +39,9 @@ def folder(tmp_path: Path) -> Path:
     package = find_spec("matplotlib")
     assert package is not None and package.origin is not None
     portrait = Path(package.origin).parent / "mpl-data/sample_data/grace_hopper.jpg"
-    with Image.open(portrait) as whole:  # a quarter of its pixels, for what is made of it several times
-        whole.reduce(2).save(tmp_path / "portrait.jpg", quality=95)
-    write_image(tmp_path / "person.jpg", sample_picture())
+    with Image.open(portrait) as whole:  # a ninth of its pixels, for what is made of it several times
+        whole.reduce(3).save(tmp_path / "portrait.jpg", quality=95)
+    write_image(tmp_path / "person.jpg", sample_picture(300))
     (tmp_path / "swing.bvh").write_bytes(bvh())
     return tmp_path
 

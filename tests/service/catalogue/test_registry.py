@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import pytest
 import tiny_kind
 
@@ -25,3 +28,16 @@ def test_a_worker_serves_only_kinds_that_there_are() -> None:
     require_known(["portrait"], KINDS)
     with pytest.raises(ValueError, match=r"no job kind sculpture; there are .*portrait"):
         require_known(["portrait", "sculpture"], KINDS)
+
+
+def test_kinds_are_known_without_the_libraries_that_do_their_work() -> None:
+    """A service and a worker start with them: the work's libraries take seconds, and some hundred megabytes."""
+    asked = (
+        "import sys, service.app, shell.serve, shell.web_server, worker.app\n"
+        "from service.catalogue.registry import load_kinds\n"
+        "print(len(load_kinds(['engine.kinds:KINDS'])), *sorted({name.partition('.')[0] for name in sys.modules}))"
+    )
+    said = subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True).stdout.split()
+    assert int(said[0]) == len(KINDS) and "sqlalchemy" in said
+    working = {"av", "cv2", "mediapipe", "numba", "onnxruntime", "PIL", "pxr", "pygltflib", "scipy", "trimesh"}
+    assert not working & set(said)

@@ -19,7 +19,7 @@ OPTIONS = {
 @pytest.fixture(scope="module")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
     folder = tmp_path_factory.mktemp("avatars") / "data"
-    with Running(folder, kinds="engine.kinds:KINDS") as running:
+    with Running(folder, kinds="engine.kinds:KINDS", worker_kinds="avatar") as running:
         yield running
 
 
