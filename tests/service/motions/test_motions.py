@@ -238,7 +238,8 @@ def test_a_wrong_correction_is_shown_to_the_number(service: Running, photo: str)
 def test_characters_move_by_ones_own_motion_until_both_are_gone(
     service: Running, mine: dict[str, Any], photo: str
 ) -> None:
-    options = {"seconds": 1, "motion_joints": {"RightHand": None, "LeftShoulder": None}}
+    small = {"seconds": 1, "size": [96, 128], "triangles": 4000}
+    options = {**small, "motion_joints": {"RightHand": None, "LeftShoulder": None}}
     asked = {"kind": "character", "inputs": {"photo": photo, "motion": "swing"}, "options": options}
     job = service.client.post("/v1/jobs", json=asked).raise_for_status().json()
     assert job["inputs"] == {"photo": photo, "motion": "swing"} and "motion" not in job["options"]
@@ -251,7 +252,7 @@ def test_characters_move_by_ones_own_motion_until_both_are_gone(
     # a built-in one in its place takes the file back; and the other way round
     walking = {"corrections": {"motion": "bow"}, "options": {"motion_joints": None}}
     bow = service.client.post(f"/v1/jobs/{job['id']}/revisions", json=walking).raise_for_status().json()
-    assert (bow["inputs"], bow["options"]) == ({"photo": photo}, {"seconds": 1, "motion": "bow"})
+    assert (bow["inputs"], bow["options"]) == ({"photo": photo}, {**small, "motion": "bow"})
     service.client.post(f"/v1/jobs/{bow['id']}/cancel")
     swing = {"corrections": {"motion": "swing", "motion_joints": {"LeftHand": "tail"}}}
     refused = service.client.post(f"/v1/jobs/{bow['id']}/revisions", json=swing).raise_for_status().json()
