@@ -1,3 +1,4 @@
+import './characters_only';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -9,7 +10,7 @@ import { LIGHT, LONG } from './jobs';
 import { lacks } from './lacks';
 import { inPython, samplePeople } from './media';
 import { address, finished, somebody } from './own_service';
-import { ask, jobOf, open, orderCharacter } from './page';
+import { ask, cancelAll, jobOf, open, orderCharacter } from './page';
 
 interface Made {
   inputs: Record<string, string>;
@@ -40,7 +41,7 @@ const done = finished.character;
 let engine: [joints: string[], needed: string[], colours: number[][]];
 beforeAll(async () => {
   browser = await launchIn3D();
-  samplePeople(join(folder, 'two.png'));
+  samplePeople(join(folder, 'two.png'), 400);
   engine = JSON.parse(inPython(NAMES)) as typeof engine;
 });
 afterAll(async () => {
@@ -49,6 +50,7 @@ afterAll(async () => {
 });
 afterEach(async () => {
   for (const context of browser.contexts()) await context.close();
+  await cancelAll();
   expect(complaints.splice(0)).toEqual([]);
 });
 
@@ -390,7 +392,7 @@ describe('corrections of a character', () => {
   });
 
   it('choose somebody else by a click, or everybody; who was chosen before a box is again after it', async () => {
-    const id = await orderCharacter(join(folder, 'two.png'), { ...LIGHT, joints: { LeftElbow: [300, 270] } });
+    const id = await orderCharacter(join(folder, 'two.png'), { ...LIGHT, joints: { LeftElbow: [200, 180] } });
     const page = await corrections(id);
     await page.getByText('2 people were found.').waitFor();
     await page.getByRole('button', { name: 'Person 2 of 2' }).click();

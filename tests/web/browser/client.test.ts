@@ -1,3 +1,4 @@
+import './nobody_works';
 import { readFileSync } from 'node:fs';
 import { expect, it } from 'vitest';
 import { address } from './own_service';

@@ -7,7 +7,7 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { TestProject } from 'vitest/node';
-import { ended, LIGHT, LONG, orderCharacter, orderPortrait } from './jobs';
+import { ended, LIGHT, LONG, SMALL, orderCharacter, orderPortrait } from './jobs';
 import { faceless, portrait, samplePerson } from './media';
 import { serve } from './service';
 
@@ -41,7 +41,7 @@ export interface Finished {
 const COMPILING = 1_200_000;
 
 export default async function setup(project: TestProject): Promise<() => Promise<void>> {
-  const { address, data, stop, end } = await serve({ GALATEA_CONCURRENCY: '2' });
+  const { address, data, stop, end } = await serve({ GALATEA_CONCURRENCY: '2', GALATEA_WORKER_KINDS: 'portrait,character' });
   const pictures = mkdtempSync(join(tmpdir(), 'galatea-pictures-'));
   const [somebody, profile] = ['somebody.png', 'profile.zip'].map((name) => join(pictures, name)) as [string, string];
   const forget = async (): Promise<void> => {
@@ -54,8 +54,8 @@ export default async function setup(project: TestProject): Promise<() => Promise
     const jobs: Finished = {
       noFace: await orderPortrait(address, faceless, 'wink'),
       noPerson: await orderCharacter(address, faceless, { seconds: 1 }),
-      reactive: await orderPortrait(address, portrait, null, { reactive: ['happy', 'surprise'], size: [240, 300] }),
-      portrait: await orderPortrait(address, portrait, 'happy'),
+      reactive: await orderPortrait(address, portrait, null, { reactive: ['happy', 'surprise'], ...SMALL }),
+      portrait: await orderPortrait(address, portrait, 'happy', SMALL),
       character: await orderCharacter(address, somebody, LIGHT),
     };
     await Promise.all([

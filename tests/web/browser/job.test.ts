@@ -1,12 +1,13 @@
+import './portraits_only';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { answered, complaints, expectComplaint, unanswered } from './complaints';
 import { launch } from './browser';
-import { LONG } from './jobs';
+import { LONG, SMALL } from './jobs';
 import { lacks } from './lacks';
 import { faceless } from './media';
 import { address, finished } from './own_service';
-import { ask, open, openRunning, openWaiting, order } from './page';
+import { cancelAll, open, openRunning, openWaiting, order } from './page';
 
 let browser: Browser;
 const done = finished.portrait;
@@ -16,6 +17,7 @@ beforeAll(async () => {
 afterAll(() => browser.close());
 afterEach(async () => {
   for (const context of browser.contexts()) await context.close();
+  await cancelAll();
   expect(complaints.splice(0)).toEqual([]);
 });
 
@@ -117,7 +119,7 @@ describe('a job that succeeds', () => {
     const revised = page.url().split('/').at(-1) ?? '';
     const job = await (await fetch(`${address}/v1/jobs/${revised}`)).json();
     expect(job.revision_of).toBe(done);
-    expect(job.options).toEqual({ strength: 0.5, follow: ['eyes', 'brows', 'mouth'], neutral_frame: 3 });
+    expect(job.options).toEqual({ ...SMALL, strength: 0.5, follow: ['eyes', 'brows', 'mouth'], neutral_frame: 3 });
     const report = await (await fetch(address + job.artifacts['report.json'].url)).json();
     expect(report.inputs.neutral_frame).toBe(3);
 
@@ -171,10 +173,7 @@ describe('a job on its way', () => {
   it('has its place in the queue told while it waits', async () => {
     const page = await openRunning(browser, 2);
     await page.getByText(/^(Next|Place \d) in the queue$/).waitFor();
-    const { items } = await ask<{ items: { id: string; status: string }[] }>('/v1/jobs');
-    for (const { id, status } of items) {
-      if (id !== done && /queued|running/.test(status)) await fetch(`${address}/v1/jobs/${id}/cancel`, { method: 'POST' });
-    }
+    await cancelAll();
     await page.getByText('Canceled', { exact: true }).first().waitFor({ timeout: LONG });
   });
 

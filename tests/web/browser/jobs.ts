@@ -30,12 +30,26 @@ export const orderPortrait = (
   options: object = {},
 ): Promise<string> => submit(address, 'portrait', { image: fileOf(image), ...(driver !== null && { driver }) }, options);
 
+/** Options of a portrait that is soon made. */
+export const SMALL = { size: [240, 300] };
+
 /** Options of a character that is soon made, and soon drawn where there is no graphics card. */
 export const LIGHT = { seconds: 1, size: [240, 320], triangles: 10_000 };
 
 /** Orders a character. */
 export const orderCharacter = (address: string, photo: string, options: object = {}): Promise<string> =>
   submit(address, 'character', { photo: fileOf(photo) }, options);
+
+/** Makes a finished job again with other options; the id of the job that does. */
+export async function revise(address: string, job: string, options: object): Promise<string> {
+  const response = await fetch(`${address}/v1/jobs/${job}/revisions`, {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json' },
+    body: JSON.stringify({ options }),
+  });
+  expect(response.status, await response.clone().text()).toBe(202);
+  return ((await response.json()) as { id: string }).id;
+}
 
 /** Waits until a job has ended so, and in no other way; `patience` in milliseconds. */
 export async function ended(address: string, job: string, so: 'succeeded' | 'failed' = 'succeeded', patience = LONG): Promise<void> {

@@ -1,5 +1,6 @@
 /** No file of tests finds what another left: each has a service that began with the finished jobs, and with nothing else. */
 
+import './nobody_works';
 import { existsSync, readFileSync } from 'node:fs';
 import { expect, inject, it } from 'vitest';
 import { inPython } from './media';

@@ -4,7 +4,7 @@ import type { Browser, Page } from 'playwright-core';
 import { expect } from 'vitest';
 import { watch } from './complaints';
 import { lacks } from './lacks';
-import { LONG, orderCharacter as character, orderPortrait as portraitOf } from './jobs';
+import { LONG, SMALL, orderCharacter as character, orderPortrait as portraitOf } from './jobs';
 import { lengthyPerformance, portrait } from './media';
 import { address } from './own_service';
 
@@ -79,6 +79,13 @@ export const order = (image: string, driver: string | File | null, options: obje
 export const orderCharacter = (photo: string, options: object = {}): Promise<string> =>
   character(address, photo, options);
 
+/** Cancels what is queued or at work: nobody looks at it any more, and what comes next would wait for it. */
+export async function cancelAll(): Promise<void> {
+  const { items } = await ask<{ items: { id: string }[] }>('/v1/jobs?status=queued&status=running&limit=200');
+  // one that has just ended is none to cancel
+  await Promise.all(items.map(({ id }) => fetch(`${address}/v1/jobs/${id}/cancel`, { method: 'POST' })));
+}
+
 let lengthy: File | undefined;
 
 /**
@@ -86,8 +93,8 @@ let lengthy: File | undefined;
  * is there, however fast the machine is and however short the job.
  */
 export async function openWaiting(browser: Browser, driver: string): Promise<{ page: Page; begin: () => Promise<void> }> {
-  const before = await order(portrait, (lengthy ??= lengthyPerformance()));
-  const job = await order(portrait, driver);
+  const before = await order(portrait, (lengthy ??= lengthyPerformance()), SMALL);
+  const job = await order(portrait, driver, SMALL);
   const page = await open(browser, `#/jobs/${job}`);
   await page.getByText(/^(Next|Place \d) in the queue$/).waitFor();
   const begin = async (): Promise<void> => {

@@ -1,3 +1,4 @@
+import './nobody_works';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints, expectComplaint } from './complaints';

@@ -1,5 +1,6 @@
 /** Resumable uploads as browsers make them: the real tus-js-client in a real page, over a line that is cut. */
 
+import './nobody_works';
 import { connect, createServer, type Server, type Socket } from 'node:net';
 import { join, resolve } from 'node:path';
 import type { Browser, CDPSession, Page } from 'playwright-core';

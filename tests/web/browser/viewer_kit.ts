@@ -7,7 +7,7 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect } from 'vitest';
 import { launch } from './browser';
 import { complaints, watch } from './complaints';
-import { ended, LIGHT, LONG, orderCharacter } from './jobs';
+import { ended, LIGHT, LONG, orderCharacter, revise } from './jobs';
 import { samplePeople } from './media';
 import { address, finished, somebody } from './own_service';
 import { openViewer } from './viewer_page';
@@ -31,13 +31,14 @@ const ORDERS = {
   crouching: { several: false, options: { pose: CROUCHING } },
 };
 
-/** Orders a character; its job's id. */
+/** Orders a character; its job's id. One of the same person begins with what the finished one has found out about them. */
 async function ordered({ several, options }: (typeof ORDERS)[keyof typeof ORDERS]): Promise<string> {
+  if (!several) return revise(address, finished.character, options);
   const folder = mkdtempSync(join(tmpdir(), 'galatea-viewer-'));
   const people = join(folder, 'people.png');
   try {
-    if (several) samplePeople(people, 400);
-    return await orderCharacter(address, several ? people : somebody, { ...LIGHT, ...options });
+    samplePeople(people, 400);
+    return await orderCharacter(address, people, { ...LIGHT, ...options });
   } finally {
     rmSync(folder, { recursive: true });
   }

@@ -1,5 +1,6 @@
 /** A pose by hand stands on the ground. */
 
+import './characters_only';
 import { describe, expect, it } from 'vitest';
 import { aViewer, mode, ready, still } from './viewer_kit';
 
