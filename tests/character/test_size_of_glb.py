@@ -47,8 +47,8 @@ def test_a_surface_that_is_too_large_by_itself_is_told_of(tmp_path: Path) -> Non
 
 
 def test_a_cancel_is_heard_before_each_try(tmp_path: Path) -> None:
-    """Noise of 4096 x 4096 takes three of them: asked for the third time, it ends."""
-    heard = 3
+    """Noise of 3072 x 2048 takes two of them: asked before the second, it ends."""
+    heard = 2
     asked: list[None] = []
 
     def canceled() -> bool:
@@ -56,6 +56,6 @@ def test_a_cancel_is_heard_before_each_try(tmp_path: Path) -> None:
         return len(asked) == heard
 
     with pytest.raises(Canceled), Run(canceled=canceled) as run:
-        write_small_glb(tmp_path / "character.glb", noisy(4096, 4096), (), run)
-    assert len(asked) == heard <= TEXTURE_REDUCTIONS.index((2, 90)) + 1
+        write_small_glb(tmp_path / "character.glb", noisy(2048, 3072), (), run)
+    assert len(asked) == heard <= TEXTURE_REDUCTIONS.index((1, 80)) + 1
     assert not list(tmp_path.iterdir())
