@@ -26,10 +26,10 @@ CORNER_VERTICES = (61, 76, 62, 78, 291, 306, 292, 308)
 LIPS_MIDDLE = (0, 13, 14, 17)
 BROW_VERTEX, CHIN_VERTEX = 10, 152
 """Where the face's axis begins and ends."""
-WIDER, HIGHER = (0.05, 0.2), (0.02, 0.12)
+WIDER, HIGHER = (0.03, 0.12), (0.02, 0.07)
 """By how much of its width at rest a mouth gets wider and its corners higher, from which on it smiles, and fully: both together, for lips that
 are drawn wide alone say e, or are afraid."""
-MOST_LIFT = 0.1
+MOST_LIFT = 0.16
 """Of the mouth's width, by which its corners are raised beside what the driver's are, at most."""
 
 
@@ -39,22 +39,22 @@ class SmileCurve:
 
     def __init__(self, rest: NDArray[np.floating], target: NDArray[np.floating]):
         self._rest = rest[:, :2].astype(float)
-        own = target[:, :2].astype(float)
-        self._lift = float(np.clip(corner_height(rest) - corner_height(target), 0, MOST_LIFT)) * _width(own) * _up(own)
+        self._target = target[:, :2].astype(float)
 
     def lift(self, positions: NDArray[np.floating], meshes: NDArray[np.floating], strength: float) -> None:
         """Raise the corners of the target's mouth at `positions` (N, 478, 3) as the driver of the `meshes` (N, 478, 2 or 3), upright as at rest,
         smiles, in place; `strength` in [0, 1]."""
         share = strength * smile_share(meshes, self._rest)
-        positions[..., :2] += share[:, None, None] * corner_influence()[:, None] * self._lift
+        lower = corner_height(meshes, _up(self._rest)) - corner_height(positions, _up(self._target))
+        lift = share * np.clip(lower, 0, MOST_LIFT) * _width(positions)
+        positions[..., :2] += lift[:, None, None] * corner_influence()[:, None] * _up(self._target)
 
 
-def corner_height(face: NDArray[np.floating]) -> float:
-    """How much higher a mouth's corners are than its middle, of a face (478, 2 or 3), in widths of the mouth."""
-    plane = face[:, :2].astype(float)
-    return float((plane[list(CORNERS)].mean(axis=0) - plane[list(LIPS_MIDDLE)].mean(axis=0)) @ _up(plane)) / _width(
-        plane
-    )
+def corner_height(faces: NDArray[np.floating], up: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(...,) how much higher a mouth's corners are than its middle, of faces (..., 478, 2 or 3) whose way `up` (2,) is known, in widths of the mouth."""
+    plane = faces[..., :2].astype(float)
+    apart = plane[..., list(CORNERS), :].mean(axis=-2) - plane[..., list(LIPS_MIDDLE), :].mean(axis=-2)
+    return np.asarray(apart @ up / _width(plane))
 
 
 def smile_share(meshes: NDArray[np.floating], rest: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -76,8 +76,10 @@ def corner_influence() -> NDArray[np.float64]:
     return with_lips(lips, bend[:, None])[:, 0]
 
 
-def _width(face: NDArray[np.float64]) -> float:
-    return max(float(np.linalg.norm(face[CORNERS[1]] - face[CORNERS[0]])), 1e-6)
+def _width(faces: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(...,) of the mouths of faces (..., 478, 2 or 3)."""
+    across = faces[..., CORNERS[1], :2] - faces[..., CORNERS[0], :2]
+    return np.asarray(np.maximum(np.linalg.norm(across, axis=-1), 1e-6), float)
 
 
 def _up(face: NDArray[np.float64]) -> NDArray[np.float64]:

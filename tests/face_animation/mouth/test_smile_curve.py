@@ -32,19 +32,24 @@ def acted(target: NDArray, rest: NDArray, driver: NDArray, strength: float = 1.0
     return face[0]
 
 
+def height(face: NDArray) -> float:
+    """Of an upright face's corners."""
+    return float(corner_height(face, np.array([0.0, -1.0])))
+
+
 def test_a_full_smile_raises_hanging_corners_to_the_driver_s() -> None:
     rest = placed(60)
     sad, smile = hanging(placed(90), 0.06), smiling(rest, 0.5)
     assert smile_share(smile[None], rest)[0] == 1
-    assert corner_height(acted(sad, rest, smile)) == pytest.approx(corner_height(rest), abs=0.003)
-    half = corner_height(acted(sad, rest, smile, 0.5))
-    assert half == pytest.approx((corner_height(sad) + corner_height(rest)) / 2, abs=0.003)
+    assert height(acted(sad, rest, smile)) == pytest.approx(height(smile), abs=0.01)
+    half = height(acted(sad, rest, smile, 0.5))
+    assert half == pytest.approx((height(sad) + height(smile)) / 2, abs=0.01)
 
 
 def test_no_more_than_so_much_is_added() -> None:
     rest = placed(60)
     sad = hanging(placed(90), 0.3)
-    assert corner_height(acted(sad, rest, smiling(rest, 0.5))) - corner_height(sad) < MOST_LIFT + 0.01
+    assert height(acted(sad, rest, smiling(rest, 0.5))) - height(sad) < MOST_LIFT + 0.01
 
 
 def test_nothing_but_a_smile_raises_corners() -> None:
@@ -57,9 +62,9 @@ def test_nothing_but_a_smile_raises_corners() -> None:
     assert not smile_share(np.stack([rest, opened(rest, 0.4), wide, high]), rest).any()
 
 
-def test_faces_that_are_bent_alike_are_left_to_their_offsets() -> None:
-    rest, target = placed(60), placed(90)
-    np.testing.assert_allclose(acted(target, rest, smiling(rest, 0.5)), target, atol=1e-3)
+def test_a_mouth_that_smiles_as_much_already_is_left_as_it_is() -> None:
+    rest, target = placed(60), smiling(placed(90), 0.5)
+    np.testing.assert_allclose(acted(target, rest, smiling(rest, 0.5)), target, atol=0.02)
     merry = hanging(target, -0.05)
     np.testing.assert_array_equal(acted(merry, rest, smiling(rest, 0.5)), merry)
 
