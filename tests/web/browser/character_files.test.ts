@@ -1,5 +1,6 @@
 /** A mask and a map of the parts, given as files in place of what was found. */
 
+import './characters_only';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';

@@ -1,3 +1,4 @@
+import './portraits_only';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints } from './complaints';
