@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from engine.face_animation.motion_transfer.contour import beside_contour, rim_distance
 from engine.face_animation.motion_transfer.fringe import fringe_share
 from engine.face_animation.motion_transfer.head_room import head_room
+from engine.face_animation.motion_transfer.spectacles import spectacles_share
 from engine.face_animation.warping.contour_rings import contour_rings, rings_end
 from engine.geometry.registration.rigid import Similarity
 from engine.geometry.surface import area_vectors, summed_at_corners
@@ -46,7 +47,8 @@ class ControlPoints:
         lids that move over them.
     room : (2, 2) how far the head may go, pixels, see `head_room`.
     floor : where the picture ends below, pixels.
-    bare : (478,) how far each point of the face may move by itself, in [0, 1]: not where hair hangs before it, see `fringe`.
+    bare : (478,) how far each point of the face may move by itself, in [0, 1]: not where hair hangs before it, see `fringe`, nor a frame of
+        `spectacles`.
     """
 
     points: NDArray[np.float64]
@@ -76,7 +78,7 @@ def place_control_points(
     Parameters
     ----------
     mesh : (478, 3) the target's face, pixels. person : (H, W) mask [0, 1]. inner : the picture within a frame, which cuts the person.
-    rgb : (H, W, 3) the picture, where it is to be asked for hair before the face.
+    rgb : (H, W, 3) the picture, where it is to be asked for hair and spectacles before the face.
     """
     height, width = person.shape
     shown = inner or Window(0, 0, width, height)
@@ -106,7 +108,7 @@ def place_control_points(
     usable = np.concatenate([seen & ~beside_contour(mesh, seen), np.ones(len(points) - MESH_SIZE, bool)])
     usable[list(RIGHT_IRIS + LEFT_IRIS)] = False
     room = head_room(mesh[:, :2] - np.array([shown.left, shown.top]), person[shown.pixels])
-    bare = np.ones(MESH_SIZE) if rgb is None else 1 - fringe_share(rgb, mesh)
+    bare = np.ones(MESH_SIZE) if rgb is None else (1 - fringe_share(rgb, mesh)) * (1 - spectacles_share(rgb, mesh))
     return ControlPoints(points, len(grid), usable, room, float(shown.bottom - 1), bare)
 
 
