@@ -32,6 +32,8 @@ FREE_TURN_SHARE = 0.8
 """Share of the largest turn up to which nothing is held back."""
 SIDE_SLANT = np.deg2rad(55.0)
 """By which the sides of a face, its cheeks beside the eyes, slant away from its front."""
+MOST_STRETCH = 1.8
+"""By which they may be drawn out, where the picture shows them at a slant."""
 LEAST_TURN = np.deg2rad(6.0)
 """By which a face may turn in any direction, however far it is turned in its picture."""
 LARGEST_APPROACH = 0.3
@@ -106,11 +108,10 @@ def limit_rotation(rotation: NDArray[np.float64], turned: tuple[float, float] = 
 
 
 def turn_back(turned: float) -> float:
-    """How far a face may turn back, radians, that its picture shows `turned` aside: until the side that it turns away there is stretched as much as the
-    sides of a face are that the picture shows from the front and that turns by `LARGEST_TURN`."""
+    """How far a face may turn back, radians, that its picture shows `turned` aside: until the side that it turns away there is stretched by
+    `MOST_STRETCH`."""
     slant = min(SIDE_SLANT + max(turned, 0.0), np.pi / 2)
-    most = np.cos(SIDE_SLANT - LARGEST_TURN) / np.cos(SIDE_SLANT)
-    return float(slant - np.arccos(np.clip(most * np.cos(slant), 0, 1)))
+    return float(slant - np.arccos(np.clip(MOST_STRETCH * np.cos(slant), 0, 1)))
 
 
 def turned_in_picture(mesh: NDArray[np.floating]) -> tuple[float, float]:
