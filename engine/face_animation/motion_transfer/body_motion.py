@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from engine.face_animation.motion_transfer.contour import rim_distance
 from engine.face_animation.motion_transfer.head_motion import HeadMotion
 from engine.face_animation.motion_transfer.head_proxy import (
-    build_head_proxy,
+    HeadProxy,
     chin_length,
     chin_lengths_below,
     head_share,
@@ -54,19 +54,18 @@ def tracked_body(
 
 def tracked_hair(
     motion: HeadMotion,
-    places: NDArray[np.floating],
+    proxy: HeadProxy,
     moved: NDArray[np.floating],
     trust: NDArray[np.floating],
     at: NDArray[np.floating],
 ) -> NDArray[np.float64]:
-    """(N, P, 2) by how much the driver's hair went elsewhere than its face's motion carries it, at places `at` (P, 2), pixels of the driver; other
-    parameters as of `tracked_body`.
+    """(N, P, 2) by how much the driver's hair went elsewhere than its face's motion carries it, at places `at` (P, 2), pixels of the driver; `proxy`
+    is its neutral face with its tracked points, other parameters as of `tracked_body`.
 
     A tracker sees turns of the face too small, takes a smile for a tilt, and the skull lies far behind: what the face alone says of it
     errs by that. Hair stays one solid: it is a shift, a turn in the plane and a scale that it is off by.
     """
-    neutral = motion.neutral
-    proxy = build_head_proxy(np.concatenate([neutral[:, :2], places]), neutral)
+    neutral, places = motion.neutral, proxy.points[MESH_SIZE:, :2]
     carried = move_head(proxy, motion, neutral)[:, MESH_SIZE:, :2] - places
     weight = trust * proxy.share[MESH_SIZE:] * hair_share(neutral, places)
     away, middle = _trusted_mean(moved - carried, weight), _trusted_mean(np.broadcast_to(places, moved.shape), weight)

@@ -25,7 +25,7 @@ from engine.face_animation.motion_transfer.control_points import ControlPoints, 
 from engine.face_animation.motion_transfer.even_brows import brow_share, even_brows
 from engine.face_animation.motion_transfer.expression_transfer import carry_expression, local_maps
 from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_motion, turn_angles
-from engine.face_animation.motion_transfer.head_proxy import HeadProxy, chin_length, move_head
+from engine.face_animation.motion_transfer.head_proxy import HeadProxy, build_head_proxy, chin_length, move_head
 from engine.face_animation.motion_transfer.head_room import hold_back, skull_shift, turned_in_picture
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
 from engine.face_animation.motion_transfer.lids_and_lips import constrain_lids_and_lips, lid_ratio, shut_lids
@@ -97,6 +97,7 @@ class MotionTransfer:
     ):
         self._rest, self._around, self._trust = rest.meshes[0], rest.periphery[0], rest.trust[0]
         self._target, self._control, self._proxy, self._residuals = target, control, proxy, residuals
+        self._driver = build_head_proxy(np.concatenate([self._rest[:, :2], self._around]), self._rest)
         self._phi = align(self._rest, target)
         self._turned = turned_in_picture(target)
         self._lips, self._smile = ClosingLips(self._rest, target), SmileCurve(self._rest, target)
@@ -116,7 +117,7 @@ class MotionTransfer:
         motion = split_motion(frames.meshes, rest)
         if proxy is not None:
             around, trust = frames.periphery - self._around, frames.trust * self._trust
-            motion = refine_pose(motion, frames.meshes, self._around, around, trust)
+            motion = refine_pose(motion, self._driver, frames.meshes, around, trust)
         expression, look, ratio = self._acted(motion)
         scaled = scale_motion(motion, self._head)
         offsets = np.zeros((len(frames.meshes), len(control.points), 2), np.float32)
@@ -184,7 +185,7 @@ class MotionTransfer:
         around, trust = frames.periphery - self._around, frames.trust * self._trust
         body = self._head * phi.offsets(tracked_body(self._rest, self._around, around, trust))
         body = body_shift(phi.offsets(skull_shift(held)[:, :2]), body, chin_length(target))
-        hair = self._head * phi.offsets(tracked_hair(motion, self._around, around, trust, phi.inverse()(points)))
+        hair = self._head * phi.offsets(tracked_hair(motion, self._driver, around, trust, phi.inverse()(points)))
         above = solid[:, MESH_SIZE:] - points + hair_share(target, points)[:, None] * hair
         below = body_share(target, points)[:, None] * body[:, None]
         beyond = proxy.contour @ (faces[:, oval] - solid[:, oval])

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.body_motion import MIN_TRUSTED_POINTS, hair_share
 from engine.face_animation.motion_transfer.head_motion import HeadMotion, with_expression
-from engine.face_animation.motion_transfer.head_proxy import build_head_proxy, chin_length, move_head
+from engine.face_animation.motion_transfer.head_proxy import HeadProxy, chin_length, move_head
 from engine.face_animation.motion_transfer.head_room import skull_centre, skull_shift
 from engine.perception.landmarks import MESH_SIZE, RIGID_VERTICES
 
@@ -23,14 +23,14 @@ HAIR_WEIGHT, DEPTH_WEIGHT = 1.5, 2.0
 """What all tracked points of the hair together, and the depths of the face's rigid vertices, count against 1 for where those lie in the picture."""
 HAIR_SIGMA_CHIN_LENGTHS = 0.1
 """Lengths from eyes to chin: points of the hair further away from where the pose has them have slipped, and count ever less."""
-STEPS = 2
-"""Of Gauss and Newton; a third changes nothing that one sees."""
+GAUSS_NEWTON_STEPS = 2
+"""Of the least squares, for each frame."""
 
 
 def refine_pose(
     motion: HeadMotion,
+    proxy: HeadProxy,
     meshes: NDArray[np.floating],
-    places: NDArray[np.floating],
     moved: NDArray[np.floating],
     trust: NDArray[np.floating],
 ) -> HeadMotion:
@@ -38,17 +38,17 @@ def refine_pose(
 
     Parameters
     ----------
-    motion : by the face alone, see `split_motion`. meshes : (N, 478, 3) what it was taken of, pixels.
-    places : (K, 2) tracked points around the neutral face. moved : (N, K, 2) their offsets. trust : (N, K) [0, 1].
+    motion : by the face alone, see `split_motion`. proxy : the driver's neutral face with K tracked points around it.
+    meshes : (N, 478, 3) what the motion was taken of, pixels. moved : (N, K, 2) offsets of the tracked points. trust : (N, K) [0, 1].
     """
+    places = proxy.points[MESH_SIZE:, :2]
     if not len(places):
         return motion
     neutral, rigid = motion.neutral, list(RIGID_VERTICES)
-    proxy = build_head_proxy(np.concatenate([neutral[:, :2], places]), neutral)
     hair = trust * proxy.share[MESH_SIZE:] * hair_share(neutral, places)
     hair *= HAIR_WEIGHT / np.maximum(hair.sum(axis=1), MIN_TRUSTED_POINTS)[:, None]
     seen = meshes[:, rigid].astype(float)
-    for _ in range(STEPS):
+    for _ in range(GAUSS_NEWTON_STEPS):
         middle = skull_centre(neutral) + skull_shift(motion)
         face = (
             motion.scale[:, None, None] * (neutral[rigid] @ motion.rotation.transpose(0, 2, 1)) + motion.shift[:, None]

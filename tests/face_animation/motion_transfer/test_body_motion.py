@@ -62,7 +62,8 @@ def test_hair_that_goes_a_little_further_than_its_face_is_followed(away: tuple[f
     """And points that slip off it are not."""
     hair = np.column_stack([np.linspace(100, 200, 10), np.full(10, FACE[10, 1] - 40)])
     motion = split_motion(FACE[None] + [5.0, 2.0, 0.0], FACE)
-    found = tracked_hair(motion, hair, np.full((1, 10, 2), (5.0, 2.0)) + away, np.ones((1, 10)), hair)
+    proxy = build_head_proxy(np.concatenate([FACE[:, :2], hair]), FACE)
+    found = tracked_hair(motion, proxy, np.full((1, 10, 2), (5.0, 2.0)) + away, np.ones((1, 10)), hair)
     wanted = np.tile(np.array(away) * kept, (10, 1))
     assert found[0] == pytest.approx(wanted, abs=0.1 * max(away) * (kept > 0) + 0.05)
 
@@ -77,7 +78,7 @@ def test_hair_that_stays_undoes_most_of_a_tilt_that_its_face_seems_to_make() -> 
     still, trust = np.zeros((1, len(hair), 2)), np.ones((1, len(hair)))
     proxy = build_head_proxy(np.concatenate([FACE[:, :2], hair]), FACE)
     carried = move_head(proxy, motion, FACE)[0, MESH_SIZE:, :2] - hair
-    left = carried + tracked_hair(motion, hair, still, trust, hair)[0]
+    left = carried + tracked_hair(motion, proxy, still, trust, hair)[0]
     assert np.linalg.norm(left, axis=1).mean() < 0.35 * np.linalg.norm(carried, axis=1).mean()
 
 

@@ -9,7 +9,7 @@ from made_face import placed
 from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_motion
-from engine.face_animation.motion_transfer.head_proxy import build_head_proxy, move_head
+from engine.face_animation.motion_transfer.head_proxy import HeadProxy, build_head_proxy, move_head
 from engine.face_animation.motion_transfer.head_room import skull_centre
 from engine.face_animation.motion_transfer.pose_refinement import refine_pose
 from engine.perception.landmarks import MESH_SIZE
@@ -29,10 +29,14 @@ def turned(degrees: tuple[float, float, float], about: NDArray[np.floating] | No
     return np.asarray(((FACE - centre) @ rotation.T + centre)[None])
 
 
+def driver(places: NDArray[np.floating]) -> HeadProxy:
+    """The neutral face with tracked points around it."""
+    return build_head_proxy(np.concatenate([FACE[:, :2], places]), FACE)
+
+
 def moved(motion: HeadMotion) -> NDArray[np.float64]:
     """(1, K, 2) what the head's `motion` does with its hair."""
-    proxy = build_head_proxy(np.concatenate([FACE[:, :2], hair()]), FACE)
-    return np.asarray(move_head(proxy, motion, FACE)[:, MESH_SIZE:, :2] - hair(), float)
+    return np.asarray(move_head(driver(hair()), motion, FACE)[:, MESH_SIZE:, :2] - hair(), float)
 
 
 def degrees_apart(motion: HeadMotion, other: HeadMotion) -> float:
@@ -43,7 +47,7 @@ def degrees_apart(motion: HeadMotion, other: HeadMotion) -> float:
 def test_a_pose_that_face_and_hair_agree_on_stays(degrees: tuple[float, float, float]) -> None:
     meshes = turned(degrees)
     motion = split_motion(meshes, FACE)
-    refined = refine_pose(motion, meshes, hair(), moved(motion), np.ones((1, len(hair()))))
+    refined = refine_pose(motion, driver(hair()), meshes, moved(motion), np.ones((1, len(hair()))))
     assert degrees_apart(refined, motion) < 0.01
     np.testing.assert_allclose(refined.expression, motion.expression, atol=0.01)
 
@@ -52,7 +56,7 @@ def test_a_tilt_that_only_the_face_seems_to_make_is_most_of_it_expression() -> N
     """And face and expression together still are where the tracker has them."""
     meshes = turned((4.0, 0.0, 0.0), FACE.mean(axis=0))
     motion = split_motion(meshes, FACE)
-    refined = refine_pose(motion, meshes, hair(), np.zeros((1, len(hair()), 2)), np.ones((1, len(hair()))))
+    refined = refine_pose(motion, driver(hair()), meshes, np.zeros((1, len(hair()), 2)), np.ones((1, len(hair()))))
     assert degrees_apart(refined, split_motion(FACE[None], FACE)) < 2.4
     assert np.linalg.norm(moved(refined), axis=2).mean() < 0.6 * np.linalg.norm(moved(motion), axis=2).mean()
     again = refined.scale[0] * (FACE + refined.expression[0]) @ refined.rotation[0].T + refined.shift[0]
@@ -65,7 +69,7 @@ def test_a_turn_that_the_depth_hides_is_seen_by_the_hair() -> None:
     flat = turned((10.0, 0.0, 0.0))
     flat[..., 2] = 0.6 * flat[..., 2] + 0.4 * FACE[:, 2]
     motion = split_motion(flat, FACE)
-    refined = refine_pose(motion, flat, hair(), moved(true), np.ones((1, len(hair()))))
+    refined = refine_pose(motion, driver(hair()), flat, moved(true), np.ones((1, len(hair()))))
     assert degrees_apart(refined, true) < 0.7 * degrees_apart(motion, true)
 
 
@@ -74,9 +78,9 @@ def test_hair_that_slipped_or_is_not_trusted_says_nothing() -> None:
     motion = split_motion(meshes, FACE)
     slipped, one = moved(motion), np.ones((1, len(hair())))
     slipped[:, ::4] += (60.0, 40.0)
-    assert degrees_apart(refine_pose(motion, meshes, hair(), slipped, one), motion) < 0.1
+    assert degrees_apart(refine_pose(motion, driver(hair()), meshes, slipped, one), motion) < 0.1
     away = np.full(slipped.shape, 5.0)
-    nobody = refine_pose(motion, meshes, hair(), away, 0 * one)
-    none = refine_pose(motion, meshes, hair()[:0], away[:, :0], one[:, :0])
+    nobody = refine_pose(motion, driver(hair()), meshes, away, 0 * one)
+    none = refine_pose(motion, driver(hair()[:0]), meshes, away[:, :0], one[:, :0])
     for refined in (nobody, none):
         assert degrees_apart(refined, motion) < 0.5
