@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.face_animation.creases.outliers import Outliers, find_outliers
+from engine.face_animation.creases.shading_colour import shading_slopes
 from engine.face_animation.creases.skin_in_both import SkinInBoth
 from engine.face_animation.motion_transfer.head_motion import turn_angles
 from engine.geometry.registration.rigid import fit_similarity
@@ -80,12 +81,14 @@ class DetailRegion:
 
     box : x0, y0, x1, y1 of the face in the target. corners : (468, 2) the mesh in it, and its triangles (T, 3).
     weight : (h, w) [0, 1], the face's region without eyes and mouth, feathered.
+    slopes : (3,) how far each channel darkens where luminance does (`shading_colour`).
     """
 
     box: tuple[int, int, int, int]
     corners: NDArray[np.float32]
     triangles: NDArray[np.int32]
     weight: NDArray[np.float32]
+    slopes: NDArray[np.float32]
 
     def origin(self, neutral_mesh: NDArray[np.floating]) -> NDArray[np.float32]:
         """(h, w, 2): for each of its pixels the place on the driver's neutral crop, with its face at (478, 2)."""
@@ -147,8 +150,9 @@ def detail_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> DetailR
         cv2.distanceTransform(oval, cv2.DIST_L2, 5)[1:-1, 1:-1] / (RIM_FADE_EYE_DISTANCES * unit) - 0.25, 0, 1
     )
     box = (int(x0), int(y0), int(x1), int(y1))
+    slopes = shading_slopes(rgb[y0:y1, x0:x1], weight, unit)
     weight *= 1 - flatness(rgb[y0:y1, x0:x1], weight, unit)
-    return DetailRegion(box, plane - corner, triangles, (weight * ramp).astype(np.float32))
+    return DetailRegion(box, plane - corner, triangles, (weight * ramp).astype(np.float32), slopes)
 
 
 def flatness(rgb: NDArray[np.uint8], weight: NDArray[np.float32], unit: float) -> float:
@@ -304,7 +308,7 @@ def shade(
     strength: float = 1.0,
 ) -> None:
     """Equation 3: multiply the warped target (H, W, 3), in place, by the warped ratio where its region allows, with a
-    `strength` from 0 to 1.
+    `strength` from 0 to 1; each channel as far as the target's own skin darkens in the shade.
 
     `landing` is the region's origin on the driver's neutral crop; `origin` (H, W, 2) the frame's inverse map, in
     pixels of the target enlarged by `scale`; `within`: points (V, 2) of the frame around which its face ends, if known.
@@ -319,12 +323,12 @@ def shade(
         right, bottom = np.clip(np.ceil(within.max(axis=0)).astype(int) + 2, 0, (right, bottom)).tolist()
     there = (slice(top, bottom), slice(left, right))
     place = np.float32(x0), np.float32(y0), np.float32(1 / scale)
-    _multiply(frame[there], change, np.float32(strength), origin[there], *place)
+    _multiply(frame[there], change, np.float32(strength) * region.slopes, origin[there], *place)
 
 
 @njit(fastmath=True, nogil=True)
-def _multiply(rgb, change, strength, origin, x0, y0, shrink):  # type: ignore[no-untyped-def]
-    """The colours changed by bilinear samples of `change`, which lies at (x0, y0) of the target."""
+def _multiply(rgb, change, strengths, origin, x0, y0, shrink):  # type: ignore[no-untyped-def]
+    """The colours changed by bilinear samples of `change`, which lies at (x0, y0) of the target, each channel with its strength."""
     rows, columns = change.shape
     for y in range(rgb.shape[0]):
         for x in range(rgb.shape[1]):
@@ -336,10 +340,10 @@ def _multiply(rgb, change, strength, origin, x0, y0, shrink):  # type: ignore[no
             tx, ty = fx - ix, fy - iy
             top = change[iy, ix] + tx * (change[iy, ix + 1] - change[iy, ix])
             bottom = change[iy + 1, ix] + tx * (change[iy + 1, ix + 1] - change[iy + 1, ix])
-            value = strength * (top + ty * (bottom - top))
+            value = top + ty * (bottom - top)
             if abs(value) > 1e-3:
                 for k in range(3):
-                    rgb[y, x, k] = np.uint8(min(255.0, rgb[y, x, k] * (1 + value) + 0.5))
+                    rgb[y, x, k] = np.uint8(min(255.0, rgb[y, x, k] * (1 + strengths[k] * value) + 0.5))
 
 
 def _damped(ratio: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -259,7 +260,7 @@ def test_ratio_one_changes_nothing(picture: NDArray) -> None:
 def test_a_ratio_multiplies_the_skin_and_spares_eyes_mouth_and_background(picture: NDArray) -> None:
     """Equation 3."""
     frame = picture.copy()
-    details = detail_region(picture, TARGET)
+    details = replace(detail_region(picture, TARGET), slopes=np.ones(3, np.float32))
     shade_from(frame, details, np.full(CROP_SHAPE, 0.5, np.float32), identity(), 1)
     factor = frame.astype(float).sum(axis=2) / picture.astype(float).sum(axis=2)
     x, y = TARGET[50, :2].round().astype(int)
@@ -308,11 +309,14 @@ def test_ratios_move_with_the_warp(picture: NDArray) -> None:
         )
 
 
-def test_colours_keep_their_hue(picture: NDArray) -> None:
+@pytest.mark.parametrize("slopes", [(1, 1, 1), (0.7, 1.1, 1.3)], ids=["hue is kept", "redder in the shade"])
+def test_each_channel_darkens_by_its_slope(picture: NDArray, slopes: tuple[float, ...]) -> None:
     flat = np.empty_like(picture)
     flat[:] = SKIN
-    shade_from(flat, detail_region(picture, TARGET), np.full(CROP_SHAPE, 0.6, np.float32), identity(), 1)
+    details = replace(detail_region(picture, TARGET), slopes=np.array(slopes, np.float32))
+    shade_from(flat, details, np.full(CROP_SHAPE, 0.7, np.float32), identity(), 1)
     x, y = TARGET[50, :2].round().astype(int)
-    factor = flat[y, x] / np.array(SKIN)
-    assert factor.max() < 0.9
-    np.testing.assert_allclose(factor, factor.mean(), atol=0.02)
+    x0, y0 = details.box[:2]
+    expected = 1 - 0.3 * details.weight[y - y0, x - x0] * details.slopes
+    assert expected.max() < 0.9
+    np.testing.assert_allclose(flat[y, x] / np.array(SKIN), expected, atol=0.01)
