@@ -28,6 +28,11 @@ CLOSED_GAP_SHARE = 0.3
 """Share of its usual gap below which an eye counts as shut."""
 OPEN_GAP_SHARE = 0.6
 """Share of its usual gap above which an eye's gap is carried as it is."""
+BLINK_DIFFERENCES = (0.25, 0.5)
+"""Differences between the two eyes' gaps, as shares of their usual ones, up to which both blink alike, and from which on one winks:
+of eyes that close together a tracker sees one a frame behind the other."""
+BLINK_GAP_SHARES = (0.7, 0.9)
+"""Mean share of their usual gaps below which eyes are closing, and above which each is as open as it is seen to be."""
 MAX_GAP_RATIO = 1.5
 """An eye opens at most to this multiple of its gap in the picture."""
 
@@ -46,12 +51,23 @@ def lid_ratio(
     rest = np.linalg.norm(neutral[upper] - neutral[lower], axis=-1)
     # an eye is judged as a whole by its middle, so that the corners do not flutter
     ratio = gap / np.maximum(rest, 1e-6)
-    middle = np.repeat(np.stack([ratio[:, 2:5].mean(axis=1), ratio[:, 9:12].mean(axis=1)], axis=1), 7, axis=1)
+    seen = np.stack([ratio[:, 2:5].mean(axis=1), ratio[:, 9:12].mean(axis=1)], axis=1)
+    blinking = _blinking_alike(seen)
+    ratio = ratio * np.repeat(blinking / np.maximum(seen, 1e-6), 7, axis=1)
+    middle = np.repeat(blinking, 7, axis=1)
     shut = np.clip((middle - CLOSED_GAP_SHARE) / (OPEN_GAP_SHARE - CLOSED_GAP_SHARE), 0, 1)
     if target is not None:
         least = np.minimum(eye_opening(meshes) / np.maximum(eye_opening(target), 1e-6), 1)
         ratio = np.maximum(ratio, np.repeat(least, 7, axis=1))
     return np.asarray(np.clip(ratio, 0, MAX_GAP_RATIO) * (shut * shut * (3 - 2 * shut)), float)
+
+
+def _blinking_alike(gaps: NDArray[np.floating]) -> NDArray[np.floating]:
+    """The gaps (N, 2) of right and left eyes, the same for both where they close together."""
+    mean = gaps.mean(axis=1, keepdims=True)
+    difference = np.abs(gaps[:, :1] - gaps[:, 1:])
+    alike = (1 - smoothstep(difference, *BLINK_DIFFERENCES)) * (1 - smoothstep(mean, *BLINK_GAP_SHARES))
+    return gaps + alike * (mean - gaps)
 
 
 def constrain_lids_and_lips(

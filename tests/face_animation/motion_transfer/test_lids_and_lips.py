@@ -20,6 +20,7 @@ from engine.perception.head_pose import canonical_face, mirror_vertices
 from engine.perception.landmarks import eye_opening
 
 UPPER, LOWER = np.array(LID_PAIRS).T
+LEFT_LIDS = [*UPPER[7:], *LOWER[7:]]
 TOP, BOTTOM = np.array(INNER_LIP_PAIRS).T
 
 
@@ -72,6 +73,26 @@ def test_each_eye_is_its_own(driver: NDArray) -> None:
     ratio = lid_ratio(wink[None], driver)[0]
     np.testing.assert_allclose(ratio[:7], 0)
     np.testing.assert_allclose(ratio[7:], 1)
+
+
+def both_eyes(driver: NDArray, right: float, left: float) -> NDArray:
+    """The driver with its eyes open by these shares."""
+    face, other = shut(driver, right), shut(driver, left)
+    face[LEFT_LIDS] = other[LEFT_LIDS]
+    return face
+
+
+@pytest.mark.parametrize(("right", "left"), [(0.62, 0.42), (0.42, 0.62), (0.35, 0.25)])
+def test_eyes_that_close_together_are_never_one_shut_and_one_open(driver: NDArray, right: float, left: float) -> None:
+    ratio = lid_ratio(both_eyes(driver, right, left)[None], driver)[0]
+    np.testing.assert_allclose(ratio[:7], ratio[7:], atol=0.02)
+
+
+@pytest.mark.parametrize(("right", "left"), [(1.0, 0.1), (0.15, 0.9), (1.0, 0.85)])
+def test_a_wink_and_unequal_open_eyes_stay_so(driver: NDArray, right: float, left: float) -> None:
+    ratio = lid_ratio(both_eyes(driver, right, left)[None], driver)[0]
+    for eye, share in ((ratio[:7], right), (ratio[7:], left)):
+        np.testing.assert_allclose(eye, share if share > 0.6 else 0, atol=0.02)
 
 
 def test_a_closed_driver_closes_the_target(driver: NDArray, target: NDArray) -> None:
