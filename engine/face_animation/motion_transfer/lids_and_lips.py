@@ -33,6 +33,8 @@ BLINK_DIFFERENCES = (0.25, 0.5)
 of eyes that close together a tracker sees one a frame behind the other."""
 BLINK_GAP_SHARES = (0.7, 0.9)
 """Mean share of their usual gaps below which eyes are closing, and above which each is as open as it is seen to be."""
+SHUT_GAP_SHARES = (0.2, 0.35)
+"""Share of its usual gap below which an eye is shut, whatever the other does, and above which it may be half open like that."""
 MAX_GAP_RATIO = 1.5
 """An eye opens at most to this multiple of its gap in the picture."""
 
@@ -67,6 +69,7 @@ def _blinking_alike(gaps: NDArray[np.floating]) -> NDArray[np.floating]:
     mean = gaps.mean(axis=1, keepdims=True)
     difference = np.abs(gaps[:, :1] - gaps[:, 1:])
     alike = (1 - smoothstep(difference, *BLINK_DIFFERENCES)) * (1 - smoothstep(mean, *BLINK_GAP_SHARES))
+    alike *= smoothstep(gaps.min(axis=1, keepdims=True), *SHUT_GAP_SHARES)
     return gaps + alike * (mean - gaps)
 
 

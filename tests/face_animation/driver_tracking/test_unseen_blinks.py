@@ -92,7 +92,7 @@ def test_a_blink_that_the_tracker_misses(media) -> None:
     tracked = lid_ratio(track.meshes, track.meshes[0])
     seen = lid_ratio(register_track(track, 0).meshes, track.meshes[0])
     middles = [3, 10]
-    assert (tracked[:, 10] < 0.2).sum() < (tracked[:, 3] < 0.2).sum()
+    assert (tracked[:, 10] > 0.3).all()
     assert (seen[:, middles] < 0.05).all(axis=1).sum() >= 5
     np.testing.assert_allclose(seen[:15, middles], tracked[:15, middles], atol=0.02)
 
