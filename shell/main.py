@@ -14,6 +14,7 @@ import click
 
 import engine
 from worker.programs.interpreter import leave_out_current_folder
+from worker.programs.loading import loading
 
 os.environ.setdefault("OPENBLAS_THREAD_TIMEOUT", "4")
 """Threads of linear algebra sleep between products. By default they spin for a tenth of a second, on a core that
@@ -89,10 +90,11 @@ def main() -> None:
 @click.option("--port", type=click.IntRange(0, 65535), help="The port; 0 takes a free one (GALATEA_PORT; 8000).")
 def serve(host: str | None, port: int | None) -> None:
     """API, web page, embedded Redis and workers in one command."""
-    from shell.settings import read_settings
+    with loading():
+        from shell.settings import read_settings
 
-    settings = read_settings(host=host, port=port)
-    from shell.serve import serve as run  # seconds, in which wrong settings would wait to be told of
+        settings = read_settings(host=host, port=port)
+        from shell.serve import serve as run  # seconds, in which wrong settings would wait to be told of
 
     run(settings)
 
@@ -100,10 +102,11 @@ def serve(host: str | None, port: int | None) -> None:
 @main.command()
 def worker() -> None:
     """Workers alone, for further machines."""
-    from service.logs import configure
-    from shell.opening import open_context
-    from shell.settings import read_settings
-    from worker.app import run
+    with loading():
+        from service.logs import configure
+        from shell.opening import open_context
+        from shell.settings import read_settings
+        from worker.app import run
 
     settings = read_settings()
     configure(settings)

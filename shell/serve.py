@@ -24,6 +24,7 @@ from shell.cli_error import CliError
 from shell.opening import open_context
 from shell.supervisor import Supervisor
 from worker.programs.interpreter import module_command
+from worker.programs.loading import loading
 
 START_TIMEOUT_SECONDS = 10.0
 REDIS_SECONDS = 2.0
@@ -58,7 +59,8 @@ def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket)
     if settings.worker:
         command = module_command("shell.main", "worker")
         supervisor.keep("worker", command, 10, partial(_worker_lives, settings.data_dir))
-    from shell.web_server import answer_requests  # beside the worker, which starts meanwhile
+    with loading():
+        from shell.web_server import answer_requests  # beside the worker, which starts meanwhile
 
     answer_requests(context, listening)
 

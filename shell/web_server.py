@@ -18,6 +18,7 @@ from service.context import Context
 from service.http.page import NOT_BUILT, is_built
 from service.settings import Settings
 from worker.live.processes import starter
+from worker.programs.loading import loading
 
 STOP_SECONDS = 3
 """How long requests may take to end once the service is to end; `Stopping` has told them."""
@@ -30,7 +31,8 @@ so long each time."""
 def answer_requests(context: Context, listening: socket.socket) -> None:
     """Answer what comes over a socket that listens, until SIGINT or SIGTERM."""
     sys.setswitchinterval(SWITCH_SECONDS)
-    app = make_app(context, starter(context.settings))
+    with loading():
+        app = make_app(context, starter(context.settings))
     if not is_built(context.settings.web_dir):
         click.echo(NOT_BUILT, err=True)
     Server(_config(context.settings, app), app.state.stopping).run(sockets=[listening])

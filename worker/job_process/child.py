@@ -25,6 +25,7 @@ from service.catalogue.registry import load_kinds
 from worker.compilation.rehearsal import compiled_folders, load_compiled
 from worker.job_process import exit_reason
 from worker.job_process.work import EventChannel, erased_in, failed, files_of, local, perform
+from worker.programs.loading import loading
 from worker.programs.parent_death import die_with_parent
 from worker.sandbox.confinement import Limits, confine, keep_to_cores, limit, program_paths
 
@@ -182,12 +183,13 @@ def main() -> None:
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     wire = EventChannel(os.fdopen(wire_fd, "wb"))
     served = sys.argv[4].split(",") if sys.argv[4] else []
-    kinds = {name: kind for name, kind in load_kinds(sys.argv[5:]).items() if name in served or not served}
-    for kind in kinds.values():
-        if kind.prepare is not None:
-            kind.prepare()
-    load_compiled(kinds)
-    compile_without_keeping()
+    with loading():
+        kinds = {name: kind for name, kind in load_kinds(sys.argv[5:]).items() if name in served or not served}
+        for kind in kinds.values():
+            if kind.prepare is not None:
+                kind.prepare()
+        load_compiled(kinds)
+        compile_without_keeping()
     models = [Path(os.environ[setting]) for setting in MODEL_SETTINGS if setting in os.environ]
     ready = Ready(kinds, limits, [*program_paths(), *compiled_folders(), *models])
     wire.send("ready")
