@@ -33,6 +33,15 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
     return ByFolder(config, log) if config.getvalue("dist") == "loadfile" else None
 
 
+@pytest.fixture(scope="module", autouse=True)
+def networks() -> Iterator[None]:
+    """A file's tests load each network once."""
+    from engine.perception.solutions import kept_networks  # not for who looks at no picture
+
+    with kept_networks():
+        yield
+
+
 @pytest.fixture(scope="session")
 def media() -> Callable[[str], Path]:
     """`media("portraits/photo_woman_white.png")` is that file of the shared test media.

@@ -38,6 +38,7 @@ from engine.geometry.camera import Camera
 from engine.geometry.multiview.structure_from_motion.mapping import Lens
 from engine.geometry.registration.rigid import Similarity
 from engine.imaging.resample import enlarged_mask, resized
+from engine.perception.solutions import kept_networks
 
 FEATURE_SIDE = 1280
 """Pixels of the longer side of frames in which features are found."""
@@ -137,6 +138,7 @@ def lens_of_frames(lens: KnownLens, size: tuple[int, int], shrunk: tuple[int, in
     return Lens(np.array([lens.focal * scale, lens.k1, lens.k2]), centre, known=True)
 
 
+@kept_networks()
 def find_landmarks(chosen: ChosenFrames, found: ClipCameras, whole: bool, warn: Warn, tick: Tick) -> ClipLandmarks:
     """The landmarks that the frames of a clip show (section 3.3), and masks in which, by these, no hand or foot is missing; of a clip of
     the `whole` person also without what of the room they let in below the shoulders. Warns of what the face wears that is not

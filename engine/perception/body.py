@@ -6,6 +6,7 @@ only one used. It sees one body, the most prominent.
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any
@@ -14,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.joint_names import SIDES
-from engine.perception.solutions import load_solution
+from engine.perception.solutions import network
 
 BODY_LANDMARKS = (
     *("Nose", "LeftEyeInner", "LeftEye", "LeftEyeOuter", "RightEyeInner", "RightEye", "RightEyeOuter"),
@@ -79,7 +80,8 @@ class BodyTracker:
     """Follows the body of a video, frame by frame. Use as a context manager."""
 
     def __init__(self, confidence: float = 0.5):
-        self._pose = _pose(video=True, confidence=confidence)
+        self._lent = _pose(video=True, confidence=confidence)
+        self._pose = self._lent.__enter__()
 
     def __enter__(self) -> BodyTracker:
         return self
@@ -87,7 +89,7 @@ class BodyTracker:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._pose.close()
+        self._lent.__exit__(kind, error, trace)
 
     def __call__(self, rgb: NDArray[np.uint8]) -> Body | None:
         """The body in this frame, (H, W, 3) uint8; None where none is seen."""
@@ -100,9 +102,11 @@ def find_body(rgb: NDArray[np.uint8], confidence: float = 0.5) -> Body | None:
         return _body(pose.process(np.ascontiguousarray(rgb)), rgb.shape[:2])
 
 
-def _pose(video: bool, confidence: float) -> Any:
-
-    return load_solution("pose").Pose(
+def _pose(video: bool, confidence: float) -> AbstractContextManager[Any]:
+    return network(
+        "pose",
+        "Pose",
+        follows=video,
         static_image_mode=not video,
         model_complexity=1,
         min_detection_confidence=confidence,

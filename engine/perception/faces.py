@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager
 from types import TracebackType
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.landmarks import MESH_SIZE
-from engine.perception.solutions import load_solution
+from engine.perception.solutions import network
 
 SETTLING_PASSES = 3
 """A mesh that was just found is looked at again in its own region this often; then it moves no more."""
@@ -40,7 +41,8 @@ class FaceTracker:
     """
 
     def __init__(self, faces: int = 1, confidence: float = 0.3, alone: bool = False):
-        self._mesh = _face_mesh(faces, confidence, alone)
+        self._lent = _face_mesh(faces, confidence, alone)
+        self._mesh = self._lent.__enter__()
         self._alone, self._following = alone, False
 
     def __enter__(self) -> FaceTracker:
@@ -49,7 +51,7 @@ class FaceTracker:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._mesh.close()
+        self._lent.__exit__(kind, error, trace)
 
     def __call__(self, rgb: NDArray[np.uint8]) -> list[NDArray[np.float32]]:
         """The meshes in this frame, the largest first.
@@ -172,8 +174,8 @@ def several_faces(rgb: NDArray[np.uint8]) -> bool:
         return len(_detected(detector, rgb, (0, 0, rgb.shape[1], rgb.shape[0]))) > 1
 
 
-def _detector(confidence: float, far: bool) -> Any:
-    return load_solution("face_detection").FaceDetection(model_selection=int(far), min_detection_confidence=confidence)
+def _detector(confidence: float, far: bool) -> AbstractContextManager[Any]:
+    return network("face_detection", "FaceDetection", model_selection=int(far), min_detection_confidence=confidence)
 
 
 def _detected(detector: Any, rgb: NDArray[np.uint8], part: tuple[int, int, int, int]) -> list[NDArray[np.float64]]:
@@ -192,8 +194,11 @@ def _detected(detector: Any, rgb: NDArray[np.uint8], part: tuple[int, int, int, 
     return boxes
 
 
-def _face_mesh(faces: int, confidence: float, alone: bool) -> Any:
-    return load_solution("face_mesh").FaceMesh(
+def _face_mesh(faces: int, confidence: float, alone: bool) -> AbstractContextManager[Any]:
+    return network(
+        "face_mesh",
+        "FaceMesh",
+        follows=not alone,
         static_image_mode=alone,
         refine_landmarks=True,
         max_num_faces=faces,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from types import TracebackType
 from typing import Any
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.joint_names import FINGERS, SIDES, Side
 from engine.perception.body import Body
-from engine.perception.solutions import load_solution
+from engine.perception.solutions import network
 
 HAND_JOINTS = (
     "",
@@ -53,7 +54,8 @@ class HandTracker:
     """Follows the hands of a video, frame by frame. Use as a context manager."""
 
     def __init__(self, hands: int = 2, confidence: float = 0.5):
-        self._hands = _hands(video=True, hands=hands, confidence=confidence)
+        self._lent = _hands(video=True, hands=hands, confidence=confidence)
+        self._hands = self._lent.__enter__()
 
     def __enter__(self) -> HandTracker:
         return self
@@ -61,7 +63,7 @@ class HandTracker:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._hands.close()
+        self._lent.__exit__(kind, error, trace)
 
     def __call__(self, rgb: NDArray[np.uint8]) -> list[Hand]:
         """The hands in this frame, (H, W, 3) uint8, the surest first."""
@@ -75,8 +77,8 @@ def find_hands(rgb: NDArray[np.uint8], body: Body | None = None, confidence: flo
     looked for in crops at its wrists, and carry the side of their wrist.
     """
     if body is None:
-        with _hands(video=False, hands=4, confidence=confidence) as network:
-            return _read(network.process(np.ascontiguousarray(rgb)), rgb.shape[:2])
+        with _hands(video=False, hands=4, confidence=confidence) as seer:
+            return _read(seer.process(np.ascontiguousarray(rgb)), rgb.shape[:2])
     sides: tuple[Side, ...] = SIDES
     found = (_hand_at_wrist(rgb, body, side, confidence) for side in sides)
     return sorted((hand for hand in found if hand is not None), key=lambda hand: -hand.confidence)
@@ -95,8 +97,8 @@ def _hand_at_wrist(rgb: NDArray[np.uint8], body: Body, side: Side, confidence: f
     crop = cv2.warpAffine(
         rgb, into_crop, (CROP_SIZE, CROP_SIZE), flags=cv2.INTER_AREA if scale < 1 else cv2.INTER_CUBIC
     )
-    with _hands(video=False, hands=2, confidence=confidence) as network:
-        hands = _read(network.process(np.ascontiguousarray(crop, np.uint8)), (CROP_SIZE, CROP_SIZE))
+    with _hands(video=False, hands=2, confidence=confidence) as seer:
+        hands = _read(seer.process(np.ascontiguousarray(crop, np.uint8)), (CROP_SIZE, CROP_SIZE))
     hands = [
         replace(
             hand,
@@ -110,9 +112,11 @@ def _hand_at_wrist(rgb: NDArray[np.uint8], body: Body, side: Side, confidence: f
     return min(hands, key=lambda hand: float(np.linalg.norm(hand.points[0] - wrist)), default=None)
 
 
-def _hands(video: bool, hands: int, confidence: float) -> Any:
-
-    return load_solution("hands").Hands(
+def _hands(video: bool, hands: int, confidence: float) -> AbstractContextManager[Any]:
+    return network(
+        "hands",
+        "Hands",
+        follows=video,
         static_image_mode=not video,
         max_num_hands=hands,
         model_complexity=1,

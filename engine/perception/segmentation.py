@@ -6,12 +6,14 @@ that comes with its body pose. Neither sees edges finely, and they miss differen
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.resample import resized, size_within
 from engine.perception.body import FAINT_CONFIDENCE
-from engine.perception.solutions import load_solution
+from engine.perception.solutions import network
 
 Mask = NDArray[np.float32]
 
@@ -51,11 +53,11 @@ def selfie_mask(rgb: NDArray[np.uint8], posed: Mask | None = None) -> Mask:
     """What the selfie network believes to be a person, (H, W) in [0, 1]: it looks closer where people, also those that
     `posed` shows, take up a small part of the picture."""
     height, width = rgb.shape[:2]
-    with load_solution("selfie_segmentation").SelfieSegmentation(model_selection=0) as network:
+    with network("selfie_segmentation", "SelfieSegmentation", model_selection=0) as seer:
 
         def look(part: NDArray[np.uint8]) -> Mask:
-            straight = network.process(np.ascontiguousarray(part)).segmentation_mask
-            mirrored = network.process(np.ascontiguousarray(part[:, ::-1])).segmentation_mask[:, ::-1]
+            straight = seer.process(np.ascontiguousarray(part)).segmentation_mask
+            mirrored = seer.process(np.ascontiguousarray(part[:, ::-1])).segmentation_mask[:, ::-1]
             return np.asarray((straight + mirrored) / 2, np.float32)
 
         whole = look(rgb)
@@ -74,8 +76,11 @@ def selfie_mask(rgb: NDArray[np.uint8], posed: Mask | None = None) -> Mask:
 
 def _pose_mask(rgb: NDArray[np.uint8], confidence: float = 0.5) -> Mask | None:
     """The body pose's belief; None where it sees no body."""
-    with load_solution("pose").Pose(
-        static_image_mode=True, model_complexity=1, enable_segmentation=True, min_detection_confidence=confidence
-    ) as network:
-        mask = network.process(np.ascontiguousarray(rgb)).segmentation_mask
+    settings: dict[str, Any] = {
+        "model_complexity": 1,
+        "enable_segmentation": True,
+        "min_detection_confidence": confidence,
+    }
+    with network("pose", "Pose", static_image_mode=True, **settings) as seer:
+        mask = seer.process(np.ascontiguousarray(rgb)).segmentation_mask
     return None if mask is None else np.asarray(mask, np.float32)

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import importlib
+import os
 import sys
+from collections import defaultdict
+from collections.abc import Hashable, Iterator
+from contextlib import contextmanager
 from threading import Lock
 from types import ModuleType
 from typing import Any
@@ -18,6 +22,55 @@ UNNEEDED_MODULES = (
 
 _ONE_AT_A_TIME = Lock()
 """MediaPipe's modules import each other in circles: threads that begin at once would find them half made."""
+
+_IDLE: defaultdict[Hashable, list[Any]] = defaultdict(list)
+"""Networks that nobody uses at the moment, by what they are; only while somebody keeps them."""
+_KEEPERS: list[object] = []
+_LENDING = Lock()
+
+
+@contextmanager
+def kept_networks() -> Iterator[None]:
+    """As long as the block lasts, what `network` lent is kept and lent again: loading one takes three times as long as what
+    it does with a picture. All that are kept at once take about 300 MB: for whoever looks at many pictures one after another."""
+    keeper = object()
+    with _LENDING:
+        _KEEPERS.append(keeper)
+    try:
+        yield
+    finally:
+        with _LENDING:
+            _KEEPERS.remove(keeper)
+            ended = [] if _KEEPERS else [one for idle in _IDLE.values() for one in idle]
+            if not _KEEPERS:
+                _IDLE.clear()
+        for one in ended:
+            one.close()
+
+
+@contextmanager
+def network(solution: str, kind: str, follows: bool = False, **settings: Any) -> Iterator[Any]:
+    """The class `kind` of `mediapipe.python.solutions.SOLUTION` with these settings, for the block: one that nobody uses and
+    somebody keeps (`kept_networks`), or a new one. It knows of no picture yet; `follows`: it would remember those that it saw."""
+    key = (solution, kind, *sorted(settings.items()))
+    with _LENDING:
+        lent = _IDLE[key].pop() if _IDLE[key] else None
+    if lent is None:
+        lent = getattr(load_solution(solution), kind)(**settings)
+    elif follows:
+        lent.reset()
+    kept = False
+    try:
+        yield lent
+        with _LENDING:
+            if kept := bool(_KEEPERS):
+                _IDLE[key].append(lent)
+    finally:
+        if not kept:
+            lent.close()
+
+
+os.register_at_fork(after_in_child=_IDLE.clear)  # their threads are not in the new process
 
 
 def load_solution(name: str) -> ModuleType:

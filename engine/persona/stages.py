@@ -16,6 +16,7 @@ from engine.media.limits import Limits
 from engine.perception.expression.features import frontalise
 from engine.perception.identity.backend import descriptor_distances, descriptor_name, face_descriptor
 from engine.perception.identity.descriptor import IdentityDistances
+from engine.perception.solutions import kept_networks
 from engine.persona.collection.coverage import rare, shown_expressions, shown_sides
 from engine.persona.collection.looks import looks
 from engine.persona.collection.person import Belonging, belonging
@@ -108,6 +109,7 @@ class SortedFaces:
         return replace(self, reasons=tuple(reasons))
 
 
+@kept_networks()
 def find_faces_of_photos(
     photos: Photos,
     described_by: str,

@@ -1,9 +1,21 @@
-"""MediaPipe without matplotlib, until somebody draws."""
+"""MediaPipe without matplotlib, until somebody draws; and its networks, which are loaded once for many pictures."""
 
 from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from engine.media.image import read_image
+from engine.perception.body import find_body
+from engine.perception.faces import find_faces
+from engine.perception.solutions import kept_networks, network
+
+SELFIE: dict[str, Any] = {"model_selection": 0}
 
 STEPS = """
 import sys
@@ -57,3 +69,46 @@ with ThreadPoolExecutor(3) as pool:
 
 def test_threads_may_ask_at_once() -> None:
     subprocess.run([sys.executable, "-c", TOGETHER], check=True, timeout=60)
+
+
+def lent() -> Any:
+    return network("selfie_segmentation", "SelfieSegmentation", **SELFIE)
+
+
+def test_what_is_kept_is_lent_again_to_one_at_a_time() -> None:
+    with kept_networks():
+        with lent() as first, lent() as second:
+            assert first is not second
+        with kept_networks(), lent() as again:
+            assert again in (first, second)
+        with lent() as still:
+            assert still in (first, second), "the outer one goes on keeping"
+
+
+def test_one_that_failed_is_lent_to_nobody() -> None:
+    with kept_networks():
+        try:
+            with lent() as failed:
+                raise KeyError
+        except KeyError:
+            pass
+        with lent() as other:
+            assert other is not failed
+
+
+def test_a_kept_network_knows_of_nothing_that_it_saw_before(media: Callable[[str], Path]) -> None:
+    """Whoever looks next finds what a new network finds, to the bit; one that follows faces does so from the beginning."""
+    one, other = (read_image(media(f"fullbody/{name}.png")).rgb for name in ("man_sweater_boots", "man_mug_arm_across"))
+
+    def seen() -> list[np.ndarray]:
+        body = find_body(other)
+        assert body is not None
+        return [body.points, body.world, *find_faces(other)]
+
+    anew = seen()
+    find_body(one)
+    assert find_faces(one)
+    kept = seen()
+    assert len(anew) == len(kept) == 3
+    for before, after in zip(anew, kept, strict=True):
+        np.testing.assert_array_equal(before, after)

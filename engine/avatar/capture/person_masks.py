@@ -14,6 +14,7 @@ from engine.imaging.masks.colour_segmentation import grab_cut
 from engine.imaging.masks.mask_pieces import without_small_pieces
 from engine.imaging.resample import resized, size_within
 from engine.perception.segmentation import people_confidence
+from engine.perception.solutions import kept_networks
 
 MASK_SIDE = 480
 """Pixels of the longer side."""
@@ -25,6 +26,7 @@ MARK_SIDES = 100
 """A point marks what is around it: a spot with a radius of this part of the longer side."""
 
 
+@kept_networks()
 def believed_masks(frames: Sequence[NDArray[np.uint8]], whole: bool) -> list[NDArray[np.float32]]:
     """What networks believe to be the person, (h, w) in [0, 1] of each frame (H, W, 3); `whole`: they are seen from head to
     foot, or nearly."""
