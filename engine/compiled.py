@@ -15,7 +15,7 @@ import numpy as np
 CONSTANTS = (bool, int, float, str, tuple, np.generic)
 """What a compiled function holds as it was when it was compiled."""
 
-UNUSED_MODULES = [name for name in ("coverage", "yaml") if name not in sys.modules]
+UNUSED_MODULES = [name for name in ("colorama", "coverage", "yaml") if name not in sys.modules]
 """What numba loads only because it is there; its settings come from the environment here, not from a file."""
 
 for name in UNUSED_MODULES:
@@ -30,6 +30,8 @@ for name in UNUSED_MODULES:
 
 def njit(**flags: Any) -> Callable[[Callable[..., Any]], Any]:
     """`numba.njit` with these flags; what is compiled is kept beside the source, or where `NUMBA_CACHE_DIR` says."""
+
+    flags = flags | {"no_cfunc_wrapper": True}  # nobody calls one from C
 
     def compiled(function: Callable[..., Any]) -> Any:
         dispatcher = numba.njit(**flags)(function)

@@ -116,11 +116,11 @@ class Camera:
         (metres) come to lie where they would be seen at that distance, so that a search may lead through the camera. What is
         so far aside that the polynomial of the lens would fold it back into the picture goes on outwards.
         """
-        rows = np.ascontiguousarray(points).reshape(-1, 3)
-        found: NDArray[np.floating] = np.empty((len(rows), 3), dtype)
+        rows = np.ascontiguousarray(points, np.float64).reshape(-1, 3)
+        found = np.empty((len(rows), 3))
         lens = np.array([self.focal, self.focal * self.aspect, *self.centre, nearest, self._fold()])
         _project(rows, np.array(self.eye), np.array(self.axes), lens, self._coefficients(), found)
-        return found.reshape(np.shape(points))
+        return found.reshape(np.shape(points)).astype(dtype, copy=False)
 
     def depth(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
         """(...,) metres along the view axis to points (..., 3); not above zero behind the eye."""

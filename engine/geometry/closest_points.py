@@ -76,7 +76,8 @@ def closest_points(
 
 @njit(parallel=True, nogil=True, boundscheck=False, error_model="numpy")
 def _find_many(points, vertices, triangles, near, starts, touching, distance, triangle, barycentrics):  # type: ignore[no-untyped-def]
-    for i in prange(len(points)):
+    for k in prange(len(points)):
+        i = np.int64(k)  # not the unsigned one of `prange`, for which all that is called would be compiled once more
         distance[i], triangle[i] = _nearest(i, points, vertices, triangles, near, starts, touching, barycentrics)
 
 

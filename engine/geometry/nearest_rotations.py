@@ -31,7 +31,11 @@ def _rotations(spread, found):  # type: ignore[no-untyped-def]
     matrix, vectors = np.empty((4, 4)), np.empty((4, 4))
     for n in range(len(spread)):
         s = spread[n]
-        size = np.sqrt((s * s).sum())
+        square = 0.0
+        for i in range(3):
+            for j in range(3):
+                square += s[i, j] * s[i, j]
+        size = np.sqrt(square)
         scale = 1.0 / size if size > 0 else 1.0
         xx = s[0, 0] * scale + NO_ROTATION_WEIGHT
         yy = s[1, 1] * scale + NO_ROTATION_WEIGHT

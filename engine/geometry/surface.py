@@ -84,7 +84,8 @@ def _normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     for i in range(len(out)):
         length = np.sqrt(out[i, 0] ** 2 + out[i, 1] ** 2 + out[i, 2] ** 2)
         if length > 0:
-            out[i] /= length
+            for k in range(3):
+                out[i, k] /= length
     return out
 
 
@@ -111,5 +112,6 @@ def _tangents(vertices: np.ndarray, chart: np.ndarray, triangles: np.ndarray) ->
             weights[i] += weight
     for i in range(len(out)):
         if weights[i] > 0:
-            out[i] /= weights[i]
+            for k in range(6):
+                out[i, k] /= weights[i]
     return out

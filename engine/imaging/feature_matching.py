@@ -124,7 +124,8 @@ def _mutual(likeness: np.ndarray, max_ratio: float) -> np.ndarray:
     """Of the cosines (A, B) between unit vectors: the mutual nearest that pass the test of ratios from both sides."""
     rows, columns = likeness.shape
     across = np.zeros(columns, np.int64)
-    best, second = np.full(columns, -2.0, np.float32), np.full(columns, -2.0, np.float32)
+    best, second = np.empty(columns, np.float32), np.empty(columns, np.float32)
+    best[:], second[:] = -2.0, -2.0
     found = np.zeros((rows, 2), np.int64)
     own, own_best, own_second = np.zeros(rows, np.int64), np.zeros(rows, np.float32), np.zeros(rows, np.float32)
     for i in range(rows):

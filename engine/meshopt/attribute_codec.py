@@ -33,7 +33,7 @@ def encode_attributes(rows: NDArray[np.uint8]) -> bytes:
         raise ValueError(f"{count} rows of {stride} bytes cannot be coded: rows have 4, 8 ... 256 bytes")
     room = np.empty(1 + 2 * rows.size + count // 4 * stride + 2 * BLOCK_ROWS * stride, np.uint8)
     room[0] = HEADER
-    length = _encode(np.ascontiguousarray(rows), _block_rows(stride), room)
+    length = _encode(np.require(rows, requirements=["C", "W"]), _block_rows(stride), room)
     return room[:length].tobytes() + bytes(max(TAIL_BYTES - stride, 0)) + rows[0].tobytes()
 
 
@@ -83,11 +83,16 @@ def _encode(rows: np.ndarray, block: int, out: np.ndarray) -> int:
 @njit(nogil=True)
 def _encode_group(codes: np.ndarray, out: np.ndarray, end: int) -> tuple[int, int]:
     """Write one group in the shortest of the four ways; which one, and where it ends."""
-    if codes.max() == 0:
+    small, medium, any_ = GROUP // 4, GROUP // 2, False
+    for k in range(GROUP):
+        any_ |= codes[k] > 0
+        small += codes[k] >= 3
+        medium += codes[k] >= 15
+    if not any_:
         return 0, end
-    small, medium = GROUP // 4 + (codes >= 3).sum(), GROUP // 2 + (codes >= 15).sum()
     if min(small, medium) >= GROUP:
-        out[end : end + GROUP] = codes
+        for k in range(GROUP):
+            out[end + k] = codes[k]
         return 3, end + GROUP
     bits = 2 if small <= medium else 4
     escape = (1 << bits) - 1
@@ -140,7 +145,8 @@ def _decode_group(data: np.ndarray, place: int, kind: int, codes: np.ndarray) ->
     if kind == 3:
         if place + GROUP > len(data):
             return BROKEN
-        codes[:] = data[place : place + GROUP]
+        for k in range(GROUP):
+            codes[k] = data[place + k]
         return place + GROUP
     bits = 2 * kind
     escape = (1 << bits) - 1

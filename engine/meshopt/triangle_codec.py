@@ -71,7 +71,8 @@ def _shared_edge(edges: np.ndarray, place: int, triangle: np.ndarray) -> tuple[i
 
 @njit(nogil=True)
 def _encode(triangles: np.ndarray, table: np.ndarray, codes: np.ndarray, out: np.ndarray) -> int:
-    edges, vertices = np.full((RECENT, 2), -1, np.int64), np.full(RECENT, -1, np.int64)
+    edges, vertices = np.empty((RECENT, 2), np.int64), np.empty(RECENT, np.int64)
+    edges[:], vertices[:] = -1, -1
     edge_place = vertex_place = end = 0
     new = last = 0  # the number that a vertex not seen before has; the vertex told last
     whence = np.empty(3, np.int64)
@@ -122,10 +123,10 @@ def _encode(triangles: np.ndarray, table: np.ndarray, codes: np.ndarray, out: np
                 if whence[k] == 0 or whence[k] == EXPLICIT:
                     vertices[vertex_place] = vertex
                     vertex_place = (vertex_place + 1) % RECENT
-            edges[edge_place] = b, a
+            edges[edge_place, 0], edges[edge_place, 1] = b, a
             edge_place = (edge_place + 1) % RECENT
-        edges[edge_place] = c, b
-        edges[(edge_place + 1) % RECENT] = a, c
+        after = (edge_place + 1) % RECENT
+        edges[edge_place, 0], edges[edge_place, 1], edges[after, 0], edges[after, 1] = c, b, a, c
         edge_place = (edge_place + 2) % RECENT
     return end
 
@@ -142,7 +143,7 @@ def _decode(codes: np.ndarray, data: np.ndarray, table: np.ndarray, triangles: n
         if age < EXPLICIT:
             edge = edges[(edge_place - 1 - age) % RECENT]
             corners[0], corners[1] = edge[0], edge[1]
-            whence[:2] = OLD  # both are remembered
+            whence[0] = whence[1] = OLD  # both are remembered
             whence[2] = code if code == 0 or code >= BELOW_LAST else OLD
             if whence[2] == OLD:
                 corners[2] = vertices[(vertex_place - 1 - code) % RECENT]
@@ -173,16 +174,17 @@ def _decode(codes: np.ndarray, data: np.ndarray, table: np.ndarray, triangles: n
             elif whence[k] != OLD:
                 last = (last + (1 if whence[k] == ABOVE_LAST else -1)) & 0xFFFFFFFF
                 corners[k] = last
-        a, b, c = corners
+        a, b, c = corners[0], corners[1], corners[2]
         if age == EXPLICIT:
-            edges[edge_place] = b, a
+            edges[edge_place, 0], edges[edge_place, 1] = b, a
             edge_place = (edge_place + 1) % RECENT
-        edges[edge_place] = c, b
-        edges[(edge_place + 1) % RECENT] = a, c
+        after = (edge_place + 1) % RECENT
+        edges[edge_place, 0], edges[edge_place, 1], edges[after, 0], edges[after, 1] = c, b, a, c
         edge_place = (edge_place + 2) % RECENT
         for k in range(3):
             if whence[k] != OLD:
                 vertices[vertex_place] = corners[k]
                 vertex_place = (vertex_place + 1) % RECENT
-        triangles[t] = corners.astype(np.uint32)
+        for k in range(3):
+            triangles[t, k] = corners[k]
     return place == len(data)

@@ -44,7 +44,7 @@ def build_mipmap(texture: NDArray[np.uint8], smallest: int = 16) -> Mipmap:
     )
 
 
-@njit(nogil=True, inline="always", boundscheck=False)
+@njit(nogil=True, fastmath=True, boundscheck=False, error_model="numpy", forceinline=True)
 def _spread(texel: np.uint32) -> np.uint64:
     """The bytes 0, 2, 1, 3 of a texel in the four 16-bit lanes of an integer: weights that sum to 256 can then be
     multiplied into all of them at once, without a carry from one into the next."""
@@ -52,7 +52,7 @@ def _spread(texel: np.uint32) -> np.uint64:
     return (wide | (wide << np.uint64(24))) & np.uint64(0x00FF00FF00FF00FF)
 
 
-@njit(nogil=True, inline="always", boundscheck=False)
+@njit(nogil=True, fastmath=True, boundscheck=False, error_model="numpy", forceinline=True)
 def _bilinear(texels: np.ndarray, start: int, height: int, width: int, u: np.float32, v: np.float32) -> tuple:
     """Places and weights are rounded to 1/256: at most half a grey level."""
     half, step = np.float32(0.5), np.float32(256)
@@ -72,7 +72,7 @@ def _bilinear(texels: np.ndarray, start: int, height: int, width: int, u: np.flo
     return red, green, blue
 
 
-@njit(nogil=True, inline="always", boundscheck=False)
+@njit(nogil=True, fastmath=True, boundscheck=False, error_model="numpy", forceinline=True)
 def look_up(
     texels: np.ndarray, starts: np.ndarray, sizes: np.ndarray, u: np.float32, v: np.float32, level: np.float32
 ) -> tuple:

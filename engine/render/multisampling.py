@@ -66,9 +66,11 @@ def draw_samples(
     """
     height, width = size
     blocks, samples = ((width - 1) >> BLOCK_SHIFT) + 1, len(offsets)
-    ids = np.full((len(pixels), samples), -1, np.int32)
-    depths = np.full((len(pixels), samples), np.inf, np.float32)
-    reach = np.abs(offsets).max()
+    ids, depths = np.empty((len(pixels), samples), np.int32), np.empty((len(pixels), samples), np.float32)
+    ids[:], depths[:] = -1, np.inf
+    reach = 0
+    for s in range(samples):
+        reach = max(reach, abs(int(offsets[s, 0])), abs(int(offsets[s, 1])))
     places = snap_to_subpixels(points)
     for t in range(faces.shape[0]):
         if facing[t] == 0 or (cull and facing[t] < 0):

@@ -91,11 +91,12 @@ def draw_into(
     """Draw triangles into what is already there, in the calling thread alone: for callers that draw several pictures
     side by side. Arrays are as in `rasterise` and `Raster`: float32 (V, 3), int32 (T, 3), int32 and float32 (H, W)."""
     places = snap_to_subpixels(points)
+    first, last = np.int64(0), ids.shape[0] - 1
     for t in range(faces.shape[0]):
-        _draw(places, points, faces, t, 0, ids.shape[0] - 1, perspective, cull, ids, depths)
+        _draw(places, points, faces, t, first, last, perspective, cull, ids, depths)
 
 
-@njit(inline="always")
+@njit(boundscheck=False, error_model="numpy", forceinline=True)
 def _snap(value: float) -> int:
     return int(np.floor(value * SUBPIXEL_STEPS + 0.5))
 
@@ -113,7 +114,7 @@ def snap_to_subpixels(points: np.ndarray) -> np.ndarray:
     return places
 
 
-@njit(inline="always")
+@njit(boundscheck=False, error_model="numpy", forceinline=True)
 def edge_bias(dx: int, dy: int) -> int:
     """0 for a top or left edge, which owns the pixel centres lying on it; -1 for the others.
 
@@ -126,10 +127,11 @@ def edge_bias(dx: int, dy: int) -> int:
 def _nearest(
     points: np.ndarray, faces: np.ndarray, height: int, width: int, perspective: bool, cull: bool, bands: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    ids = np.full((height, width), -1, np.int32)
-    depths = np.full((height, width), np.inf, np.float32)
+    ids, depths = np.empty((height, width), np.int32), np.empty((height, width), np.float32)
+    ids[:], depths[:] = -1, np.inf
     places = snap_to_subpixels(points)
-    for band in prange(bands):  # each band of rows walks all triangles in their order: bands do not change the result
+    for number in prange(bands):  # each band of rows walks all triangles in their order: bands do not change the result
+        band = np.int64(number)  # not the unsigned one of `prange`, for which `_draw` would be compiled once more
         first, last = height * band // bands, height * (band + 1) // bands - 1
         for t in range(faces.shape[0]):
             _draw(places, points, faces, t, first, last, perspective, cull, ids, depths)

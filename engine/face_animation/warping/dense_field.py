@@ -141,7 +141,7 @@ def _grid_around(face: NDArray[np.floating], shape: tuple[int, int], spacing: fl
 def _locate(control, triangles, x, y, order, corners, weights):  # type: ignore[no-untyped-def]
     """Write corners and weights (N, 3) of the points that lie in a triangle; x and y are sorted by y."""
     for t in range(len(triangles)):
-        a, b, c = triangles[t]
+        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
         bx, by = control[b, 0] - control[a, 0], control[b, 1] - control[a, 1]
         cx, cy = control[c, 0] - control[a, 0], control[c, 1] - control[a, 1]
         area = bx * cy - by * cx
@@ -149,16 +149,17 @@ def _locate(control, triangles, x, y, order, corners, weights):  # type: ignore[
             continue
         top = control[a, 1] + min(0.0, by, cy)
         bottom = control[a, 1] + max(0.0, by, cy)
-        for k in range(_below(y, top - INSIDE_TOLERANCE), _below(y, bottom + INSIDE_TOLERANCE)):
+        for k in range(_below(y, top - INSIDE_TOLERANCE, False), _below(y, bottom + INSIDE_TOLERANCE, False)):
             px, py = x[k] - control[a, 0], y[k] - control[a, 1]
             wb, wc = (px * cy - py * cx) / area, (bx * py - by * px) / area
             if min(wb, wc, 1 - wb - wc) >= -INSIDE_TOLERANCE:
-                corners[order[k]] = a, b, c
-                weights[order[k]] = 1 - wb - wc, wb, wc
+                at = order[k]
+                corners[at, 0], corners[at, 1], corners[at, 2] = a, b, c
+                weights[at, 0], weights[at, 1], weights[at, 2] = 1 - wb - wc, wb, wc
 
 
 @njit(nogil=True)
-def _below(places, value, or_at=False):  # type: ignore[no-untyped-def]
+def _below(places, value, or_at):  # type: ignore[no-untyped-def]
     """How many of the places, which rise, are below a value, `or_at` it."""
     low, high = 0, len(places)
     while low < high:
@@ -178,12 +179,13 @@ def _disk_average(vertices, radii, across, down, corners, weights, count):  # ty
     for v in range(len(vertices)):
         x, y, radius = vertices[v, 0], vertices[v, 1], radii[v]
         inside = 0
-        for row in range(_below(down, y - radius), _below(down, y + radius, True)):
+        for row in range(_below(down, y - radius, False), _below(down, y + radius, True)):
             wide = np.sqrt(max(radius**2 - (down[row] - y) ** 2, 0.0))
-            for column in range(_below(across, x - wide), _below(across, x + wide, True)):
+            for column in range(_below(across, x - wide, False), _below(across, x + wide, True)):
                 inside += 1
                 sample = row * len(across) + column
                 for k in range(3):
                     out[v, corners[sample, k]] += weights[sample, k]
-        out[v] /= inside
+        for k in range(count):
+            out[v, k] /= inside
     return out

@@ -101,12 +101,14 @@ def _confirmed(
     limits: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Points (N, 3) at the median of what views say, and how many agree (N,), 0 where more look through the point."""
-    median, agreeing = points.copy(), np.ones(len(points), np.int64)
+    median, agreeing = np.empty_like(points), np.empty(len(points), np.int64)
     for n in prange(len(points)):
         heights, ordered = np.empty(len(asked) + 1), np.empty(len(asked) + 1)
+        for k in range(3):
+            median[n, k] = points[n, k]
         moved = 0.0  # along the normal, from where the point's own view has it
         for _ in range(FUSION_ROUNDS):
-            count, denied = 1, 0
+            count, denied = np.int64(1), 0
             heights[0] = -moved
             for view in asked:
                 seen, height = _height(median[n], directions[n], depths[view], normals[view], projections[view], limits)

@@ -113,6 +113,7 @@ def _searched(
     lens = np.array([view.camera.focal, view.camera.focal * view.camera.aspect, *view.camera.centre], np.float32)
     greys = np.concatenate([source.grey.ravel() for source in sources])
     figures = np.stack([source.figure for source in sources])
+    figure = np.ascontiguousarray(view.figure)
     relative = np.stack([_relative(view.camera, source.camera) for source in sources])
     cost = np.full(view.grey.shape, np.inf, np.float32)
     rounds, begun = (FINER_ROUNDS, enlargements + 1) if enlargements else (FIRST_ROUNDS, 0)
@@ -120,7 +121,7 @@ def _searched(
         spread = REDRAWN_SHARE * 0.5 ** (begun + turn)
         for colour in (0, 1):
             _visit(
-                view.grey, view.figure, measured, bounds, lens, greys, figures, relative,
+                view.grey, figure, measured, bounds, lens, greys, figures, relative,
                 planes, cost, draws, spread, 2 * turn + colour,
             )  # fmt: skip
     return planes, cost
@@ -171,7 +172,8 @@ def _visit(
 ) -> None:
     """Try at every second pixel the planes of its neighbours and one near its own; keep the best."""
     height, width = grey.shape
-    for y in prange(height):
+    for row in prange(height):
+        y = np.int64(row)  # not the unsigned one of `prange`, for which all that is called would be compiled once more
         window, places = np.empty(WINDOW_MEMORY, np.float32), np.empty(SAMPLES, np.int32)
         for x in range((y + visit) % 2, width, 2):
             if not measured[y, x]:
@@ -187,8 +189,8 @@ def _visit(
                 if attempt < 4:
                     trial = _fetched(planes, cost, measured, x, y, attempt, ray, lens)
                 else:
-                    row = draws[(y * width + x + visit * 7919) % RANDOM_NUMBERS]
-                    trial = _changed(best, row, np.float32(spread), far - near, ray)
+                    drawn = draws[(y * width + x + visit * 7919) % RANDOM_NUMBERS]
+                    trial = _changed(best, drawn, np.float32(spread), far - near, ray)
                 if near <= trial[0] <= far:
                     found = plane_cost(trial, ray, lens, window, places, count, variance, greys, figures, relative)
                     if found < least:

@@ -62,6 +62,22 @@ def linearise(
 
 
 @njit(nogil=True, error_model="numpy")
+def invert_symmetric(block: np.ndarray, inverse: np.ndarray) -> None:
+    """Fill the inverse of a symmetric (3, 3), by its cofactors."""
+    xx, xy, xz = block[0, 0], block[0, 1], block[0, 2]
+    yy, yz, zz = block[1, 1], block[1, 2], block[2, 2]
+    a, b, c = yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy
+    determinant = xx * a + xy * b + xz * c
+    inverse[0, 0], inverse[1, 1], inverse[2, 2] = a, xx * zz - xz * xz, xx * yy - xy * xy
+    inverse[0, 1] = inverse[1, 0] = b
+    inverse[0, 2] = inverse[2, 0] = c
+    inverse[1, 2] = inverse[2, 1] = xy * xz - xx * yz
+    for row in range(3):
+        for column in range(3):
+            inverse[row, column] /= determinant
+
+
+@njit(nogil=True, error_model="numpy")
 def eliminate_points(geometry: tuple, layout: tuple, loss_scale: float, damping: float, found: tuple) -> None:
     """Fill the reduced system, its right side, the diagonal that it has before elimination, and each point's inverse
     (3, 3) and gradient (3,). `layout`: observations sorted by point, where each point's begin, the first column of a free
@@ -69,14 +85,18 @@ def eliminate_points(geometry: tuple, layout: tuple, loss_scale: float, damping:
     rotations, translations, lenses, lens_of, points = geometry
     cameras, indices, offsets, starts, slots, first_lens = layout
     system, right, own, inverses, gradients = found
-    most = np.max(starts[1:] - starts[:-1])
+    most = 0
+    for p in range(len(starts) - 1):
+        most = max(most, starts[p + 1] - starts[p])
     jacobian, residual = np.zeros((2, POINT)), np.zeros(2)
     cross = np.zeros((6 * most + 3 * len(lenses), 3))  # of a point: sum E'P, rows of its cameras, then of the lenses
     columns = np.zeros(6 * most + 3 * len(lenses), np.int64)
-    spread = np.zeros_like(cross)
+    spread, block = np.zeros_like(cross), np.zeros((3, 3))
     for p in range(len(starts) - 1):
         begin, end = starts[p], starts[p + 1]
-        block, gradient = np.zeros((3, 3)), np.zeros(3)
+        block[:] = 0
+        gradient = gradients[p]
+        gradient[:] = 0
         rows = 3 * len(lenses)
         cross[:rows] = 0
         for k in range(rows):
@@ -120,8 +140,8 @@ def eliminate_points(geometry: tuple, layout: tuple, loss_scale: float, damping:
                 rows += 6
         for k in range(3):
             block[k, k] += damping * max(block[k, k], 1e-12) + 1e-300
-        inverse = np.linalg.inv(block)
-        inverses[p], gradients[p] = inverse, gradient
+        inverse = inverses[p]
+        invert_symmetric(block, inverse)
         for a in range(rows):
             for k in range(3):
                 spread[a, k] = cross[a, 0] * inverse[0, k] + cross[a, 1] * inverse[1, k] + cross[a, 2] * inverse[2, k]
@@ -139,9 +159,10 @@ def back_substitute(geometry: tuple, layout: tuple, loss_scale: float, solved: t
     rotations, translations, lenses, lens_of, points = geometry
     cameras, indices, offsets, starts, slots, first_lens = layout
     change, inverses, gradients = solved
-    jacobian, residual = np.zeros((2, POINT)), np.zeros(2)
+    jacobian, residual, rest = np.zeros((2, POINT)), np.zeros(2), np.zeros(3)
     for p in range(len(starts) - 1):
-        rest = gradients[p].copy()
+        for k in range(3):
+            rest[k] = gradients[p, k]
         for o in range(starts[p], starts[p + 1]):
             c = cameras[o]
             lens = lens_of[c]
@@ -158,4 +179,5 @@ def back_substitute(geometry: tuple, layout: tuple, loss_scale: float, solved: t
                     along += jacobian[row, a] * change[first_lens + 3 * lens + a - 6]
                 for k in range(3):
                     rest[k] -= weight * jacobian[row, OWN + k] * along
-        shifts[p] = inverses[p] @ rest
+        for k in range(3):
+            shifts[p, k] = inverses[p, k, 0] * rest[0] + inverses[p, k, 1] * rest[1] + inverses[p, k, 2] * rest[2]

@@ -93,7 +93,8 @@ def depth_range(hull: VisualHull, camera: Camera, pixels: NDArray[np.bool_]) -> 
     the hull, and where it leaves it for good. Zero for other pixels and where the hull is missed."""
     found = np.zeros((*camera.size, 2), np.float32)
     lens = np.array([camera.focal, camera.focal * camera.aspect, *camera.centre])
-    _march(hull.occupied, hull.origin, hull.spacing, np.array(camera.eye), np.array(camera.axes), lens, pixels, found)
+    eye, axes = np.array(camera.eye), np.array(camera.axes)
+    _march(hull.occupied, hull.origin, hull.spacing, eye, axes, lens, np.ascontiguousarray(pixels), found)
     return found
 
 
@@ -150,16 +151,18 @@ def _vote(
     for i in prange(columns):
         for j in range(rows):
             x, y = origin[0] + spacing * i, origin[1] + spacing * j
-            row = projection[:, 0] * x + projection[:, 1] * y + projection[:, 3]
+            right = projection[0, 0] * x + projection[0, 1] * y + projection[0, 3]
+            down = projection[1, 0] * x + projection[1, 1] * y + projection[1, 3]
+            ahead = projection[2, 0] * x + projection[2, 1] * y + projection[2, 3]
             for k in range(layers):
                 if missed[i, j, k] > may_miss:
                     continue
                 z = origin[2] + spacing * k
-                away = row[2] + projection[2, 2] * z
+                away = ahead + projection[2, 2] * z
                 if away <= 0:
                     continue
-                u = int(np.floor((row[0] + projection[0, 2] * z) / away + 0.5))
-                v = int(np.floor((row[1] + projection[1, 2] * z) / away + 0.5))
+                u = int(np.floor((right + projection[0, 2] * z) / away + 0.5))
+                v = int(np.floor((down + projection[1, 2] * z) / away + 0.5))
                 if 0 <= u < width and 0 <= v < height:
                     seen[i, j, k] += 1
                     if distance[v, u] > margin + reach / away:

@@ -44,7 +44,7 @@ def _best(
 ) -> tuple:
     """The cheapest collapse of `u`: its cost and where to; (inf, -1) if none is allowed."""
     count = one_ring(u, faces, alive, head, following, around, seen)
-    if count <= 0 or not np.isfinite(factors[u]):
+    if count <= 0 or factors[u] == np.inf:
         return np.inf, -1
     border = 0
     for i in range(count):
@@ -55,7 +55,7 @@ def _best(
     if border not in (0, 2):
         return np.inf, -1
     for i in range(count):
-        v = around[i, 0]
+        v = np.int64(around[i, 0])  # of one type wherever points are named: all that is called is compiled once
         cost = collapse_cost(u, v, places, quadrics, bones, weights, bending)
         along = border == 0 or around[i, 1] == 1  # a border is left along itself alone
         costs[i] = cost * factors[u] if along else np.inf
@@ -68,7 +68,7 @@ def _best(
         if price == np.inf:
             return np.inf, -1
         costs[chosen] = np.inf
-        v = around[chosen, 0]
+        v = np.int64(around[chosen, 0])
         others = one_ring(v, faces, alive, head, following, around_other, seen)
         if others < 0 or count + others > MAX_NEIGHBOURS:
             continue
@@ -84,7 +84,7 @@ def _best(
         if common != around[chosen, 1] or (count == 3 and others == 3 and border == 0):
             continue
         if corner_successors(u, v, places, faces, corners, uv, alive, head, following, wedges) > 0:
-            return price, int(v)
+            return price, v
 
 
 def collapse_edges(
@@ -135,9 +135,8 @@ def _collapse(
     bending: float,
 ) -> np.ndarray:
     points, left = len(places), len(faces)
-    alive = np.ones(left, np.bool_)
-    head = np.full(points, -1, np.int32)
-    following = np.full(3 * left, -1, np.int32)
+    alive, head, following = np.empty(left, np.bool_), np.empty(points, np.int32), np.empty(3 * left, np.int32)
+    alive[:], head[:], following[:] = True, -1, -1
     for corner in range(3 * left):
         p = faces[corner // 3, corner % 3]
         following[corner] = head[p]
@@ -146,17 +145,18 @@ def _collapse(
     around_other = np.empty((MAX_NEIGHBOURS, 2), np.int32)
     costs = np.empty(MAX_NEIGHBOURS)
     to_mend = np.empty(MAX_NEIGHBOURS, np.int32)
-    seen = np.full(points, -1, np.int32)
+    seen = np.empty(points, np.int32)
+    seen[:] = -1
     wedges = np.empty((8, 2), np.int32)
     waiting = np.zeros(points, np.bool_)
     heap_keys, heap_items, size = np.empty(points), np.empty(points, np.int32), 0
     for u in order:
-        if np.isfinite(first[u]):
+        if first[u] < np.inf:
             heap_keys[size], heap_items[size] = first[u], u  # in order, so a heap already
             size += 1
             waiting[u] = True
     while left > target and size > 0:
-        key, u = heap_keys[0], heap_items[0]
+        key, u = heap_keys[0], np.int64(heap_items[0])
         size -= 1
         heap_keys[0], heap_items[0] = heap_keys[size], heap_items[size]
         sift_down(heap_keys, heap_items, size)
@@ -202,7 +202,7 @@ def _collapse(
         for i in range(count):
             to_mend[i] = around[i, 0]
         for i in range(-1, count):
-            p = v if i < 0 else to_mend[i]
+            p = v if i < 0 else np.int64(to_mend[i])
             if waiting[p]:
                 continue
             price, where = _best(

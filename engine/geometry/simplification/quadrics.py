@@ -11,7 +11,7 @@ import numpy as np
 from engine.compiled import njit
 
 
-@njit(nogil=True, inline="always")
+@njit(nogil=True, forceinline=True)
 def _add_plane(quadrics: np.ndarray, p: int, a: float, b: float, c: float, d: float, w: float) -> None:
     q = quadrics[p]
     q[0] += w * a * a
@@ -26,7 +26,7 @@ def _add_plane(quadrics: np.ndarray, p: int, a: float, b: float, c: float, d: fl
     q[9] += w * d * d
 
 
-@njit(nogil=True, inline="always")
+@njit(nogil=True, forceinline=True)
 def _error(quadrics: np.ndarray, p: int, x: float, y: float, z: float) -> float:
     q = quadrics
     return (
@@ -71,11 +71,12 @@ def cheapest_collapses(
     bending: float,
 ) -> np.ndarray:
     """(P,) what each point's cheapest collapse would cost, allowed or not."""
-    least = np.full(len(places), np.inf)
+    least = np.empty(len(places))
+    least[:] = np.inf
     for e in range(len(ends)):
         for k in range(2):
             u, v = ends[e, k], ends[e, 1 - k]
-            if np.isfinite(factors[u]):
+            if factors[u] < np.inf:
                 least[u] = min(least[u], factors[u] * collapse_cost(u, v, places, quadrics, bones, weights, bending))
     return least
 
@@ -115,7 +116,8 @@ def surface_quadrics(
 @njit(nogil=True)
 def texture_seams(faces: np.ndarray, corners: np.ndarray, edges: np.ndarray, count: int) -> np.ndarray:
     """(E,) where the triangles at an edge name different vertices at one of its ends."""
-    ends = np.full((count, 2), -1, np.int32)
+    ends = np.empty((count, 2), np.int32)
+    ends[:] = -1
     seams = np.zeros(count, np.bool_)
     for t in range(len(faces)):
         for k in range(3):

@@ -113,7 +113,7 @@ def _relax(image, alpha, front, back, sweeps, some_settled):  # type: ignore[no-
                     back[y, x, c] = min(max((m00 * right_b - m01 * right_f) * scale, 0.0), 255.0)
 
 
-@njit(fastmath=True, nogil=True, inline="always")
+@njit(fastmath=True, nogil=True, forceinline=True)
 def _amid_equals(alpha, y, x):  # type: ignore[no-untyped-def]
     """Whether a pixel is as opaque as each of its neighbours."""
     height, width = alpha.shape

@@ -53,9 +53,9 @@ def _fill(planes, hole, known, source_ys, source_xs):  # type: ignore[no-untyped
             return
         mass = take_target(planes, known, ty, tx, target)
         best = np.float32(np.inf)
-        by = bx = 0
+        by = bx = np.int64(0)
         for i in range(len(source_ys)):
-            sy, sx = source_ys[i], source_xs[i]
+            sy, sx = np.int64(source_ys[i]), np.int64(source_xs[i])
             away = np.float32((sy - ty) * (sy - ty) + (sx - tx) * (sx - tx))
             found = patch_distance(planes, target, mass, sy, sx) + np.float32(DISTANCE_COST) * away
             if found < best:

@@ -52,12 +52,12 @@ def colour_image(planes: NDArray[np.float32]) -> NDArray[np.float32]:
     return np.ascontiguousarray(planes[:, :, :-1].transpose(1, 2, 0))
 
 
-@njit(fastmath=True, nogil=True, inline="always")
+@njit(fastmath=True, nogil=True, forceinline=True)
 def _allowed_shift(mean):  # type: ignore[no-untyped-def]
     return min(max(mean, np.float32(-MAX_SHIFT)), np.float32(MAX_SHIFT))
 
 
-@njit(fastmath=True, nogil=True, inline="always")
+@njit(fastmath=True, nogil=True, forceinline=True)
 def take_target(planes, weight, y, x, target):  # type: ignore[no-untyped-def]
     """Copy the patch at (y, x) into `target` (4, 7, 8): colours and weights. Returns the sum of the weights."""
     mass = np.float32(0)
@@ -71,7 +71,7 @@ def take_target(planes, weight, y, x, target):  # type: ignore[no-untyped-def]
     return max(mass, np.float32(1e-6))
 
 
-@njit(fastmath=True, nogil=True, inline="always")
+@njit(fastmath=True, nogil=True, forceinline=True)
 def patch_distance(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def]
     """Weighted mean squared difference, after the best allowed shift, of the taken patch and the one at
     (sy, sx) (grey levels squared)."""
@@ -123,7 +123,7 @@ def _match_band(planes, weight, targets, sources, field, cost, sweeps, random_tr
                 if not targets[y, x]:
                     continue
                 mass = take_target(planes, weight, y, x, target)
-                by, bx = field[y, x, 0], field[y, x, 1]
+                by, bx = np.int64(field[y, x, 0]), np.int64(field[y, x, 1])
                 best = patch_distance(planes, target, mass, by, bx) if sweep == 0 else cost[y, x]
                 for k in range(2):
                     ny, nx = (y - step, x) if k == 0 else (y, x - step)
@@ -221,7 +221,8 @@ def _weigh_band(planes, weight, targets, field, cost, sharpness, shift, trust, t
         for x in range(cost.shape[1]):
             if targets[y, x]:
                 mass = take_target(planes, weight, y, x, target)
-                shift[y, x] = patch_shift(planes, target, mass, field[y, x, 0], field[y, x, 1])
+                sy, sx = np.int64(field[y, x, 0]), np.int64(field[y, x, 1])
+                shift[y, x, 0], shift[y, x, 1], shift[y, x, 2] = patch_shift(planes, target, mass, sy, sx)
                 if sharpness > 0:
                     trust[y, x] = mass * np.exp(-cost[y, x] / sharpness) + np.float32(1e-6)
                 else:

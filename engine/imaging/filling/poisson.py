@@ -16,6 +16,8 @@ from engine.imaging.masks.mask_pieces import bounding_box
 
 V_CYCLES = 2
 """V-cycles on the finest grid after the full multigrid start: under 1% of the largest boundary step is left."""
+SWEEPS = 1, 20
+"""Of relaxation on a grid, and on the coarsest one, which they solve."""
 
 
 def poisson_blend(
@@ -79,14 +81,15 @@ def _edge_distances(mask):  # type: ignore[no-untyped-def]
 
 
 @njit(fastmath=True, nogil=True)
-def _discretise(distance, values, step, links, inverse, right):  # type: ignore[no-untyped-def]
+def _discretise(distance, values, step, grid, links, inverse, right):  # type: ignore[no-untyped-def]
     """The grid of every `step`-th pixel: which links lead to unknown pixels, the inverse of the diagonal (0
     where nothing is to be found) and what the edges' values (H, W, C) contribute. Whether there is anything to find."""
-    height, width = inverse.shape
-    channels = right.shape[2]
+    begin, rows, columns = grid[0], grid[1], grid[2]
+    channels = right.shape[1]
     found = False
-    for y in range(1, height - 1):
-        for x in range(1, width - 1):
+    for y in range(1, rows - 1):
+        for x in range(1, columns - 1):
+            i = begin + y * columns + x
             fy, fx = (y - 1) * step + 1, (x - 1) * step + 1
             if distance[fy, fx, 0] == 0:
                 continue
@@ -99,161 +102,158 @@ def _discretise(distance, values, step, links, inverse, right):  # type: ignore[
                     ey = fy - 1 + (away if k == 1 else -away if k == 0 else 0)
                     ex = fx - 1 + (away if k == 3 else -away if k == 2 else 0)
                     for c in range(channels):
-                        right[y, x, c] += weight * values[ey, ex, c]
+                        right[i, c] += weight * values[ey, ex, c]
                 elif away < 0 and -away <= step:
                     continue
                 else:
-                    links[y, x, k] = 1
+                    links[i, k] = 1
                     diagonal += 1
             if diagonal > 0:
-                inverse[y, x], found = 1 / diagonal, True
+                inverse[i], found = 1 / diagonal, True
     return found
 
 
 @njit(fastmath=True, nogil=True)
-def _runs(inverse):  # type: ignore[no-untyped-def]
-    """(R, 3) int32: row, first column and the column after the last of each stretch where there is something to find."""
-    height, width = inverse.shape
-    found = np.empty((height * (width // 2 + 1), 3), np.int32)
-    count = 0
-    for y in range(1, height - 1):
-        for x in range(1, width - 1):
-            if inverse[y, x] == 0:
+def _find_runs(inverse, grid, runs, count):  # type: ignore[no-untyped-def]
+    """Write to `runs`, from `count` on, row, first column and the column after the last of each stretch of the grid where
+    there is something to find. The count afterwards."""
+    begin, rows, columns = grid[0], grid[1], grid[2]
+    for y in range(1, rows - 1):
+        for x in range(1, columns - 1):
+            i = begin + y * columns + x
+            if inverse[i] == 0:
                 continue
-            if inverse[y, x - 1] == 0:
-                found[count, 0], found[count, 1] = y, x
+            if inverse[i - 1] == 0:
+                runs[count, 0], runs[count, 1] = y, x
                 count += 1
-            found[count - 1, 2] = x + 1
-    return found[:count].copy()
+            runs[count - 1, 2] = x + 1
+    return count
 
 
 @njit(fastmath=True, nogil=True)
-def _relax(u, right, links, inverse, runs, sweeps):  # type: ignore[no-untyped-def]
+def _relax(u, right, links, inverse, runs, grid, sweeps):  # type: ignore[no-untyped-def]
     """Red-black Gauss-Seidel in place."""
+    columns = grid[2]
     for half in range(2 * sweeps):
-        for run in range(len(runs)):
-            y, first, end = runs[run]
-            for x in range(first + (first + 1 + y + half) % 2, end, 2):
-                scale = inverse[y, x]
-                a, b, c, d = links[y, x, 0], links[y, x, 1], links[y, x, 2], links[y, x, 3]
-                for k in range(u.shape[2]):
-                    total = a * u[y - 1, x, k] + b * u[y + 1, x, k] + c * u[y, x - 1, k] + d * u[y, x + 1, k]
-                    u[y, x, k] = (right[y, x, k] + total) * scale
+        for run in range(grid[3], grid[4]):
+            y, first, end = runs[run, 0], runs[run, 1], runs[run, 2]
+            row = grid[0] + y * columns
+            for i in range(row + first + (first + 1 + y + half) % 2, row + end, 2):
+                scale = inverse[i]
+                a, b, c, d = links[i, 0], links[i, 1], links[i, 2], links[i, 3]
+                for k in range(u.shape[1]):
+                    total = a * u[i - columns, k] + b * u[i + columns, k] + c * u[i - 1, k] + d * u[i + 1, k]
+                    u[i, k] = (right[i, k] + total) * scale
 
 
 @njit(fastmath=True, nogil=True)
-def _restrict_residual(u, right, links, inverse, runs, residual, coarse, coarse_runs):  # type: ignore[no-untyped-def]
+def _restrict_residual(u, right, links, inverse, runs, residual, grid, coarse):  # type: ignore[no-untyped-def]
     """The coarse grid's right side: the residual, fully weighted (4 fine pixels stand in a coarse one)."""
-    for run in range(len(runs)):
-        y, first, end = runs[run]
+    columns = grid[2]
+    for run in range(grid[3], grid[4]):
+        row = grid[0] + runs[run, 0] * columns
+        for i in range(row + runs[run, 1], row + runs[run, 2]):
+            scale = inverse[i]
+            a, b, c, d = links[i, 0], links[i, 1], links[i, 2], links[i, 3]
+            for k in range(u.shape[1]):
+                total = a * u[i - columns, k] + b * u[i + columns, k] + c * u[i - 1, k] + d * u[i + 1, k]
+                residual[i, k] = right[i, k] + total - u[i, k] / scale
+    for run in range(coarse[3], coarse[4]):
+        y, first, end = runs[run, 0], runs[run, 1], runs[run, 2]
+        into, fine = coarse[0] + y * coarse[2], grid[0] + (2 * y - 1) * columns - 1
         for x in range(first, end):
-            scale = inverse[y, x]
-            a, b, c, d = links[y, x, 0], links[y, x, 1], links[y, x, 2], links[y, x, 3]
-            for k in range(u.shape[2]):
-                total = a * u[y - 1, x, k] + b * u[y + 1, x, k] + c * u[y, x - 1, k] + d * u[y, x + 1, k]
-                residual[y, x, k] = right[y, x, k] + total - u[y, x, k] / scale
-    for run in range(len(coarse_runs)):
-        y, first, end = coarse_runs[run]
-        for x in range(first, end):
-            fy, fx = 2 * y - 1, 2 * x - 1
-            for k in range(u.shape[2]):
-                sides = residual[fy - 1, fx, k] + residual[fy + 1, fx, k]
-                sides += residual[fy, fx - 1, k] + residual[fy, fx + 1, k]
-                corners = residual[fy - 1, fx - 1, k] + residual[fy - 1, fx + 1, k]
-                corners += residual[fy + 1, fx - 1, k] + residual[fy + 1, fx + 1, k]
-                coarse[y, x, k] = residual[fy, fx, k] + sides / 2 + corners / 4
+            i = fine + 2 * x
+            for k in range(u.shape[1]):
+                sides = residual[i - columns, k] + residual[i + columns, k] + residual[i - 1, k] + residual[i + 1, k]
+                corners = residual[i - columns - 1, k] + residual[i - columns + 1, k]
+                corners += residual[i + columns - 1, k] + residual[i + columns + 1, k]
+                right[into + x, k] = residual[i, k] + sides / 2 + corners / 4
 
 
 @njit(fastmath=True, nogil=True)
-def _add_interpolated(coarse, u, runs):  # type: ignore[no-untyped-def]
+def _add_interpolated(u, runs, grid, coarse):  # type: ignore[no-untyped-def]
     """Add the coarse grid's correction, bilinearly; outside the mask it is 0."""
-    for run in range(len(runs)):
-        y, first, end = runs[run]
-        cy = (y + 1) // 2
-        ny = cy + (y + 1) % 2
+    for run in range(grid[3], grid[4]):
+        y, first, end = runs[run, 0], runs[run, 1], runs[run, 2]
+        row = grid[0] + y * grid[2]
+        near = coarse[0] + (y + 1) // 2 * coarse[2]
+        next_ = near + (y + 1) % 2 * coarse[2]
         for x in range(first, end):
             cx = (x + 1) // 2
             nx = cx + (x + 1) % 2
-            for k in range(u.shape[2]):
-                total = coarse[cy, cx, k] + coarse[ny, cx, k] + coarse[cy, nx, k] + coarse[ny, nx, k]
-                u[y, x, k] += np.float32(0.25) * total
+            for k in range(u.shape[1]):
+                total = u[near + cx, k] + u[next_ + cx, k] + u[near + nx, k] + u[next_ + nx, k]
+                u[row + x, k] += np.float32(0.25) * total
 
 
 @njit(fastmath=True, nogil=True)
-def _start_from(coarse, coarse_inverse, u, right, inverse, runs):  # type: ignore[no-untyped-def]
+def _start_from(u, right, inverse, runs, grid, coarse):  # type: ignore[no-untyped-def]
     """A first guess from the coarse solution: the mean of the coarse pixels around that lie in the mask,
     or what the edge alone says where there are none."""
-    for run in range(len(runs)):
-        y, first, end = runs[run]
-        cy = (y + 1) // 2
-        ny = cy + (y + 1) % 2
+    for run in range(grid[3], grid[4]):
+        y, first, end = runs[run, 0], runs[run, 1], runs[run, 2]
+        row = grid[0] + y * grid[2]
+        near = coarse[0] + (y + 1) // 2 * coarse[2]
+        next_ = near + (y + 1) % 2 * coarse[2]
         for x in range(first, end):
             cx = (x + 1) // 2
             nx = cx + (x + 1) % 2
-            a, b = coarse_inverse[cy, cx] != 0, coarse_inverse[ny, cx] != 0
-            c, d = coarse_inverse[cy, nx] != 0, coarse_inverse[ny, nx] != 0
-            count = a + b + c + d
-            for k in range(u.shape[2]):
+            a, b, c, d = near + cx, next_ + cx, near + nx, next_ + nx  # 0 where nothing is to be found
+            count = (inverse[a] != 0) + (inverse[b] != 0) + (inverse[c] != 0) + (inverse[d] != 0)
+            for k in range(u.shape[1]):
                 if count == 0:
-                    u[y, x, k] = right[y, x, k] * inverse[y, x]
+                    u[row + x, k] = right[row + x, k] * inverse[row + x]
                 else:
-                    total = (
-                        a * coarse[cy, cx, k] + b * coarse[ny, cx, k] + c * coarse[cy, nx, k] + d * coarse[ny, nx, k]
-                    )
-                    u[y, x, k] = total / count
+                    u[row + x, k] = (u[a, k] + u[b, k] + u[c, k] + u[d, k]) / count
 
 
 @njit(fastmath=True, nogil=True)
-def _solve(values, force, mask, cycles):  # type: ignore[no-untyped-def]
-    height, width, channels = values.shape
-    distance = _edge_distances(mask)
-    u = [np.zeros((height + 2, width + 2, channels), np.float32)]
-    own = [np.zeros_like(u[0])]
-    links = [np.zeros((height + 2, width + 2, 4), np.float32)]
-    inverse = [np.zeros((height + 2, width + 2), np.float32)]
-    _discretise(distance, values, 1, links[0], inverse[0], own[0])
-    own[0][1:-1, 1:-1] += force  # the coarse grids learn of it by the residual
-    step = 1
-    while (min(height, width) - 1) // (2 * step) >= 1:
-        step *= 2
-        rows, columns = (height + step - 1) // step + 2, (width + step - 1) // step + 2
-        coarser = np.zeros((rows, columns), np.float32)
-        coarser_links = np.zeros((rows, columns, 4), np.float32)
-        coarser_own = np.zeros((rows, columns, channels), np.float32)
-        if not _discretise(distance, values, step, coarser_links, coarser, coarser_own):
-            break
-        u.append(np.zeros((rows, columns, channels), np.float32))
-        own.append(coarser_own)
-        links.append(coarser_links)
-        inverse.append(coarser)
-    runs = [_runs(level) for level in inverse]
-    right = [np.zeros_like(level) for level in own]
-    residual = [np.zeros_like(level) for level in own]
-    last = len(u) - 1
-    _relax(u[last], own[last], links[last], inverse[last], runs[last], 20)
+def _full_multigrid(u, own, right, links, inverse, residual, runs, grids, cycles, sweeps):  # type: ignore[no-untyped-def]
+    """Fill `u` (N, C) from the coarsest grid to the finest, with V-cycles on each; `sweeps` on a grid, and on the coarsest."""
+    last = len(grids) - 1
+    some, many = sweeps
+    _relax(u, own, links, inverse, runs, grids[last], many)
     for first in range(last, -1, -1):
         if first < last:
-            _start_from(u[first + 1], inverse[first + 1], u[first], own[first], inverse[first], runs[first])
-        right[first][:] = own[first]
+            _start_from(u, own, inverse, runs, grids[first], grids[first + 1])
+        for i in range(grids[first, 0], grids[first, 0] + grids[first, 1] * grids[first, 2]):
+            for k in range(u.shape[1]):
+                right[i, k] = own[i, k]
         for _ in range(cycles if first == 0 else 1):
             for level in range(first, last):
-                if level > first:
-                    u[level][:] = 0
-                _relax(u[level], right[level], links[level], inverse[level], runs[level], 1)
-                _restrict_residual(
-                    u[level],
-                    right[level],
-                    links[level],
-                    inverse[level],
-                    runs[level],
-                    residual[level],
-                    right[level + 1],
-                    runs[level + 1],
-                )
-            if last > first:
-                u[last][:] = 0
-            _relax(u[last], right[last], links[last], inverse[last], runs[last], 20)
+                _relax(u, right, links, inverse, runs, grids[level], some)
+                _restrict_residual(u, right, links, inverse, runs, residual, grids[level], grids[level + 1])
+                u[grids[level + 1, 0] : grids[level + 1, 0] + grids[level + 1, 1] * grids[level + 1, 2]] = 0
+            _relax(u, right, links, inverse, runs, grids[last], many)
             for level in range(last - 1, first - 1, -1):
-                _add_interpolated(u[level + 1], u[level], runs[level])
-                _relax(u[level], right[level], links[level], inverse[level], runs[level], 1)
-    return u[0][1:-1, 1:-1].copy()
+                _add_interpolated(u, runs, grids[level], grids[level + 1])
+                _relax(u, right, links, inverse, runs, grids[level], some)
+
+
+def _solve(
+    values: NDArray[np.float32], force: NDArray[np.float32], mask: NDArray[np.bool_], cycles: int
+) -> NDArray[np.float32]:
+    """The membrane (H, W, C) in `mask` (H, W), 0 elsewhere. The grids lie one after another in each array, each in a frame
+    one pixel wide: `grids` (L, 5) says of each its first pixel, its rows and columns, its first run and the one after its
+    last."""
+    height, width, channels = values.shape
+    steps = [2**level for level in range(max((min(height, width) - 1).bit_length(), 1))]
+    sizes = np.array([((height + step - 1) // step + 2, (width + step - 1) // step + 2) for step in steps])
+    pixels = sizes.prod(1)
+    grids = np.zeros((len(steps), 5), np.int64)
+    grids[:, 0], grids[:, 1:3] = np.cumsum(pixels) - pixels, sizes
+    u, own, right, residual = (np.zeros((pixels.sum(), channels), np.float32) for _ in range(4))
+    links, inverse = np.zeros((pixels.sum(), 4), np.float32), np.zeros(pixels.sum(), np.float32)
+    runs = np.empty((int((sizes[:, 0] * (sizes[:, 1] // 2)).sum()), 3), np.int32)
+    distance = _edge_distances(mask)
+    finest = own[: pixels[0]].reshape(*sizes[0], channels)
+    finest[1:-1, 1:-1] = force  # the coarse grids learn of it by the residual
+    count = 0
+    for level, (step, grid) in enumerate(zip(steps, grids, strict=True)):
+        if not _discretise(distance, values, step, grid, links, inverse, own) and level > 0:
+            grids = grids[:level]
+            break
+        grid[3], count = count, _find_runs(inverse, grid, runs, count)
+        grid[4] = count
+    _full_multigrid(u, own, right, links, inverse, residual, runs, grids, cycles, SWEEPS)
+    return u[: pixels[0]].reshape(*sizes[0], channels)[1:-1, 1:-1]

@@ -61,57 +61,78 @@ def _triangulate(
     agreed: np.ndarray,
 ) -> None:
     max_error, widest_cosine = bounds
+    point = np.zeros(3)
     for t in range(len(starts) - 1):
         begin, end = starts[t], starts[t + 1]
         count = end - begin
         eyes, rays = np.zeros((count, 3)), np.zeros((count, 3))
         for o in range(count):
-            turn = rotations[views[begin + o]]
-            eyes[o] = -turn.T @ translations[views[begin + o]]
-            rays[o] = turn[0] * flat[begin + o, 0] + turn[1] * flat[begin + o, 1] + turn[2]
-            rays[o] /= np.linalg.norm(rays[o])
+            turn, shift = rotations[views[begin + o]], translations[views[begin + o]]
+            square = 0.0
+            for k in range(3):
+                eyes[o, k] = -(turn[0, k] * shift[0] + turn[1, k] * shift[1] + turn[2, k] * shift[2])
+                rays[o, k] = turn[0, k] * flat[begin + o, 0] + turn[1, k] * flat[begin + o, 1] + turn[2, k]
+                square += rays[o, k] * rays[o, k]
+            for k in range(3):
+                rays[o, k] /= np.sqrt(square)
         best, tried = 1, 0
         good, chosen = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
         for gap in range(count - 1, 0, -1):  # those far apart in the track first
             for a in range(count - gap):
                 if tried == MAX_PROPOSALS or best == count:
                     break
-                if np.dot(rays[a], rays[a + gap]) > widest_cosine:
+                if _dot(rays, a, a + gap) > widest_cosine:
                     continue
                 tried += 1
                 good[:] = False
                 good[a] = good[a + gap] = True
-                proposal, sound = _nearest_to_rays(eyes, rays, good)
-                if not sound:
+                if not _nearest_to_rays(eyes, rays, good, point):
                     continue
-                seen = _agreeing(rotations, translations, views[begin:end], flat[begin:end], proposal, max_error, good)
+                seen = _agreeing(rotations, translations, views[begin:end], flat[begin:end], point, max_error, good)
                 if seen > best:
                     best = seen
-                    chosen[:] = good
+                    for o in range(count):
+                        chosen[o] = good[o]
         if best < 2:
             continue
-        refined, sound = _nearest_to_rays(eyes, rays, chosen)
-        if not sound:
+        if not _nearest_to_rays(eyes, rays, chosen, point):
             continue
-        seen = _agreeing(rotations, translations, views[begin:end], flat[begin:end], refined, max_error, good)
+        seen = _agreeing(rotations, translations, views[begin:end], flat[begin:end], point, max_error, good)
         if seen < 2 or not _wide_enough(rays, good, widest_cosine):
             continue
-        points[t] = refined
-        agreed[begin:end] = good
+        for k in range(3):
+            points[t, k] = point[k]
+        for o in range(count):
+            agreed[begin + o] = good[o]
 
 
 @njit(nogil=True, error_model="numpy")
-def _nearest_to_rays(eyes: np.ndarray, rays: np.ndarray, used: np.ndarray) -> tuple[np.ndarray, bool]:
-    """The point with the least sum of squared distances from rays, and whether there is one."""
-    system, right = np.zeros((3, 3)), np.zeros(3)
+def _dot(rays: np.ndarray, a: int, b: int) -> float:
+    return rays[a, 0] * rays[b, 0] + rays[a, 1] * rays[b, 1] + rays[a, 2] * rays[b, 2]
+
+
+@njit(nogil=True, error_model="numpy")
+def _nearest_to_rays(eyes: np.ndarray, rays: np.ndarray, used: np.ndarray, point: np.ndarray) -> bool:
+    """Write the point (3,) with the least sum of squared distances from rays; whether there is one. By Cramer's rule."""
+    xx = xy = xz = yy = yz = zz = right_x = right_y = right_z = 0.0
     for o in range(len(eyes)):
         if used[o]:
-            across = np.eye(3) - np.outer(rays[o], rays[o])
-            system += across
-            right += across @ eyes[o]
-    if abs(np.linalg.det(system)) < 1e-12:
-        return right, False
-    return np.linalg.solve(system, right), True
+            x, y, z = rays[o, 0], rays[o, 1], rays[o, 2]
+            along = x * eyes[o, 0] + y * eyes[o, 1] + z * eyes[o, 2]
+            xx, yy, zz = xx + 1 - x * x, yy + 1 - y * y, zz + 1 - z * z
+            xy, xz, yz = xy - x * y, xz - x * z, yz - y * z
+            right_x += eyes[o, 0] - along * x
+            right_y += eyes[o, 1] - along * y
+            right_z += eyes[o, 2] - along * z
+    a, b, c = yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy
+    determinant = xx * a + xy * b + xz * c
+    if abs(determinant) < 1e-12:
+        return False
+    d, e, f = xx * zz - xz * xz, xy * xz - xx * yz, xx * yy - xy * xy
+    point[0] = (a * right_x + b * right_y + c * right_z) / determinant
+    point[1] = (b * right_x + d * right_y + e * right_z) / determinant
+    point[2] = (c * right_x + e * right_y + f * right_z) / determinant
+    return True
 
 
 @njit(nogil=True, error_model="numpy")
@@ -127,8 +148,11 @@ def _agreeing(
     """Mark the views that see a point near enough to where they should; how many."""
     count = 0
     for o in range(len(views)):
-        at = rotations[views[o]] @ point + translations[views[o]]
-        good[o] = at[2] > 0 and np.hypot(at[0] / at[2] - flat[o, 0], at[1] / at[2] - flat[o, 1]) <= max_error
+        turn, shift = rotations[views[o]], translations[views[o]]
+        x = turn[0, 0] * point[0] + turn[0, 1] * point[1] + turn[0, 2] * point[2] + shift[0]
+        y = turn[1, 0] * point[0] + turn[1, 1] * point[1] + turn[1, 2] * point[2] + shift[1]
+        z = turn[2, 0] * point[0] + turn[2, 1] * point[1] + turn[2, 2] * point[2] + shift[2]
+        good[o] = z > 0 and np.hypot(x / z - flat[o, 0], y / z - flat[o, 1]) <= max_error
         count += good[o]
     return count
 
@@ -138,6 +162,6 @@ def _wide_enough(rays: np.ndarray, used: np.ndarray, widest_cosine: float) -> bo
     for a in range(len(rays)):
         if used[a]:
             for b in range(a):
-                if used[b] and np.dot(rays[a], rays[b]) <= widest_cosine:
+                if used[b] and _dot(rays, a, b) <= widest_cosine:
                     return True
     return False
