@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 from missing import missing
 from receiver import OK, Answer, Receiver
 from servers import PostgresServer, S3Server, postgres_folder
@@ -21,6 +22,9 @@ ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "live_service"))  # what several folders of tests need to run a service
 
 pytest_plugins = ("real_faces", "live_services", "opened_context")
+
+settings.register_profile("untimed", settings(), deadline=None)  # how long an example takes is no truth
+settings.load_profile("untimed")
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # run in the background, it would be ignored in every child
 
