@@ -32,12 +32,14 @@ from engine.render.surface import Surface, draw_surface, triangle_spread
 
 LIP_SOFTNESS, LEAST_SOFT_PIXELS = 0.012, 0.8
 """Eye distances, and pixels, over which the inside passes into the lips: their edges are round, and the mesh's have corners."""
-AMBIENT = 0.75
-"""Of the light on a surface, that it has wherever it faces."""
+AMBIENT, TEETH_AMBIENT = 0.75, 0.52
+"""Of the light on a surface, that it has wherever it faces; and on teeth, whose crowns are told apart by it."""
 DARKENING, ROW_DARKENING = 0.9, 0.45
 """Eye distances behind the upper teeth at which a third of the light is left, on the tongue and on teeth: cheeks are beside these."""
 INCISORS_SHARE = 0.25
 """Of the teeth, which are the foremost."""
+LIGHTEST_PERCENTILE = 80
+"""Of the light on incisors, that which their colours are of."""
 UPPER_LIP_MIDDLE = 13
 LOWER_MIDDLE, ABOVE_LIP, BELOW_LIP = 14, 0.03, 0.05
 """The middle of the lower inner lip, and eye distances above and below it between which lower teeth end: where a face opens its mouth farther or
@@ -151,17 +153,19 @@ class ModelledMouth:
 
     @cached_property
     def _shade(self) -> NDArray[np.float32]:
-        """(V,) the light that is left: less on what faces aside, and in the depth; incisors have, in the mean, the light that their colours are of."""
+        """(V,) the light that is left: less on what faces aside, and in the depth; the lightest places of incisors have the light that their colours are of."""
         vertices = np.concatenate([self._vertices, np.zeros((self._bag_vertices, 3))])
         normals = vertex_normals(vertices, self._triangles)
-        facing = AMBIENT + (1 - AMBIENT) * np.clip(-normals[:, 2], 0, 1)
-        reach = np.where(np.arange(len(vertices)) < self._ends[1], ROW_DARKENING, DARKENING)
+        teeth = np.arange(len(vertices)) < self._ends[1]
+        ambient = np.where(teeth, TEETH_AMBIENT, AMBIENT)
+        facing = ambient + (1 - ambient) * np.clip(-normals[:, 2], 0, 1)
+        reach = np.where(teeth, ROW_DARKENING, DARKENING)
         deep = np.exp(-np.maximum(vertices[:, 2] - self._at.depth, 0) / reach)
         shade = facing * deep
         shade[: len(self._light)] *= self._light
         row = slice(0, self._ends[1])
         before = vertices[row, 2] <= np.quantile(vertices[row, 2], INCISORS_SHARE)
-        shade[row] = np.minimum(shade[row] / shade[row][before].mean(), 1)
+        shade[row] = np.minimum(shade[row] / np.percentile(shade[row][before], LIGHTEST_PERCENTILE), 1)
         shade[len(self._vertices) :] = 1  # its ramp has its light
         return np.asarray(shade, np.float32)
 

@@ -204,3 +204,24 @@ def test_teeth_are_seen_lighter_than_the_skin(skin: tuple[int, int, int]) -> Non
     weights = np.array([0.299, 0.587, 0.114])
     lightest = np.quantile(frame[cv2.erode(inside, np.ones((3, 3))) > 0] @ weights, 0.75)
     assert lightest > 1.15 * (np.array(skin) @ weights)
+
+
+def test_teeth_of_a_mouth_in_the_shade_are_as_light_as_the_face_asks_for() -> None:
+    """Its face is lit from above: teeth are no greyer than the light places, and keep within what a shaded mouth bears."""
+    face, weights = seen(front(0.0)), np.array([0.299, 0.587, 0.114])
+    rgb = picture((140, 110, 96))
+    rgb[: int(face[2, 1])] = (200, 158, 137)
+    ring, light = np.array([140, 110, 96]) @ weights, np.array([200, 158, 137]) @ weights
+    upper = mouth_colours(rgb, face).upper.astype(float)[8, -1] @ weights
+    assert 1.15 * light < upper < 1.8 * ring
+
+
+def test_crowns_are_told_apart_by_their_shade(mouth: ModelledMouth) -> None:
+    """Along a line through the middle of the incisors there is a dark place between each two."""
+    rest, face = front(0.0), seen(front(0.25))
+    frame = np.full((*SHAPE, 3), WALL, np.uint8)
+    mouth.draw(frame, face, 0)
+    crown = mouth.places(face)[: len(modelled_teeth(resting_mouth(rest, rest), True).vertices), 1]
+    line = frame[int(crown.max()) - 3, int(face[13, 0]) - 16 : int(face[13, 0]) + 17].astype(int).sum(axis=1)
+    dips = [k for k in range(1, len(line) - 1) if line[k] < line[k - 1] - 2 and line[k] <= line[k + 1]]
+    assert any(abs(k - 16) <= 2 for k in dips), "between the two in the middle"
