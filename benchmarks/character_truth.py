@@ -42,7 +42,7 @@ from engine.character.parts.unseen_limbs import with_limbs_hidden
 from engine.character.rig.measures import pose
 from engine.character.stages import build_mesh, fit_template, label, make_character
 from engine.character.surface import layers
-from engine.character.surface.part_surface import ALONG, Surface, Warp, filled, part_surface
+from engine.character.surface.part_surface import OUTLINE_DEPTH_SMOOTHING_PIXELS, Surface, Warp, filled, part_surface
 from engine.errors import InputError
 from engine.geometry.registration.rigid import fit_similarity
 from engine.geometry.skinning import bone_transforms
@@ -135,7 +135,7 @@ def warped_depth(
     depth = cv2.remap(source, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     at, partners = warp.border.astype(int), warp.partners.astype(int)
     along = source[partners[:, 1], partners[:, 0]]
-    depth[at[:, 1], at[:, 0]] = gaussian_filter1d(along, ALONG, mode="wrap")
+    depth[at[:, 1], at[:, 0]] = gaussian_filter1d(along, OUTLINE_DEPTH_SMOOTHING_PIXELS, mode="wrap")
     return Surface(np.where(mask, depth, np.nan).astype(np.float32), surface.weights)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from engine.character.options import MOST_POINTS, CharacterOptions
+from engine.character.options import MAX_STROKE_POINTS, CharacterOptions
 from engine.kinds import KINDS
 from engine.portrait.options import PortraitOptions
 
@@ -76,6 +76,6 @@ def test_strokes_have_so_many_points_together() -> None:
         strokes = [{"path": [(1, 1)] * 5000, "radius": 1, "person": True}] * (points // 5000)
         return CharacterOptions.model_validate({"mask_strokes": strokes})
 
-    assert len(drawn(MOST_POINTS).mask_strokes) == 10
+    assert len(drawn(MAX_STROKE_POINTS).mask_strokes) == 10
     with pytest.raises(ValidationError, match="points together"):
-        drawn(MOST_POINTS + 5000)
+        drawn(MAX_STROKE_POINTS + 5000)

@@ -22,7 +22,7 @@ BodyPart = Literal["head", "torso", "left_arm", "right_arm", "left_leg", "right_
 Place = tuple[Coordinate, Coordinate]
 Radius = Annotated[float, Field(gt=0, le=2048)]
 Path = Annotated[tuple[Place, ...], Field(fail_fast=True, min_length=1, max_length=5000)]
-MOST_POINTS = 50_000
+MAX_STROKE_POINTS = 50_000
 """Of all strokes together: drawing takes about 0.3 ms for each where the brush is as large as the picture."""
 
 
@@ -125,9 +125,9 @@ class CharacterOptions(BaseModel):
     @model_validator(mode="after")
     def _strokes_that_can_be_drawn(self) -> Self:
         strokes: tuple[MaskStroke | LabelStroke, ...] = (*self.mask_strokes, *self.label_strokes)
-        if sum(len(stroke.path) for stroke in strokes) > MOST_POINTS:
+        if sum(len(stroke.path) for stroke in strokes) > MAX_STROKE_POINTS:
             raise ValueError(
-                f"the strokes have more than {MOST_POINTS} points together: leave out those that lie close"
+                f"the strokes have more than {MAX_STROKE_POINTS} points together: leave out those that lie close"
             )
         return self
 

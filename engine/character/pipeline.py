@@ -13,7 +13,7 @@ from engine.character.drawing.flat_character import close_drawing
 from engine.character.figure.figure import Choice, Figure, find_figure
 from engine.character.figure.silhouette import Silhouette, cut_out
 from engine.character.film.cast_shadow import ground_shadow
-from engine.character.film.film import LONGEST_SIDE, cast_of, film, film_size
+from engine.character.film.film import DEFAULT_VIDEO_PIXELS, cast_of, film, film_size
 from engine.character.film.findings import character_names, write_findings
 from engine.character.film.lit import lit_picture
 from engine.character.film.motions import motion_in_use
@@ -72,9 +72,9 @@ STAGES = {
 }
 """The stages and their usual share of the time."""
 
-EACH = ("cut_out", "fit_template", "label_parts", "build_mesh", "make_character", "measure")
+STAGES_PER_PERSON = ("cut_out", "fit_template", "label_parts", "build_mesh", "make_character", "measure")
 """Those that come once for each person."""
-MOST = 6
+MAX_PEOPLE = 6
 """People who are woken together."""
 MOST_BYTES = 10_000_000
 """Of a character's GLB; levels of detail are files of their own."""
@@ -97,7 +97,7 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
     figures = find_figures(photo, options, run)
     figure = figures[0]
     if len(figures) > 1:
-        run.plan(STAGES, dict.fromkeys(EACH, len(figures)))
+        run.plan(STAGES, dict.fromkeys(STAGES_PER_PERSON, len(figures)))
     for early in write_first_impression(out, figure.rgb, figure.alpha, run.mark_synthetic):
         run.publish(early)
     figures, silhouettes = cut_all_out(figures, mask, options, run)
@@ -158,7 +158,7 @@ def find_figures(photo: Path, options: CharacterOptions, run: Run) -> list[Figur
         return [find(options.person_index)]
     figures: list[Figure] = []
     refused: list[InputError] = []
-    for index in range(MOST):
+    for index in range(MAX_PEOPLE):
         if figures and index >= len(figures[0].people):
             break
         try:
@@ -172,8 +172,8 @@ def find_figures(photo: Path, options: CharacterOptions, run: Run) -> list[Figur
             run.warn("person_left_out", f"Person {index + 1} stays in the picture: {error.detail}")
     if not figures:
         raise refused[0]
-    if len(figures[0].people) > MOST:
-        run.warn("person_left_out", f"Of {len(figures[0].people)} people the {MOST} largest walk out together.")
+    if len(figures[0].people) > MAX_PEOPLE:
+        run.warn("person_left_out", f"Of {len(figures[0].people)} people the {MAX_PEOPLE} largest walk out together.")
     return figures
 
 
@@ -294,7 +294,7 @@ def write_film(
 ) -> tuple[str, int]:
     """The animation, and `poster.jpg` from its first third; returns the animation's name and how many frames it has."""
     plate = background.rgb
-    longest = MAX_GIF_SIDE if options.format == "gif" else LONGEST_SIDE
+    longest = MAX_GIF_SIDE if options.format == "gif" else DEFAULT_VIDEO_PIXELS
     size = film_size((plate.shape[1], plate.shape[0]), options.size, longest)
     name = "animation." + {"png": "zip"}.get(options.format, options.format)
     acting = [(person.character, person.played.film) for person in people]

@@ -32,7 +32,7 @@ from engine.character.options import LabelStroke
 from engine.character.parts.crossed_labels import label_crossed
 from engine.character.parts.hem import with_cloth
 from engine.character.parts.label_map import LabelHints, Labels, label_parts
-from engine.character.parts.labels import ARMS, LEGS
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
 from engine.character.parts.limb_edges import border
 from engine.character.parts.unfound_hands import unfound_hands
 from engine.character.rig.measures import picture_camera, pose
@@ -48,7 +48,7 @@ from engine.character.surface.sheets import ClosedMesh, close
 from engine.character.texture.limb_texture import LimbSurfaces
 from engine.character.texture.rings import limb_heights
 from engine.character.texture.round_sides import with_round_sides
-from engine.character.texture.texture import SURE, BackTexture, PictureOnGrid, Tiles, atlas, paint_tiles
+from engine.character.texture.texture import OPAQUE_ALPHA, BackTexture, PictureOnGrid, Tiles, atlas, paint_tiles
 from engine.geometry.simplification.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.imaging.filling.background_plate import background_plate
@@ -57,21 +57,21 @@ from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
 from engine.media.image import is_cut_out, over_white
 from engine.media.limits import Limits
 
-CHEEK = np.array([1, 1, 1.1, 1.1, 1])
+FACE_OVAL_FACTORS = np.array([1, 1, 1.1, 1.1, 1])
 """How much larger than its oval a face may be."""
-FINEST = 3.0
+MAX_EDGE_SCALE = 3.0
 """Pixels of a limb's edge for each of the grid's, at most."""
-ARM, ALONG = ("Arm", "Hand"), 0.05
+ARM_JOINT_NAMES, MIN_ARM_WEIGHT = ("Arm", "Hand"), 0.05
 """What is in the names of joints of arms, and the share in what moves the body from which on it is moved by them."""
-WRIST = 0.3
+MIN_HAND_WEIGHT = 0.3
 """Share in what moves an arm from which on it is moved by the hand."""
 FACE_COUNTS = 6.0
 """How much more a triangle of the head counts where triangles are saved."""
-RIM = 2.5
+EDGE_BAND_PIXELS = 2.5
 """Pixels of the grid within the outline in which the colours of a limb's edge are not its own."""
-AROUND = 6
+TRUNK_MARGIN_PIXELS = 6
 """Pixels around the trunk within which it is painted behind limbs."""
-SHADOW = 0.012
+HOLE_MARGIN_SHARE = 0.012
 """How far the hole behind the person reaches beyond the mask, as a share of the picture's longer side: hair and the
 shadow at the feet are not in the mask."""
 
@@ -198,7 +198,7 @@ def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, label
 def limb_borders(figure: Figure, silhouette: Silhouette, labels: Labels) -> dict[int, NDArray[np.float32]]:
     """For each of the limbs that are apart, what `border` says of it (h, w), by the picture's own pixels."""
     height, width = labels.labels.shape
-    finer = min(FINEST, max(1.0, 1 / float(silhouette.to_grid[0, 0])))
+    finer = min(MAX_EDGE_SCALE, max(1.0, 1 / float(silhouette.to_grid[0, 0])))
     size = (round(width * finer), round(height * finer))
     matrix = silhouette.to_grid * finer
     matrix[:, 2] += (finer - 1) / 2
@@ -225,7 +225,7 @@ def make_character(
     whole = {int(limb): mesh.pixels(np.flatnonzero(mesh.limb == limb), labels.labels.shape) for limb in labels.apart}
     human = load_human()
     posed = pose_template(fitted, silhouette.camera(fitted.picture_camera()), human)
-    sleeves = {arm: _sleeve(mesh, arm, labels) for arm in ARMS if arm in labels.apart}
+    sleeves = {arm: _sleeve(mesh, arm, labels) for arm in ARM_LABELS if arm in labels.apart}
     tiles = _painted(
         figure,
         silhouette,
@@ -258,8 +258,8 @@ def _made_of(
     if face is None or in_profile(figure):
         round_it &= ~head
     else:  # where a turned face ends at the outline, a cheek goes on beyond it
-        cheek = within_oval(face * CHEEK, head.shape)
-    upright = np.isin(labels.labels, (BODY_PARTS.index("torso"), *LEGS))
+        cheek = within_oval(face * FACE_OVAL_FACTORS, head.shape)
+    upright = np.isin(labels.labels, (BODY_PARTS.index("torso"), *LEG_LABELS))
     mesh = with_round_sides(mesh, round_it, cheek, 0, upright)
     texture, uv = atlas(tiles, mesh, 0)
     camera = silhouette.camera(fitted.picture_camera())
@@ -297,19 +297,21 @@ def make_hybrid_character(
     """Both surfaces painted, bound in T-pose, put together and brought down to a number of triangles."""
     own, trunk = hybrid.labels, hybrid.trunk
     limbs = np.isin(own.labels, own.apart)
-    around = dilate_mask(trunk.pixels(np.arange(len(trunk.vertices)), limbs.shape), AROUND)
+    around = dilate_mask(trunk.pixels(np.arange(len(trunk.vertices)), limbs.shape), TRUNK_MARGIN_PIXELS)
     gone, behind = (
         _in_the_picture(one, silhouette) for one in (limbs & ~around, limbs & around & ~hybrid.trunk_seen())
     )
     alone = replace(silhouette, alpha=silhouette.alpha * (1 - gone))
-    seen = mirrored_behind(figure.rgb, behind > 0, (silhouette.alpha > SURE) & (gone == 0))
+    seen = mirrored_behind(figure.rgb, behind > 0, (silhouette.alpha > OPAQUE_ALPHA) & (gone == 0))
     nothing = LimbSurfaces(np.zeros_like(limbs), np.zeros_like(limbs))
     tiles = _painted(replace(figure, rgb=seen), alone, own, nothing, back)
     relief = _made_of(figure, alone, fitted, own, trunk, tiles, triangles)
     shown = limbs_alone(hybrid)
     filled: BackTexture = "inpaint" if back == "inpaint" else "mirror"
     texture = paint_shell(figure.rgb, silhouette, labels, hybrid.shell, filled, shown.mesh.triangles)
-    clean = nearest_colours(figure.rgb, distance_inside(silhouette.alpha > SURE) > RIM / silhouette.to_grid[0, 0])
+    clean = nearest_colours(
+        figure.rgb, distance_inside(silhouette.alpha > OPAQUE_ALPHA) > EDGE_BAND_PIXELS / silhouette.to_grid[0, 0]
+    )
     texture = with_the_trunks_colours(texture, hybrid, tiles, clean, silhouette.to_grid)
     shell = bind_shell(shown, figure, silhouette, fitted, texture)
     character = together(shell, relief)
@@ -327,9 +329,9 @@ def _along_with_arms(mesh: ClosedMesh, labels: Labels) -> NDArray[np.bool_]:
     """What of an arm (h, w) the body has, too, and moves as that does: about the shoulder."""
     names = load_human().rig.names
     along = np.zeros(labels.labels.shape, np.bool_)
-    for arm, side in zip(ARMS, ("Left", "Right"), strict=True):
-        own = np.array([name.startswith(side) and any(part in name for part in ARM) for name in names])
-        goes = (mesh.layer == 0) & ((mesh.weights * own[mesh.bones]).sum(1) > ALONG)
+    for arm, side in zip(ARM_LABELS, ("Left", "Right"), strict=True):
+        own = np.array([name.startswith(side) and any(part in name for part in ARM_JOINT_NAMES) for name in names])
+        goes = (mesh.layer == 0) & ((mesh.weights * own[mesh.bones]).sum(1) > MIN_ARM_WEIGHT)
         along |= mesh.pixels(np.flatnonzero(goes), along.shape) & (labels.labels == arm)
     return along
 
@@ -337,7 +339,7 @@ def _along_with_arms(mesh: ClosedMesh, labels: Labels) -> NDArray[np.bool_]:
 def _sleeve(mesh: ClosedMesh, arm: int, labels: Labels) -> NDArray[np.bool_]:
     """What the surface of an arm that is apart covers (h, w), without its hand."""
     hand = np.array(["Hand" in name for name in load_human().rig.names])
-    worn = (mesh.limb == arm) & ((mesh.weights * hand[mesh.bones]).sum(1) < WRIST)
+    worn = (mesh.limb == arm) & ((mesh.weights * hand[mesh.bones]).sum(1) < MIN_HAND_WEIGHT)
     return mesh.pixels(np.flatnonzero(worn), labels.labels.shape)
 
 
@@ -352,7 +354,7 @@ def fewer_triangles(character: Character, triangles: int) -> SkinnedMesh:
     return replace(fewer, vertices=mesh.vertices[kept])
 
 
-NOTHING = 0.02
+MIN_VISIBLE_ALPHA = 0.02
 """Alpha below which nothing is seen."""
 
 
@@ -368,7 +370,7 @@ class Background:
 
 def fill_background(figure: Figure, silhouettes: tuple[Silhouette, ...]) -> Background:
     """Fill the hole that those leave who walk out."""
-    radius = max(3, round(SHADOW * max(figure.rgb.shape[:2])))
+    radius = max(3, round(HOLE_MARGIN_SHARE * max(figure.rgb.shape[:2])))
     disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1, 2 * radius + 1))
     alpha = np.max([one.alpha for one in silhouettes], axis=0)
     seen = over_white(figure.rgb, figure.alpha)
@@ -377,4 +379,4 @@ def fill_background(figure: Figure, silhouettes: tuple[Silhouette, ...]) -> Back
     hole = np.asarray(cv2.dilate(gone, disk), np.float32)
     plate = background_plate(seen, hole, reach=float(np.sqrt(hole.sum())))
     left = np.zeros_like(alpha) if figure.alpha is None else figure.alpha * (1 - hole)
-    return Background(plate, shadow, is_cut_out(figure.alpha) and bool(left.max() < NOTHING))
+    return Background(plate, shadow, is_cut_out(figure.alpha) and bool(left.max() < MIN_VISIBLE_ALPHA))

@@ -22,7 +22,7 @@ from engine.character.parts.labels import (
     without_specks,
 )
 from engine.character.parts.occlusion import completed
-from engine.character.rig.rigging import KEPT_VOLUME, LEAST_VOLUME, at_rest, bind
+from engine.character.rig.rigging import MIN_VOLUME_RATIO, TARGET_VOLUME_RATIO, at_rest, bind
 from engine.character.surface.part_surface import Surface, part_surface, warp_part
 from engine.character.surface.sheets import Layer, close
 from engine.geometry.camera import Camera
@@ -181,9 +181,9 @@ def test_what_brings_vertices_back_is_what_their_weights_blend() -> None:
     vertices, kept, blended = at_rest(posed, bones, weights, transforms)
     volume = [np.linalg.det(np.einsum("vk,vkij->vij", w, transforms[bones])[:, :3, :3]) for w in (weights, kept)]
     halfway = np.linalg.det((transforms[bones[:, 0]] + transforms[bones[:, 1]])[:, :3, :3] / 2)
-    least = np.where(halfway < LEAST_VOLUME, KEPT_VOLUME, LEAST_VOLUME)
+    least = np.where(halfway < MIN_VOLUME_RATIO, TARGET_VOLUME_RATIO, MIN_VOLUME_RATIO)
     crushed = volume[0] < least
-    assert 50 < crushed.sum() < 450 and 50 < (halfway < LEAST_VOLUME).sum() < 450
+    assert 50 < crushed.sum() < 450 and 50 < (halfway < MIN_VOLUME_RATIO).sum() < 450
     np.testing.assert_array_equal(kept[~crushed], weights[~crushed])
     assert (volume[1] > least - 1e-5).all() and np.median((volume[1] - least)[crushed]) < 0.02
     np.testing.assert_allclose(kept.sum(1), 1, atol=1e-6)

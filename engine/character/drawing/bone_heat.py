@@ -19,9 +19,9 @@ from scipy.sparse.linalg import splu
 from engine.geometry.graph_cut import grid_edges
 from engine.imaging.masks.mask_distance import distance_to
 
-HEATING = 1.0
+HEAT_COEFFICIENT = 1.0
 """The paper's c: heat that reaches a point is this by the square of its distance."""
-NEAREST = 1.0
+MIN_BONE_DISTANCE_PIXELS = 1.0
 """Pixels from a bone within which a point is no nearer."""
 
 
@@ -59,7 +59,7 @@ def heat_weights(
         (np.tile(-conductance, 2), (np.concatenate([a, b]), np.concatenate([b, a]))), (pixels, pixels)
     ).tocsr()
     laplacian = spread - diags(np.asarray(spread.sum(1)).ravel())
-    heat = HEATING / np.maximum(far[mask].astype(np.float64), NEAREST) ** 2
+    heat = HEAT_COEFFICIENT / np.maximum(far[mask].astype(np.float64), MIN_BONE_DISTANCE_PIXELS) ** 2
     solved = splu((laplacian + diags(heat)).tocsc())
     weights = np.zeros((*mask.shape, count), np.float32)
     own = nearest[mask]

@@ -27,16 +27,24 @@ from engine.imaging.filling.nearest import continued_colours
 from engine.imaging.masks.mask_pieces import bounding_box
 from engine.motion.clip import Clip
 
-THICK, ROUND = 0.012, 0.03
+HALF_THICKNESS_SHARE, ROUNDED_EDGE_SHARE = 0.012, 0.03
 """Half a cut-out's thickness, and how far from its edge it has it, as shares of the figure's height on the grid."""
-OPAQUE = 0.9
+OPAQUE_COVERAGE = 0.9
 """Share of a pixel that the figure covers from which on its colour is the figure's own."""
 LARGEST_TEXTURE = 2048
 """Texels of the texture's longer side, at most."""
 MARGIN_PIXELS = 6
 """Texels around the figure."""
-LIMBS = ("Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot")
-BONES = ("Hips", "Spine", "Spine1", "Spine2", "Neck", "Head", *(f"{side}{joint}" for side in SIDES for joint in LIMBS))
+LIMB_JOINTS = ("Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot")
+DRAWING_JOINTS = (
+    "Hips",
+    "Spine",
+    "Spine1",
+    "Spine2",
+    "Neck",
+    "Head",
+    *(f"{side}{joint}" for side in SIDES for joint in LIMB_JOINTS),
+)
 """The joints whose bones move a drawing: it has no fingers, and no toes."""
 
 
@@ -44,7 +52,7 @@ def label_drawing(figure: Figure, silhouette: Silhouette, given: NDArray[np.int8
     """Labels of a drawing on the grid: each pixel is of the part whose bone is nearest, on ways within the figure. `given` (h, w): those of a
     map of one's own, -1 where it says nothing."""
     far = bones_nearby(silhouette.mask, _bones(figure, silhouette))
-    parts = np.array([part_of_bone(name) for name in BONES])
+    parts = np.array([part_of_bone(name) for name in DRAWING_JOINTS])
     labels = np.where(silhouette.mask, parts[far.argmin(0)], -1)
     if given is not None:
         labels = np.where(silhouette.mask & (given >= 0), given, labels)
@@ -56,16 +64,18 @@ def close_drawing(figure: Figure, silhouette: Silhouette, labels: Labels) -> Clo
     """The cut-out as a closed mesh on the grid. A pixel is moved by the bones of the part that its label names, and of those around."""
     mask, rig = silhouette.mask, load_human().rig
     far = bones_nearby(mask, _bones(figure, silhouette))
-    parts = np.array([part_of_bone(name) for name in BONES])
+    parts = np.array([part_of_bone(name) for name in DRAWING_JOINTS])
     other = parts[:, None, None] != labels.labels
     allowed = np.where(other, np.inf, far)
     allowed = np.where(np.isfinite(allowed).any(0), allowed, far)
     nearest, away = allowed.argmin(0), allowed.min(0)
     weights = np.zeros((*mask.shape, len(rig.names)), np.float32)
-    weights[..., [rig.index(name) for name in BONES]] = heat_weights(mask, nearest, away, len(BONES))
+    weights[..., [rig.index(name) for name in DRAWING_JOINTS]] = heat_weights(mask, nearest, away, len(DRAWING_JOINTS))
     rows, _ = bounding_box(mask)
     tall = rows.stop - rows.start
-    half = np.where(mask, thickness(mask, THICK * tall, ROUND * tall), np.nan).astype(np.float32)
+    half = np.where(mask, thickness(mask, HALF_THICKNESS_SHARE * tall, ROUNDED_EDGE_SHARE * tall), np.nan).astype(
+        np.float32
+    )
     return close([Layer(mask, Surface(half, weights), Surface(-half, weights))], silhouette.soft)
 
 
@@ -99,7 +109,8 @@ def bind_drawing(figure: Figure, silhouette: Silhouette, fitted: FittedBody, mes
 
 
 def _bones(figure: Figure, silhouette: Silhouette) -> list[NDArray[np.float64]]:
-    """The bones of `BONES` as polylines on the grid. The hips reach from leg to leg, the chest from shoulder to shoulder."""
+    """The bones of `DRAWING_JOINTS` as polylines on the grid. The hips reach from leg to leg, the chest from shoulder
+    to shoulder."""
     pose, rig = flat_pose(figure), load_human().rig
     ends = dict(zip(rig.names, pose.places, strict=True))
     for side in SIDES:
@@ -122,13 +133,13 @@ def _bones(figure: Figure, silhouette: Silhouette) -> list[NDArray[np.float64]]:
     lines = {joint: np.stack([ends[name] for name in chain]) for joint, chain in chains.items()}
     lines["Head"] = np.stack([ends["Head"], middle, crown])
     matrix = silhouette.to_grid
-    return [lines[name] @ matrix[:, :2].T + matrix[:, 2] for name in BONES]
+    return [lines[name] @ matrix[:, :2].T + matrix[:, 2] for name in DRAWING_JOINTS]
 
 
 def _texture(figure: Figure, silhouette: Silhouette, mesh: ClosedMesh) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """The part of the picture that shows the figure, whose colours go on beyond its edge, and each vertex's place on it (V, 2)."""
     rows, columns = bounding_box(silhouette.alpha > 0.02, MARGIN_PIXELS)
-    own = silhouette.alpha[rows, columns] > OPAQUE
+    own = silhouette.alpha[rows, columns] > OPAQUE_COVERAGE
     colours = continued_colours(np.ascontiguousarray(figure.rgb[rows, columns]), own)
     size = np.array(colours.shape[1::-1])
     matrix = np.asarray(cv2.invertAffineTransform(silhouette.to_grid))

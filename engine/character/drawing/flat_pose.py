@@ -15,26 +15,40 @@ from scipy.spatial.transform import Rotation
 from engine.body.fitting.body_fitting import Fit
 from engine.body.rest_pose import T_POSE_DIRECTIONS
 from engine.character.figure.figure import Figure
-from engine.character.fit.template_fit import FOCAL, FittedBody, load_human
+from engine.character.fit.template_fit import FOCAL_LENGTH_SIDES, FittedBody, load_human
 from engine.geometry.camera import Camera
 from engine.geometry.joint_names import FINGERS, SIDES
 from engine.geometry.skeleton import Skeleton
 from engine.imaging.masks.mask_pieces import bounding_box
 
-HEIGHT = 1.7
+DRAWING_HEIGHT_METRES = 1.7
 """Metres from top to bottom of a drawn figure: it walks among people."""
-SPINE = {"Spine": 0.2, "Spine1": 0.45, "Spine2": 0.7}
+SPINE_JOINT_SHARES = {"Spine": 0.2, "Spine1": 0.45, "Spine2": 0.7}
 """Where the spine's joints are on the way from the hips to between the shoulders."""
-CHIN, HEAD, SHOULDER = 1.6, 0.3, 0.3
+NECK_BELOW_HEAD_EAR_DISTANCES, HEAD_JOINT_SHARE, COLLARBONE_JOINT_SHARE = 1.6, 0.3, 0.3
 """How far below the head's middle the neck's joint is, in distances from there to an ear; where the head's is on the way back up, and a
 collarbone's on that from between the shoulders to one of them."""
 FINGER_JOINTS = (0.45, 0.65, 0.82)
 """Where finger joints are on the way from wrist to fingertip."""
-TOES = 0.1
+TOES_FORWARD_METRES = 0.1
 """Metres by which toes are before the ankle: feet roll over them although they are drawn flat."""
-LIMBS = {"Arm": "Shoulder", "ForeArm": "Elbow", "Hand": "Wrist", "UpLeg": "Hip", "Leg": "Knee", "Foot": "Ankle"}
+JOINT_LANDMARKS = {
+    "Arm": "Shoulder",
+    "ForeArm": "Elbow",
+    "Hand": "Wrist",
+    "UpLeg": "Hip",
+    "Leg": "Knee",
+    "Foot": "Ankle",
+}
 """Landmarks at which limbs' joints are."""
-LIMB_ENDS = {"Arm": "Elbow", "ForeArm": "Wrist", "Hand": "Index", "UpLeg": "Knee", "Leg": "Ankle", "Foot": "FootIndex"}
+BONE_END_LANDMARKS = {
+    "Arm": "Elbow",
+    "ForeArm": "Wrist",
+    "Hand": "Index",
+    "UpLeg": "Knee",
+    "Leg": "Ankle",
+    "Foot": "FootIndex",
+}
 """Landmarks at which their bones end."""
 
 
@@ -55,18 +69,18 @@ def flat_pose(figure: Figure) -> FlatPose:
     upright = _turn(chest - hips, (0.0, 1.0))
     head = at["Nose"] - chest
     nod = _turn(head, (0.0, 1.0)) if np.linalg.norm(head) > 1e-6 else upright
-    chin = CHIN * float(np.linalg.norm(at["LeftEar"] - at["RightEar"])) / 2
+    chin = NECK_BELOW_HEAD_EAR_DISTANCES * float(np.linalg.norm(at["LeftEar"] - at["RightEar"])) / 2
     neck = chest + max(0.0, 1 - chin / max(float(np.linalg.norm(head)), 1e-6)) * head
-    places = {"Hips": hips, "Neck": neck, "Head": neck + HEAD * (at["Nose"] - neck)}
-    places |= {name: hips + share * (chest - hips) for name, share in SPINE.items()}
-    turns = dict.fromkeys(("Hips", *SPINE), upright) | {"Neck": nod, "Head": nod}
+    places = {"Hips": hips, "Neck": neck, "Head": neck + HEAD_JOINT_SHARE * (at["Nose"] - neck)}
+    places |= {name: hips + share * (chest - hips) for name, share in SPINE_JOINT_SHARES.items()}
+    turns = dict.fromkeys(("Hips", *SPINE_JOINT_SHARES), upright) | {"Neck": nod, "Head": nod}
     for side in SIDES:
         places[f"{side}Shoulder"], turns[f"{side}Shoulder"] = (
-            chest + SHOULDER * (at[f"{side}Shoulder"] - chest),
+            chest + COLLARBONE_JOINT_SHARE * (at[f"{side}Shoulder"] - chest),
             upright,
         )
-        for joint, mark in LIMBS.items():
-            begin, end = at[f"{side}{mark}"], at[f"{side}{LIMB_ENDS[joint]}"]
+        for joint, mark in JOINT_LANDMARKS.items():
+            begin, end = at[f"{side}{mark}"], at[f"{side}{BONE_END_LANDMARKS[joint]}"]
             places[f"{side}{joint}"] = begin
             straight = T_POSE_DIRECTIONS.get(f"{side}{joint}")
             turns[f"{side}{joint}"] = 0.0 if straight is None else _turn(end - begin, straight[:2])
@@ -84,8 +98,10 @@ def fit_drawing(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
     human = load_human()
     rows, _ = bounding_box(mask)
     height, width = mask.shape
-    camera = Camera((0.0, 0.0, 0.0), FOCAL * max(height, width), ((width - 1) / 2, (height - 1) / 2), (height, width))
-    distance = camera.focal * HEIGHT / (rows.stop - rows.start)
+    camera = Camera(
+        (0.0, 0.0, 0.0), FOCAL_LENGTH_SIDES * max(height, width), ((width - 1) / 2, (height - 1) / 2), (height, width)
+    )
+    distance = camera.focal * DRAWING_HEIGHT_METRES / (rows.stop - rows.start)
     pose, parents = flat_pose(figure), human.rig.parents
     own = pose.turns - np.where(parents >= 0, pose.turns[parents], 0)
     root = camera.unproject(pose.places[:1], np.array([distance]))[0]
@@ -106,7 +122,11 @@ def flat_skeleton(pose: FlatPose, fitted: FittedBody, ground: float) -> Skeleton
     seen = camera.to_metres(np.column_stack([pose.places, np.zeros(len(pose.places))]))
     for side in SIDES:
         ankle = seen[rig.index(f"{side}Foot")]
-        seen[rig.index(f"{side}ToeBase")] = [ankle[0], ground + 0.2 * (ankle[1] - ground), ankle[2] + TOES]
+        seen[rig.index(f"{side}ToeBase")] = [
+            ankle[0],
+            ground + 0.2 * (ankle[1] - ground),
+            ankle[2] + TOES_FORWARD_METRES,
+        ]
     back = Rotation.from_rotvec(np.outer(-pose.turns, [0.0, 0.0, 1.0]))
     heads = seen.copy()
     for joint, parent in enumerate(rig.parents):
@@ -122,5 +142,5 @@ def _turn(way: NDArray[np.float64], straight: tuple[float, ...]) -> float:
 
 
 def _landmarks() -> list[str]:
-    marks = {"Ear", *LIMBS.values(), *LIMB_ENDS.values()}
+    marks = {"Ear", *JOINT_LANDMARKS.values(), *BONE_END_LANDMARKS.values()}
     return ["Nose", *(f"{side}{mark}" for side in SIDES for mark in sorted(marks))]

@@ -13,22 +13,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.fitting.observation import Crossing
-from engine.character.figure.figure import SEEN, Figure
+from engine.character.figure.figure import SEEN_JOINT_CONFIDENCE, Figure
 from engine.geometry.joint_names import SIDES, Side
 from engine.imaging.masks.colour_segmentation import ColourMixture
 from engine.perception.body import BODY_LANDMARKS
 from engine.perception.landmarks import FACE_OVAL
 
-FINGERS = ("Pinky", "Index", "Thumb")
-AROUND = 0.175
+FINGER_LANDMARKS = ("Pinky", "Index", "Thumb")
+HAND_SEARCH_RADIUS_FOREARMS = 0.175
 """How far around a hand's middle it is looked for, in lengths of a forearm."""
-MORE = 0.06
+MIN_VISIBILITY_MARGIN = 0.06
 """By how much more of its place one hand must show than the other to be the one that is seen."""
-MOST_SKIN = 0.5
+MAX_SKIN_SHARE = 0.5
 """Share of the sleeves that may look like skin; of bare arms nothing can be said."""
-LOOKED_AT, LEAST = 640, 60
+WORKING_SIZE_PIXELS, MIN_SAMPLE_PIXELS = 640, 60
 """Pixels of the longer side of the copy in which colours are compared, and of face or sleeves, at least, to be compared."""
-SLEEVE = 0.12
+SLEEVE_HALF_WIDTH_ARMS = 0.12
 """Half the width of a sleeve that is looked at, in lengths of the upper arm."""
 
 
@@ -54,12 +54,12 @@ def crossed_arms(figure: Figure, mask: NDArray[np.bool_]) -> CrossedArms | None:
         return None
     skin = _skin(figure, mask, at)
     shows = [0.0, 0.0] if skin is None else [_shown(figure, skin, side) for side in SIDES]
-    before = shows if abs(shows[0] - shows[1]) > MORE else [_depth(figure, side) for side in SIDES]
+    before = shows if abs(shows[0] - shows[1]) > MIN_VISIBILITY_MARGIN else [_depth(figure, side) for side in SIDES]
     front = int(before[1] > before[0])
     middle = np.mean([at[f"{side}{name}"] for side in SIDES for name in ("Elbow", "Wrist")], axis=0)
     along = [_share(middle, at[f"{side}Elbow"], at[f"{side}Wrist"]) for side in SIDES]
     tucked = None
-    if skin is not None and shows[1 - front] < MORE:
+    if skin is not None and shows[1 - front] < MIN_VISIBILITY_MARGIN:
         tucked = _share(at[f"{SIDES[1 - front]}Wrist"], at[f"{SIDES[front]}Shoulder"], at[f"{SIDES[front]}Elbow"])
     return CrossedArms(Crossing(front, along[front], along[1 - front], tucked), skin)
 
@@ -68,7 +68,9 @@ def _are_seen(figure: Figure) -> bool:
     """Whether elbows and a wrist are, of somebody who faces the viewer: wrists that are tucked away or cut off are made up."""
 
     def sure(name: str) -> list[bool]:
-        return [bool(figure.confidence[BODY_LANDMARKS.index(f"{side}{name}")] > SEEN) for side in SIDES]
+        return [
+            bool(figure.confidence[BODY_LANDMARKS.index(f"{side}{name}")] > SEEN_JOINT_CONFIDENCE) for side in SIDES
+        ]
 
     faces = figure.point("LeftShoulder")[0] > figure.point("RightShoulder")[0]
     return bool(faces) and all(sure("Elbow")) and any(sure("Wrist"))
@@ -91,22 +93,22 @@ def _skin(figure: Figure, mask: NDArray[np.bool_], at: dict[str, NDArray[np.floa
     too little of either, or both are alike."""
     if figure.face is None:
         return None
-    factor = min(1.0, LOOKED_AT / max(mask.shape))
+    factor = min(1.0, WORKING_SIZE_PIXELS / max(mask.shape))
     size = (round(mask.shape[1] * factor), round(mask.shape[0] * factor))
     person = cv2.resize(mask.astype(np.uint8), size, interpolation=cv2.INTER_NEAREST_EXACT) > 0
     face, sleeves = np.zeros(person.shape, np.uint8), np.zeros(person.shape, np.uint8)
     cv2.fillConvexPoly(face, cv2.convexHull(np.rint(factor * figure.face[FACE_OVAL, :2]).astype(np.int32)), (1,))
     for side in SIDES:
         ends = [factor * at[f"{side}{name}"] for name in ("Shoulder", "Elbow")]
-        wide = max(1, round(2 * SLEEVE * float(np.linalg.norm(ends[1] - ends[0]))))
+        wide = max(1, round(2 * SLEEVE_HALF_WIDTH_ARMS * float(np.linalg.norm(ends[1] - ends[0]))))
         start, end = (np.rint(end).astype(int).tolist() for end in ends)
         cv2.line(sleeves, start, end, (1,), wide)
     colours = cv2.resize(figure.rgb, size, interpolation=cv2.INTER_AREA).astype(np.float64)
     own, worn = (colours[(area > 0) & person] for area in (face, sleeves))
-    if min(len(own), len(worn)) < LEAST:
+    if min(len(own), len(worn)) < MIN_SAMPLE_PIXELS:
         return None
     skin, cloth = ColourMixture.fit(own), ColourMixture.fit(worn)
-    if (skin.negative_log_likelihood(worn) < cloth.negative_log_likelihood(worn)).mean() > MOST_SKIN:
+    if (skin.negative_log_likelihood(worn) < cloth.negative_log_likelihood(worn)).mean() > MAX_SKIN_SHARE:
         return None
     found = np.zeros(person.shape, np.uint8)
     found[person] = skin.negative_log_likelihood(colours[person]) < cloth.negative_log_likelihood(colours[person])
@@ -116,8 +118,10 @@ def _skin(figure: Figure, mask: NDArray[np.bool_], at: dict[str, NDArray[np.floa
 
 def _shown(figure: Figure, skin: NDArray[np.bool_], side: str) -> float:
     """Share of the place of a hand, a disk around its middle, that has the skin's colours."""
-    middle = np.mean([figure.point(f"{side}{name}") for name in FINGERS], axis=0)
-    reach = AROUND * float(np.linalg.norm(figure.point(f"{side}Elbow") - figure.point(f"{side}Wrist")))
+    middle = np.mean([figure.point(f"{side}{name}") for name in FINGER_LANDMARKS], axis=0)
+    reach = HAND_SEARCH_RADIUS_FOREARMS * float(
+        np.linalg.norm(figure.point(f"{side}Elbow") - figure.point(f"{side}Wrist"))
+    )
     place = np.zeros(skin.shape, np.uint8)
     cv2.circle(place, tuple(np.rint(middle).astype(int).tolist()), max(2, round(reach)), (1,), -1)
     return float(skin[place > 0].mean()) if place.any() else 0.0
@@ -139,7 +143,7 @@ def without_hidden_hand(figure: Figure, arms: CrossedArms | None) -> Figure:
     if arms is None or arms.crossing.tucked_at is None:
         return figure
     confidence = figure.confidence.copy()
-    confidence[[BODY_LANDMARKS.index(f"{arms.behind}{name}") for name in FINGERS]] = 0
+    confidence[[BODY_LANDMARKS.index(f"{arms.behind}{name}") for name in FINGER_LANDMARKS]] = 0
     left, right = figure.hands
     hands = (left, None) if arms.behind == "Right" else (None, right)
     return replace(figure, confidence=confidence, hands=hands)

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from engine.character.figure.figure import Figure
 from engine.imaging.masks.mask_distance import distance_inside
 
-RIGHT_EDGE, NOSE_TIP, LEFT_EDGE = 234, 1, 454
+RIGHT_EDGE_VERTEX, NOSE_TIP_VERTEX, LEFT_EDGE_VERTEX = 234, 1, 454
 """Vertices of the face's mesh: before the ears, and at the tip of the nose."""
-PROFILE = 0.4
+PROFILE_EAR_SPREAD = 0.4
 """How far one ear is beside the other in the picture, in lengths from the eyes to the mouth, below which a head is in profile."""
-BROW = 0.3
+BROW_DEPTH_SHARE = 0.3
 """How far below the top of the head, hair included, a face begins, as a share of the head's height."""
 
 
@@ -47,7 +47,9 @@ def face_turn(figure: Figure) -> float:
     nose is; 0 where none is seen."""
     if figure.face is None:
         return 0.0
-    left, nose, right = (float(figure.face[vertex, 0]) for vertex in (RIGHT_EDGE, NOSE_TIP, LEFT_EDGE))
+    left, nose, right = (
+        float(figure.face[vertex, 0]) for vertex in (RIGHT_EDGE_VERTEX, NOSE_TIP_VERTEX, LEFT_EDGE_VERTEX)
+    )
     return float(np.clip((2 * nose - left - right) / max(right - left, 1e-6), -1, 1)) if right > left else 0.0
 
 
@@ -64,7 +66,7 @@ def in_profile(figure: Figure) -> bool:
     if length < 1:
         return False
     across = np.array([-up[1], up[0]]) / length
-    return bool(abs((ears[1] - ears[0]) @ across) < PROFILE * length)
+    return bool(abs((ears[1] - ears[0]) @ across) < PROFILE_EAR_SPREAD * length)
 
 
 def face_within(head: NDArray[np.bool_]) -> NDArray[np.float32] | None:
@@ -76,7 +78,7 @@ def face_within(head: NDArray[np.bool_]) -> NDArray[np.float32] | None:
     if wide <= 1:
         return None
     middle = np.flatnonzero(head[:, x])
-    brow, chin = middle[0] + BROW * (middle[-1] - middle[0]), middle[-1]
+    brow, chin = middle[0] + BROW_DEPTH_SHARE * (middle[-1] - middle[0]), middle[-1]
     return np.array([x, (brow + chin) / 2, wide, (chin - brow) / 2, 0], np.float32)
 
 

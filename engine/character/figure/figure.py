@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.figure.placed_joints import WHOLE_SKELETON, check_places, check_skeleton, in_words
+from engine.character.figure.placed_joints import REQUIRED_JOINTS, check_places, check_skeleton, in_words
 from engine.character.figure.posture import check_posture
 from engine.errors import InputError
 from engine.geometry.joint_names import SIDES
@@ -24,23 +24,23 @@ from engine.perception.hands import HAND_JOINTS, find_hands
 from engine.perception.outline_skeleton import outline_skeleton
 from engine.perception.people import covered_by, find_body_within, find_people, person_box
 
-LONGEST_SIDE = 1920
+MAX_PICTURE_PIXELS = 1920
 """Pixels: larger pictures are made smaller first."""
-SHOULDERS = ("LeftShoulder", "RightShoulder")
+SHOULDER_JOINTS = ("LeftShoulder", "RightShoulder")
 """Without them there is nothing to animate."""
-ON_HANDS = {"Wrist": "", "Index": "Index1", "Pinky": "Pinky1", "Thumb": "Thumb2"}
+HAND_LANDMARK_JOINTS = {"Wrist": "", "Index": "Index1", "Pinky": "Pinky1", "Thumb": "Thumb2"}
 """Landmarks of the body that are among the hand's, as joints: where a hand is seen closely, they are where it has them."""
-BELOW = ("LeftHip", "RightHip", "LeftKnee", "RightKnee", "LeftAnkle", "RightAnkle")
+LOWER_BODY_JOINTS = ("LeftHip", "RightHip", "LeftKnee", "RightKnee", "LeftAnkle", "RightAnkle")
 """What `partial` does without: where it is cut off or hidden, the network of body poses guesses it well."""
-SEEN = 0.35
+SEEN_JOINT_CONFIDENCE = 0.35
 """Confidence below which a joint is not in the picture."""
-MORE = 0.1
+BOX_MARGIN_SHARE = 0.1
 """By how much more than a box drawn by hand is looked at, as a share of its sides: it may be drawn too tightly."""
-CROWD = 10
+CROWD_PEOPLE = 10
 """People among whom the largest is not taken for the one who is meant."""
-FACE_SIZE = 320
+FACE_CROP_PIXELS = 320
 """Pixels to which a small head is enlarged where its face is looked for."""
-LEAST_HEIGHT = 80
+MIN_PERSON_HEIGHT_PIXELS = 80
 """Pixels from the highest to the lowest joint; a smaller person has nothing to animate."""
 
 
@@ -104,7 +104,7 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
     height, width = picture.rgb.shape[:2]
     joints = {name: (x, y) for name, x, y in choice.placed}
     check_places(joints, (height, width))
-    size = size_within(picture.rgb.shape, LONGEST_SIDE)
+    size = size_within(picture.rgb.shape, MAX_PICTURE_PIXELS)
     scale = np.array(size) / (width, height)
     rgb = np.ascontiguousarray(resized(picture.rgb, size))
     alpha = None if picture.alpha is None else np.clip(resized(picture.alpha, size), 0, 1)
@@ -114,11 +114,11 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
     if body is not None and index == len(people):  # found in a box alone
         people = [*people, body]
     sketched = None if body is not None else _sketched(shown, choice, scale)
-    if body is None and sketched is None and not set(WHOLE_SKELETON) <= set(joints):
+    if body is None and sketched is None and not set(REQUIRED_JOINTS) <= set(joints):
         raise InputError(
             "no_person",
             "No person was found in the picture: choose one that shows somebody whole, or place the joints by hand "
-            f"({in_words(WHOLE_SKELETON)}).",
+            f"({in_words(REQUIRED_JOINTS)}).",
             ("joints", "person_box"),
         )
     points = np.zeros((len(BODY_LANDMARKS), 2), np.float32) if body is None else body.points.copy()
@@ -136,7 +136,7 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
         check_skeleton(points, warn)
     hands = (None, None) if body is None else _hands(shown, replace(body, points=points))
     for side, hand in zip(SIDES, hands, strict=True):
-        for mark, joint in ON_HANDS.items():
+        for mark, joint in HAND_LANDMARK_JOINTS.items():
             if hand is not None and f"{side}{mark}" not in joints:
                 points[BODY_LANDMARKS.index(f"{side}{mark}")] = hand[HAND_JOINTS.index(joint), :2]
                 confidence[BODY_LANDMARKS.index(f"{side}{mark}")] = 1
@@ -188,7 +188,15 @@ def _chosen(
                 f"The person's box lies outside the picture: draw it within {width / scale[0]:.0f} x {height / scale[1]:.0f}.",
                 ("person_box",),
             )
-        body = find_body_within(rgb, (x - MORE * wide, y - MORE * high, (1 + 2 * MORE) * wide, (1 + 2 * MORE) * high))
+        body = find_body_within(
+            rgb,
+            (
+                x - BOX_MARGIN_SHARE * wide,
+                y - BOX_MARGIN_SHARE * high,
+                (1 + 2 * BOX_MARGIN_SHARE) * wide,
+                (1 + 2 * BOX_MARGIN_SHARE) * high,
+            ),
+        )
         return body, next((k for k, one in enumerate(people) if _same(one, body)), len(people))
     boxes = [(person_box(one, rgb.shape) / np.tile(scale, 2)).round().astype(int).tolist() for one in people]
     index = choice.index or 0
@@ -201,7 +209,7 @@ def _chosen(
             ("person_index", "person_box"),
             {"people": boxes},
         )
-    if len(people) >= CROWD and choice.index is None and not choice.placed:
+    if len(people) >= CROWD_PEOPLE and choice.index is None and not choice.placed:
         raise InputError(
             "crowd",
             f"The picture shows a crowd ({len(people)} people and more): choose the one who is meant, or draw a "
@@ -220,7 +228,7 @@ def _sketched(rgb: NDArray[np.uint8], choice: Choice, scale: NDArray[np.float64]
     x, y, wide, high = (0, 0, width, height) if choice.box is None else np.array(choice.box) * np.tile(scale, 2)
     left, top = max(0, int(x)), max(0, int(y))
     part = rgb[top : int(np.ceil(y + high)), left : int(np.ceil(x + wide))]
-    outline = figure_on_paper(part) if min(part.shape[:2]) >= LEAST_HEIGHT else None
+    outline = figure_on_paper(part) if min(part.shape[:2]) >= MIN_PERSON_HEIGHT_PIXELS else None
     points = None if outline is None else outline_skeleton(outline)
     return None if points is None else np.asarray(points + np.array([left, top]), np.float32)
 
@@ -240,7 +248,7 @@ def _face(rgb: NDArray[np.uint8], points: NDArray[np.float32]) -> NDArray[np.flo
     top, bottom = int(max(0, y - reach)), int(min(height, y + reach))
     if right - left < 16 or bottom - top < 16:
         return None
-    larger = max(1.0, FACE_SIZE / (right - left))
+    larger = max(1.0, FACE_CROP_PIXELS / (right - left))
     part = cv2.resize(rgb[top:bottom, left:right], None, fx=larger, fy=larger, interpolation=cv2.INTER_CUBIC)
     meshes = find_faces(np.ascontiguousarray(part, np.uint8), 1)
     if not meshes:
@@ -276,21 +284,25 @@ def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]
     height, width = figure.rgb.shape[:2]
     limit = np.array([width, height])
     off = np.abs(figure.points / limit - 0.5).max(axis=1)
-    seen = {name for i, name in enumerate(BODY_LANDMARKS) if off[i] < 0.55 and figure.confidence[i] > SEEN}
+    seen = {
+        name for i, name in enumerate(BODY_LANDMARKS) if off[i] < 0.55 and figure.confidence[i] > SEEN_JOINT_CONFIDENCE
+    }
     nose = BODY_LANDMARKS.index("Nose")
-    if off[nose] > 0.5 and figure.confidence[nose] > SEEN:  # the network guesses a head that the picture cuts off
+    if (
+        off[nose] > 0.5 and figure.confidence[nose] > SEEN_JOINT_CONFIDENCE
+    ):  # the network guesses a head that the picture cuts off
         raise InputError(
             "not_full_body",
             "The person's head is cut off by the picture's edge: choose a picture that shows it.",
             ("joints",),
         )
-    if missing := [name for name in SHOULDERS if name not in seen]:
+    if missing := [name for name in SHOULDER_JOINTS if name not in seen]:
         raise InputError(
             "not_full_body",
             f"The person's shoulders are not to be seen ({in_words(missing)}): choose a picture of the whole body.",
             ("joints",),
         )
-    if missing := [name for name in BELOW if name not in seen]:
+    if missing := [name for name in LOWER_BODY_JOINTS if name not in seen]:
         if not partial:
             raise InputError(
                 "not_full_body",
@@ -300,10 +312,10 @@ def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]
             )
         warn("not_full_body", f"The person is cut off or hidden below ({in_words(missing)}).")
     shown = figure.points[[BODY_LANDMARKS.index(name) for name in seen], 1]
-    if np.ptp(shown) < LEAST_HEIGHT:
+    if np.ptp(shown) < MIN_PERSON_HEIGHT_PIXELS:
         raise InputError(
             "person_too_small",
-            f"The person is {np.ptp(shown):.0f} pixels high: choose a picture in which it is {LEAST_HEIGHT} or more.",
+            f"The person is {np.ptp(shown):.0f} pixels high: choose a picture in which it is {MIN_PERSON_HEIGHT_PIXELS} or more.",
             ("joints", "person_box"),
         )
     return seen >= {"LeftKnee", "RightKnee"}

@@ -22,29 +22,29 @@ from engine.imaging.masks.colour_segmentation import (
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
 from engine.imaging.masks.mask_pieces import bounding_box, mask_height, pieces_by_area, pieces_touching
 
-WORKING = 500
+WORKING_HEIGHT_PIXELS = 500
 """Pixels of the person's height at which gaps are looked for."""
-ARM, LEG = 0.035, 0.04
+ARM_WIDTH_SHARE, LEG_WIDTH_SHARE = 0.035, 0.04
 """Width of what is surely an arm or a leg, as a share of the person's height."""
-HAND, FINGERTIPS = 0.03, 2.2
+HAND_WIDTH_SHARE, FINGERTIP_EXTENSION = 0.03, 2.2
 """Width of where a hand may be, and how much further its tips are from the wrist than its knuckles."""
-AROUND, NEAR = 0.125, 0.05
+BACKGROUND_REACH_SHARE, COLOUR_REACH_SHARE = 0.125, 0.05
 """How far from the person background is, and how far from a place colours tell of it, as shares of their height."""
-CERTAIN, CERTAIN_IN_DOUBT = 2.0, 1.2
+MIN_LOG_LIKELIHOOD_RATIO, MIN_LOG_LIKELIHOOD_RATIO_IN_DOUBT = 2.0, 1.2
 """By how much (a logarithm) background has to be likelier, and where networks waver and the colours are those close by."""
-MOST, MOST_AT_EDGES = 10.0, 3.0
+MAX_LOG_LIKELIHOOD_RATIO, MAX_LOG_LIKELIHOOD_RATIO_AT_EDGES = 10.0, 3.0
 """By how much a pixel's colours count at most (a logarithm): where gaps are looked for, and where their edges are."""
-LEAST, NARROWEST = 2.4e-4, 0.01
+MIN_GAP_AREA_SHARE, MIN_GAP_WIDTH_SHARE = 2.4e-4, 0.01
 """Area of a gap as a share of the height's square, and its width as a share of the height, at least: what is smaller is a
 crease or a braid."""
-EDGE, CONTRAST = 4, 8.0
+EDGE_BAND_PIXELS, MIN_EDGE_CONTRAST_LEVELS = 4, 8.0
 """Pixels around a gap within which its edge is found, and levels by which colours differ there."""
-STEPS = 0.2
+MIN_CONTRAST_EDGE_SHARE = 0.2
 """Share of a gap's edge at which colours differ by as much, at least: a fold in dark cloth fades into it."""
-FURTHER, CORE = 0.1, 0.015
+GAP_GROWTH_SHARE, BODY_CORE_SHARE = 0.1, 0.015
 """How far a gap may go on beyond the piece that is found, and how far within the joints' limbs and trunk it surely ends, as shares
 of the height."""
-SURE = 0.85
+MAX_PERSON_PROBABILITY = 0.85
 """The networks' mean belief in a person from which a piece is no gap: in one they waver, in the shade of a leg they do not."""
 
 
@@ -63,7 +63,7 @@ def gaps(
     none = np.zeros(alpha.shape, np.float32)
     if not tall:
         return none
-    scale = min(1.0, WORKING / tall)
+    scale = min(1.0, WORKING_HEIGHT_PIXELS / tall)
     size = (max(1, round(rgb.shape[1] * scale)), max(1, round(rgb.shape[0] * scale)))
     small = np.asarray(cv2.resize(rgb, size, interpolation=cv2.INTER_AREA), np.uint8)
     mask, believed = (
@@ -75,10 +75,10 @@ def gaps(
     if not found.any():
         return none
     found = _to_their_ends(small, mask, found, limbs, hands, height)
-    around = dilate_mask(found, EDGE)
+    around = dilate_mask(found, EDGE_BAND_PIXELS)
     large = cv2.resize(found.astype(np.float32), (rgb.shape[1], rgb.shape[0]), interpolation=cv2.INTER_LINEAR)
-    reach = max(2, round(EDGE / scale))
-    fine = cv2.ximgproc.guidedFilter(rgb, large, reach, CONTRAST**2)
+    reach = max(2, round(EDGE_BAND_PIXELS / scale))
+    fine = cv2.ximgproc.guidedFilter(rgb, large, reach, MIN_EDGE_CONTRAST_LEVELS**2)
     near = cv2.resize(around.astype(np.uint8), (rgb.shape[1], rgb.shape[0]), interpolation=cv2.INTER_NEAREST) > 0
     return np.where(near, np.clip(1.5 * np.asarray(fine) - 0.25, 0, 1), 0).astype(np.float32)
 
@@ -96,11 +96,11 @@ def _by_joints(
         arm = [f"{side}{joint}" for joint in ("Shoulder", "Elbow", "Wrist")]
         leg = [f"{side}{joint}" for joint in ("Hip", "Knee", "Ankle")]
         cv2.fillPoly(inside, [places(*arm, f"{side}Hip")], (1,))
-        for chain, wide in ((arm, ARM), (leg, LEG)):
+        for chain, wide in ((arm, ARM_WIDTH_SHARE), (leg, LEG_WIDTH_SHARE)):
             cv2.polylines(limbs, [places(*chain)], False, (1,), max(1, round(wide * height)))
         wrist, *knuckles = places(f"{side}Wrist", f"{side}Index", f"{side}Pinky")
-        tips = np.rint(wrist + FINGERTIPS * (np.mean(knuckles, axis=0) - wrist)).astype(np.int32)
-        cv2.polylines(hands, [np.stack([wrist, tips])], False, (1,), max(1, round(HAND * height)))
+        tips = np.rint(wrist + FINGERTIP_EXTENSION * (np.mean(knuckles, axis=0) - wrist)).astype(np.int32)
+        cv2.polylines(hands, [np.stack([wrist, tips])], False, (1,), max(1, round(HAND_WIDTH_SHARE * height)))
     cv2.fillPoly(inside, [places("LeftHip", "LeftAnkle", "RightAnkle", "RightHip")], (1,))
     cv2.fillPoly(limbs, [places("LeftShoulder", "RightShoulder", "RightHip", "LeftHip")], (1,))
     return inside > 0, limbs > 0, hands > 0
@@ -117,12 +117,17 @@ def _by_colour(
     """The gaps (h, w) in what is `asked` (h, w): by the colours near all of it, and by those near each of its pieces, where light
     falls otherwise."""
     lab = cv2.cvtColor(rgb, cv2.COLOR_RGB2LAB).astype(np.float64)
-    outside = (alpha < 0.05) & (cv2.dilate((alpha > 0.5).astype(np.uint8), _square(AROUND * height)) > 0)
-    in_doubt = np.where(belief < SURE, CERTAIN_IN_DOUBT, CERTAIN)
-    large = pieces_by_area(asked, LEAST * height**2)
+    outside = (alpha < 0.05) & (
+        cv2.dilate((alpha > 0.5).astype(np.uint8), _square(BACKGROUND_REACH_SHARE * height)) > 0
+    )
+    in_doubt = np.where(belief < MAX_PERSON_PROBABILITY, MIN_LOG_LIKELIHOOD_RATIO_IN_DOUBT, MIN_LOG_LIKELIHOOD_RATIO)
+    large = pieces_by_area(asked, MIN_GAP_AREA_SHARE * height**2)
     found = np.zeros(asked.shape, np.bool_)
-    for part, enough in ((asked, np.full_like(in_doubt, CERTAIN)), *((piece, in_doubt) for piece in large)):
-        near = cv2.dilate(part.astype(np.uint8), _square(NEAR * height)) > 0
+    for part, enough in (
+        (asked, np.full_like(in_doubt, MIN_LOG_LIKELIHOOD_RATIO)),
+        *((piece, in_doubt) for piece in large),
+    ):
+        near = cv2.dilate(part.astype(np.uint8), _square(COLOUR_REACH_SHARE * height)) > 0
         close = outside & near
         own, behind = limbs & near & (alpha > 0.9), close if close.sum() >= 6 * MIN_SAMPLES else outside
         if min(int(own.sum()), int(behind.sum()), int(part.sum())) >= MIN_SAMPLES:
@@ -143,11 +148,11 @@ def _large_with_edges(
     depth = np.asarray(cv2.distanceTransform(likely.astype(np.uint8), cv2.DIST_L2, 5))
     rest = (alpha > 0.5) & ~likely
     edge = likely & dilate_mask(rest, 1)
-    steps = np.linalg.norm(_around(lab, likely) - _around(lab, rest), axis=2) > CONTRAST
-    for own in pieces_by_area(likely, LEAST * height**2):
-        if belief[own].mean() > SURE or 2 * depth[own].max() < NARROWEST * height:
+    steps = np.linalg.norm(_around(lab, likely) - _around(lab, rest), axis=2) > MIN_EDGE_CONTRAST_LEVELS
+    for own in pieces_by_area(likely, MIN_GAP_AREA_SHARE * height**2):
+        if belief[own].mean() > MAX_PERSON_PROBABILITY or 2 * depth[own].max() < MIN_GAP_WIDTH_SHARE * height:
             continue
-        if steps[own & edge].sum() >= STEPS * edge[own].sum():
+        if steps[own & edge].sum() >= MIN_CONTRAST_EDGE_SHARE * edge[own].sum():
             found |= own
     return found
 
@@ -162,11 +167,11 @@ def _to_their_ends(
 ) -> NDArray[np.bool_]:
     """The gaps (h, w) with what hangs together with them and is background by its colours, too: they go on where joints' limbs and
     trunk are wider than the person's."""
-    reach = round(FURTHER * height)
+    reach = round(GAP_GROWTH_SHARE * height)
     near = distance_to(found) < reach
     box = bounding_box(near, reach)
     person, gap = alpha[box] > 0.5, found[box]
-    asked = near[box] & person & ~(distance_inside(limbs)[box] > CORE * height) & ~hands[box]
+    asked = near[box] & person & ~(distance_inside(limbs)[box] > BODY_CORE_SHARE * height) & ~hands[box]
     body, behind = person & ~asked & ~gap, gap | (alpha[box] < 0.05)
     if min(int(body.sum()), int(gap.sum()), int(asked.sum())) < MIN_SAMPLES:
         return found
@@ -190,7 +195,9 @@ def _cut(
     zone = dilate_mask(asked | gap, 1)
     pixels = lab[zone]
     likelier = body.negative_log_likelihood(pixels) - behind.negative_log_likelihood(pixels)
-    likelier = np.clip(likelier - CERTAIN, -MOST_AT_EDGES, MOST_AT_EDGES)
+    likelier = np.clip(
+        likelier - MIN_LOG_LIKELIHOOD_RATIO, -MAX_LOG_LIKELIHOOD_RATIO_AT_EDGES, MAX_LOG_LIKELIHOOD_RATIO_AT_EDGES
+    )
     costs = np.stack([np.maximum(likelier, 0), np.maximum(-likelier, 0)], 1)
     seeds = np.where(core, 1, np.where(asked | gap, UNSEEDED, 0))[zone]
     out = np.zeros_like(gap)
@@ -204,7 +211,7 @@ def _likelier(
     """By how much (h, w), a logarithm, pixels that are `asked` (h, w) rather have the colours (h, w, 3) of what is `behind` (h, w)
     than the person's `own` (h, w)."""
     of_own, of_background = ColourMixture.fit(lab[own]), ColourMixture.fit(lab[behind])
-    return log_likelihood_ratio(lab, asked, of_background, of_own, 1.5, MOST)
+    return log_likelihood_ratio(lab, asked, of_background, of_own, 1.5, MAX_LOG_LIKELIHOOD_RATIO)
 
 
 def _around(lab: NDArray[np.float64], where: NDArray[np.bool_]) -> NDArray[np.float64]:

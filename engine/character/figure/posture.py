@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.perception.body import BODY_LANDMARKS
 
-UPRIGHT = 55.0
+MAX_TRUNK_LEAN_DEGREES = 55.0
 """Degrees by which the trunk may lean in the picture."""
-SEATED = 45.0
+MIN_SEATED_THIGH_DEGREES = 45.0
 """Degrees between both thighs and the vertical, from which somebody sits. Perception says too little rather than too
 much: it finds 60 to 80 where thighs are level."""
-OVERHEAD = 0.5
+OVERHEAD_SHOULDER_WIDTHS = 0.5
 """Distance of joined hands above the nose, and at most between them, in widths of the shoulders."""
 
 
@@ -35,7 +35,7 @@ def check_posture(
 
     shoulders, hips = ((at(f"Left{joint}") + at(f"Right{joint}")) / 2 for joint in ("Shoulder", "Hip"))
     lean = np.degrees(np.arctan2(abs(hips[0] - shoulders[0]), hips[1] - shoulders[1]))
-    if lean > UPRIGHT:
+    if lean > MAX_TRUNK_LEAN_DEGREES:
         raise InputError(
             "person_lying",
             f"The person lies, or stands on the head (the trunk leans by {lean:.0f} degrees): turn the picture so that the "
@@ -46,13 +46,13 @@ def check_posture(
         return
     if at("LeftShoulder")[0] < at("RightShoulder")[0]:
         warn("person_from_behind", "The person seems to be seen from behind: front and back are taken from the back.")
-    if legs and min(_from_vertical(world, side) for side in ("Left", "Right")) > SEATED:
+    if legs and min(_from_vertical(world, side) for side in ("Left", "Right")) > MIN_SEATED_THIGH_DEGREES:
         warn("person_seated", "The person seems to sit: legs that point at the viewer are reconstructed badly.")
     width = float(np.linalg.norm(at("LeftShoulder") - at("RightShoulder")))
     wrists = at("LeftWrist"), at("RightWrist")
     if (
-        max(wrist[1] for wrist in wrists) < at("Nose")[1] - OVERHEAD * width
-        and np.linalg.norm(wrists[0] - wrists[1]) < OVERHEAD * width
+        max(wrist[1] for wrist in wrists) < at("Nose")[1] - OVERHEAD_SHOULDER_WIDTHS * width
+        and np.linalg.norm(wrists[0] - wrists[1]) < OVERHEAD_SHOULDER_WIDTHS * width
     ):
         warn("hands_overhead", "The hands are joined above the head: they may stay together when the arms come down.")
 

@@ -28,26 +28,26 @@ from engine.perception.person import DOUBTFUL_BELIEF, LIKELY_BELIEF, person_mask
 from engine.perception.salience import with_salience
 from engine.perception.segmentation import people_confidence
 
-HEIGHT = 400
+GRID_HEIGHT_PIXELS = 400
 """Pixels of the person's height on the grid."""
-MARGIN = 24
+GRID_MARGIN_PIXELS = 24
 """Pixels of the grid around the person."""
-LEAST = 400
+MIN_PERSON_PIXELS = 400
 """Pixels of a person."""
-WORTH_A_WORD = 0.02
+MIN_PIECE_SHARE = 0.02
 """Size from which another piece of the mask is told of, as a share of the person's."""
-AROUND = 0.15
+CROP_MARGIN_SHARE = 0.15
 """How much of the picture around a person is looked at where others are in it, as a share of the box."""
-FOREARM, PALM, FINGER, JOINT = 0.02, 0.02, 0.006, 0.7
+FOREARM_WIDTH_SHARE, HAND_WIDTH_SHARE, FINGER_WIDTH_SHARE, SEEN_JOINT_CONFIDENCE = 0.02, 0.02, 0.006, 0.7
 """Widths of what is surely a forearm, a hand or a finger, as shares of the person's height, and the confidence from which
 a joint is seen ..."""
-NEAR = 0.043
+HAND_REACH_SHARE = 0.043
 """... and how far around them the rest of forearm and hand may be."""
-ARM_AND_HAND = 0.25
+MAX_HAND_DISTANCE_SHARE = 0.25
 """From the elbow to the fingertips, as a share of the person's height: so far from it may a hand be that is not seen closely."""
-BONE = 0.03
+BONE_WIDTH_SHARE = 0.03
 """Width of what is surely somebody along a bone whose joints are seen, as a share of their height."""
-LIMB = 0.03
+LIMB_WIDTH_SHARE = 0.03
 """Width of a limb that is known to be the person's, as a share of its skeleton's height."""
 
 
@@ -95,13 +95,13 @@ def cut_out(
     alpha = repaint_mask(alpha, strokes, figure.scale)
     limbs = np.asarray(_limbs(figure) > 0)
     piece, rest = _own_piece(np.asarray(alpha > 0.5), limbs)
-    if piece.sum() < LEAST:
+    if piece.sum() < MIN_PERSON_PIXELS:
         raise InputError(
             "no_person",
             "No person stands out in the picture: choose one in which somebody is clearly seen, or paint the mask by hand.",
             ("mask_strokes", "mask"),
         )
-    if rest > WORTH_A_WORD * piece.sum():
+    if rest > MIN_PIECE_SHARE * piece.sum():
         warn(
             "mask_in_pieces",
             "The mask is in pieces, and the person was made of the one that holds most of the joints: if another "
@@ -110,10 +110,13 @@ def cut_out(
     doubt_mask(figure, piece, limbs, warn)
     alpha = np.where(dilate_mask(piece, 4), alpha, 0).astype(np.float32)
     rows, columns = bounding_box(piece)
-    scale = HEIGHT / (rows.stop - rows.start)
+    scale = GRID_HEIGHT_PIXELS / (rows.stop - rows.start)
     matrix = np.array([[scale, 0, -columns.start * scale], [0, scale, -rows.start * scale]])
-    matrix[:, 2] += (scale - 1) / 2 + MARGIN
-    size = (round((columns.stop - columns.start) * scale) + 2 * MARGIN, HEIGHT + 2 * MARGIN)
+    matrix[:, 2] += (scale - 1) / 2 + GRID_MARGIN_PIXELS
+    size = (
+        round((columns.stop - columns.start) * scale) + 2 * GRID_MARGIN_PIXELS,
+        GRID_HEIGHT_PIXELS + 2 * GRID_MARGIN_PIXELS,
+    )
     flags = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
     soft = np.asarray(cv2.warpAffine(alpha, matrix, size, flags=flags), np.float32)
     rgb = cv2.warpAffine(figure.rgb, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE)
@@ -160,8 +163,8 @@ def _looked_at(figure: Figure) -> tuple[slice, slice]:
         return slice(0, height), slice(0, width)
     x, y, wide, high = figure.people[figure.index]
     return (
-        slice(max(0, int(y - AROUND * high)), min(height, int(y + (1 + AROUND) * high) + 1)),
-        slice(max(0, int(x - AROUND * wide)), min(width, int(x + (1 + AROUND) * wide) + 1)),
+        slice(max(0, int(y - CROP_MARGIN_SHARE * high)), min(height, int(y + (1 + CROP_MARGIN_SHARE) * high) + 1)),
+        slice(max(0, int(x - CROP_MARGIN_SHARE * wide)), min(width, int(x + (1 + CROP_MARGIN_SHARE) * wide) + 1)),
     )
 
 
@@ -178,38 +181,38 @@ def seen_limbs(figure: Figure) -> NDArray[np.float32]:
         names = [f"{side}{joint}" for joint in ("Elbow", "Wrist", "Index", "Pinky")]
         elbow, wrist, *fingers = (figure.point(name) for name in names)
         sure = figure.confidence[[BODY_LANDMARKS.index(name) for name in names]]
-        if min(sure[:2]) > JOINT:
-            line(np.stack([elbow, wrist]), FOREARM)
+        if min(sure[:2]) > SEEN_JOINT_CONFIDENCE:
+            line(np.stack([elbow, wrist]), FOREARM_WIDTH_SHARE)
             if hand is None:
                 along = (wrist - elbow) / max(float(np.linalg.norm(wrist - elbow)), 1.0)
-                line(np.stack([wrist, elbow + ARM_AND_HAND * height * along]), FOREARM, beyond)
+                line(np.stack([wrist, elbow + MAX_HAND_DISTANCE_SHARE * height * along]), FOREARM_WIDTH_SHARE, beyond)
         if hand is not None:
             cv2.fillConvexPoly(seed, np.rint(hand[[0, 1, 5, 9, 13, 17], :2]).astype(np.int32), (1,))
             for first in (1, 5, 9, 13, 17):
-                line(hand[first : first + 4, :2], FINGER)
-        elif min(sure[1:]) > JOINT:
-            line(np.stack([wrist, np.mean(fingers, axis=0)]), PALM)
-    reach = max(1, round(NEAR * height))
+                line(hand[first : first + 4, :2], FINGER_WIDTH_SHARE)
+        elif min(sure[1:]) > SEEN_JOINT_CONFIDENCE:
+            line(np.stack([wrist, np.mean(fingers, axis=0)]), HAND_WIDTH_SHARE)
+    reach = max(1, round(HAND_REACH_SHARE * height))
     near = cv2.dilate(np.maximum(seed, beyond), np.ones((2 * reach + 1, 2 * reach + 1), np.uint8))
     for side in ("Left", "Right"):
         names = [f"{side}Shoulder", f"{side}Elbow"]
-        if min(figure.confidence[[BODY_LANDMARKS.index(name) for name in names]]) > JOINT:
-            line(np.stack([figure.point(name) for name in names]), FOREARM)
+        if min(figure.confidence[[BODY_LANDMARKS.index(name) for name in names]]) > SEEN_JOINT_CONFIDENCE:
+            line(np.stack([figure.point(name) for name in names]), FOREARM_WIDTH_SHARE)
     return np.asarray(np.maximum(LIKELY_BELIEF * seed, DOUBTFUL_BELIEF * near), np.float32)
 
 
 def seen_bones(figure: Figure) -> NDArray[np.bool_]:
     """Where somebody is by their joints alone (H, W): along arms, legs and feet of which both ends are seen, and in the trunk."""
     drawn = np.zeros(figure.rgb.shape[:2], np.uint8)
-    width = max(1, round(BONE * float(np.ptp(figure.points[figure.confidence > 0.3, 1], axis=0))))
+    width = max(1, round(BONE_WIDTH_SHARE * float(np.ptp(figure.points[figure.confidence > 0.3, 1], axis=0))))
     for side in ("Left", "Right"):
         for chain in (("Shoulder", "Elbow", "Wrist"), ("Hip", "Knee", "Ankle", "FootIndex"), ("Ankle", "Heel")):
             for ends in pairwise(f"{side}{joint}" for joint in chain):
-                if min(figure.confidence[BODY_LANDMARKS.index(name)] for name in ends) > JOINT:
+                if min(figure.confidence[BODY_LANDMARKS.index(name)] for name in ends) > SEEN_JOINT_CONFIDENCE:
                     line = np.rint(np.stack([figure.point(name) for name in ends])).astype(np.int32)
                     cv2.polylines(drawn, [line], False, (1,), width)
     trunk = ("LeftShoulder", "RightShoulder", "RightHip", "LeftHip")
-    if min(figure.confidence[BODY_LANDMARKS.index(name)] for name in trunk) > JOINT:
+    if min(figure.confidence[BODY_LANDMARKS.index(name)] for name in trunk) > SEEN_JOINT_CONFIDENCE:
         cv2.fillPoly(drawn, [np.rint(np.stack([figure.point(name) for name in trunk])).astype(np.int32)], (1,))
     return drawn > 0
 
@@ -220,7 +223,7 @@ def _hands(figure: Figure) -> NDArray[np.float32]:
         np.concatenate([hand[:, :2] for hand in figure.hands if hand is not None] or [np.zeros((0, 2), np.float32)])
     ]
     for name in (f"{side}{mark}" for side in ("Left", "Right") for mark in ("Wrist", "Index", "Pinky")):
-        if figure.confidence[BODY_LANDMARKS.index(name)] > JOINT:
+        if figure.confidence[BODY_LANDMARKS.index(name)] > SEEN_JOINT_CONFIDENCE:
             seen.append(figure.point(name)[None])
     return np.concatenate(seen).astype(np.float32)
 
@@ -229,7 +232,7 @@ def _limbs(figure: Figure) -> NDArray[np.float32]:
     """Where the person must be if the skeleton was placed by hand: along its limbs and in its trunk."""
     seed = np.zeros(figure.rgb.shape[:2], np.uint8)
     place = {name: np.rint(figure.point(name)).astype(int) for name in BODY_LANDMARKS}
-    width = max(1, round(LIMB * float(np.ptp(figure.points[figure.confidence > 0, 1]))))
+    width = max(1, round(LIMB_WIDTH_SHARE * float(np.ptp(figure.points[figure.confidence > 0, 1]))))
     for side in ("Left", "Right"):
         for chain in (("Shoulder", "Elbow", "Wrist"), ("Shoulder", "Hip", "Knee", "Ankle")):
             line = np.stack([place[f"{side}{joint}"] for joint in chain])

@@ -19,9 +19,9 @@ LABEL_COLOURS = np.array(
     [[250, 180, 60], [220, 80, 80], [80, 220, 80], [60, 160, 220], [200, 80, 200], [60, 220, 220], [0, 0, 0]], np.uint8
 )
 """Of `labels.png`: head, torso, left arm, right arm, left leg, right leg, nobody."""
-ALIKE = 40
+STROKE_COLOUR_TOLERANCE_LEVELS = 40
 """Distance, in levels of red, green and blue, up to which a colour is taken for one of these: JPEG changes them a little."""
-SUBPIXEL = 4
+SUBPIXEL_BITS = 4
 """Bits behind the point of a stroke's coordinates."""
 
 
@@ -51,7 +51,7 @@ def read_labels(path: Path, sizes: Sequence[tuple[int, int]], limits: Limits) ->
     _require_size("labels", picture.rgb, sizes)
     labels = np.full(picture.rgb.shape[:2], -1, np.int8)
     for index, colour in enumerate(LABEL_COLOURS[: len(BODY_PARTS)].astype(np.int32)):
-        labels[np.square(picture.rgb - colour).sum(-1) <= ALIKE**2] = index
+        labels[np.square(picture.rgb - colour).sum(-1) <= STROKE_COLOUR_TOLERANCE_LEVELS**2] = index
     return labels
 
 
@@ -78,8 +78,8 @@ def painted(
         if len(path) == 1:
             path = np.repeat(path, 2, axis=0)
         thickness = max(1, round(2 * radius))
-        at = np.rint(path * 2**SUBPIXEL).astype(np.int32)
-        cv2.polylines(drawn, [at], False, (255,), thickness, cv2.LINE_AA, SUBPIXEL)
+        at = np.rint(path * 2**SUBPIXEL_BITS).astype(np.int32)
+        cv2.polylines(drawn, [at], False, (255,), thickness, cv2.LINE_AA, SUBPIXEL_BITS)
         yield drawn.astype(np.float32) / np.float32(255)
 
 

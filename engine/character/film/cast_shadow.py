@@ -20,21 +20,21 @@ from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import bounding_box, pieces_touching
 from engine.render.ground_shadow import GroundShadow
 
-ABOVE, BELOW, BESIDE = 0.3, 0.2, 1.2
+UPPER_MARGIN_HEIGHTS, LOWER_MARGIN_HEIGHTS, SIDE_MARGIN_HEIGHTS = 0.3, 0.2, 1.2
 """What of the picture is looked at, in heights of the person: above the feet, below them, and to either side."""
-DARKER = 0.82
+MAX_SHADOW_BRIGHTNESS_RATIO = 0.82
 """Brightness, as a share of the ground's, below which it is in shadow."""
-PLAIN = 0.05
+MAX_PLAIN_GROUND_DEVIATION = 0.05
 """Deviation from the smooth surface, in natural logarithms of brightness, that plain ground has in the median."""
-HUE = 12.0
+MAX_SHADOW_HUE_CHANGE = 12.0
 """By how much the colour (CIE a and b, 8 bits) may change in the shadow."""
-LEAST, MOST = 0.01, 1.0
+MIN_SHADOW_AREA_RATIO, MAX_SHADOW_AREA_RATIO = 0.01, 1.0
 """Areas of shadows, as shares of the person's."""
-TILTS = np.linspace(-2.0, 2.0, 21)
+LIGHT_TILTS = np.linspace(-2.0, 2.0, 21)
 """Light's directions that are tried: metres sideways for a metre down."""
-FINE = 480
+WORKING_SIZE_PIXELS = 480
 """Longest side, in pixels, at which they are."""
-AGREED, ALMOST = 0.35, 0.9
+MIN_SHADOW_IOU, EQUIVALENT_IOU_SHARE = 0.35, 0.9
 """Overlap (intersection over union) with what the person would cast, from which a direction is believed; the share of the
 best overlap that is as good as it."""
 
@@ -53,26 +53,29 @@ def find_cast_shadow(rgb: NDArray[np.uint8], alpha: NDArray[np.float32]) -> Cast
     person = alpha > 0.5
     rows, columns = bounding_box(person)
     high, lowest = rows.stop - rows.start, rows.stop - 1
-    top, bottom = int(lowest - ABOVE * high), int(min(alpha.shape[0], lowest + BELOW * high + 1))
-    left = int(max(0, columns.start - BESIDE * high))
-    right = int(min(alpha.shape[1], columns.stop + BESIDE * high))
+    top, bottom = (
+        int(lowest - UPPER_MARGIN_HEIGHTS * high),
+        int(min(alpha.shape[0], lowest + LOWER_MARGIN_HEIGHTS * high + 1)),
+    )
+    left = int(max(0, columns.start - SIDE_MARGIN_HEIGHTS * high))
+    right = int(min(alpha.shape[1], columns.stop + SIDE_MARGIN_HEIGHTS * high))
     part = slice(top, bottom), slice(left, right)
     near = dilate_mask(alpha[part] > 0.02, 2)
     small = cv2.GaussianBlur(rgb[part], (0, 0), 1.2)
     lab = cv2.cvtColor(small, cv2.COLOR_RGB2LAB).astype(np.float64)
     light = np.log(np.maximum(small.astype(np.float64).mean(-1), 4))
     usual, off = _ground(light, ~near)
-    if off > PLAIN:
+    if off > MAX_PLAIN_GROUND_DEVIATION:
         return nothing
-    hue = np.median(lab[~near & (np.abs(light - usual) < 2 * PLAIN)], axis=0)
-    same = np.linalg.norm(lab[..., 1:] - hue[1:], axis=-1) < HUE
-    dark = (light - usual < np.log(DARKER)) & same & ~near
+    hue = np.median(lab[~near & (np.abs(light - usual) < 2 * MAX_PLAIN_GROUND_DEVIATION)], axis=0)
+    same = np.linalg.norm(lab[..., 1:] - hue[1:], axis=-1) < MAX_SHADOW_HUE_CHANGE
+    dark = (light - usual < np.log(MAX_SHADOW_BRIGHTNESS_RATIO)) & same & ~near
     dark = cv2.morphologyEx(dark.astype(np.uint8), cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)) > 0
     # it begins at the feet
     feet = near & (np.arange(top, bottom)[:, None] > lowest - 0.08 * high)
     reach = dilate_mask(feet, max(2, high // 60))
     found = dark & pieces_touching(dark | reach, reach, connectivity=8)
-    if not LEAST * person.sum() < found.sum() < MOST * person.sum():
+    if not MIN_SHADOW_AREA_RATIO * person.sum() < found.sum() < MAX_SHADOW_AREA_RATIO * person.sum():
         return nothing
     mask = np.zeros(alpha.shape, np.float32)
     mask[part] = cv2.GaussianBlur(found.astype(np.float32), (0, 0), 1.5)
@@ -105,14 +108,14 @@ def ground_shadow(shadow: CastShadow, character: Character, fitted: FittedBody) 
     height, width = shadow.mask.shape
     camera = picture_camera(character, fitted, (height, width))
     posed = pose(character, character.pictured)[::3]
-    factor = min(1.0, FINE / max(height, width))
+    factor = min(1.0, WORKING_SIZE_PIXELS / max(height, width))
     size = max(1, round(width * factor)), max(1, round(height * factor))
     wanted = cv2.resize(shadow.mask, size, interpolation=cv2.INTER_AREA) > 0.5
     person = camera.project(posed)[:, :2] * factor
     standing = _splat(person, size)
     overlaps: dict[tuple[float, float], float] = {}
-    for tilt in TILTS:
-        for away in TILTS:
+    for tilt in LIGHT_TILTS:
+        for away in LIGHT_TILTS:
             ground = np.stack(
                 [posed[:, 0] + posed[:, 1] * tilt, np.zeros(len(posed)), posed[:, 2] + posed[:, 1] * away], 1
             )
@@ -120,10 +123,13 @@ def ground_shadow(shadow: CastShadow, character: Character, fitted: FittedBody) 
             cast = _splat(seen[seen[:, 2] > 0, :2] * factor, size) & ~standing
             overlaps[float(tilt), float(away)] = float((cast & wanted).sum() / max((cast | wanted).sum(), 1))
     best = max(overlaps.values())
-    if best < AGREED:
+    if best < MIN_SHADOW_IOU:
         return soft
     # a shadow that leaves the picture may be of any length: the shortest that explains it
-    light = min((one for one, overlap in overlaps.items() if overlap > ALMOST * best), key=lambda one: np.hypot(*one))
+    light = min(
+        (one for one, overlap in overlaps.items() if overlap > EQUIVALENT_IOU_SHARE * best),
+        key=lambda one: np.hypot(*one),
+    )
     direction = np.array([-light[0], 1.0, -light[1]])
     x, y, z = (direction / np.linalg.norm(direction)).tolist()
     return GroundShadow(strength=shadow.strength, reach=float("inf"), light=(x, y, z))

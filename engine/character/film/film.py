@@ -20,13 +20,15 @@ from engine.render.camera_moves import Move, camera_at
 from engine.render.character import Actor, film_cast, prepare_character
 from engine.render.ground_shadow import GroundShadow
 
-LONGEST_SIDE = 1280
+DEFAULT_VIDEO_PIXELS = 1280
 """Pixels of the video by default."""
-WALL = 1.6
+WALL_DISTANCE_METRES = 1.6
 """How far behind the person the picture's wall stands, metres."""
 
 
-def film_size(size: tuple[int, int], asked: tuple[int, int] | None, longest: int = LONGEST_SIDE) -> tuple[int, int]:
+def film_size(
+    size: tuple[int, int], asked: tuple[int, int] | None, longest: int = DEFAULT_VIDEO_PIXELS
+) -> tuple[int, int]:
     """Even width and height of the video for a picture of `size` (width, height): fitted into what was asked for, else into
     the `longest` side."""
     limit = asked or (longest, longest)
@@ -51,7 +53,7 @@ def film(
     main = people[0][0]
     camera = resized_camera(picture_camera(main, fitted, (height, width)), size)
     small = np.asarray(cv2.resize(plate, size, interpolation=cv2.INTER_AREA), np.uint8)
-    backdrop = Backdrop(small, camera, float(main.eye[2]) + WALL)
+    backdrop = Backdrop(small, camera, float(main.eye[2]) + WALL_DISTANCE_METRES)
     return film_cast(cast_of(people), moving_camera(main, camera, move), backdrop.seen_by, shadow, alone)
 
 

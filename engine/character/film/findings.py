@@ -11,9 +11,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.figure.placed_joints import PLACED
+from engine.character.figure.placed_joints import PLACEABLE_JOINTS
 from engine.character.figure.strokes import LABEL_COLOURS
-from engine.character.film.film import WALL
+from engine.character.film.film import WALL_DISTANCE_METRES
 from engine.character.film.person import Person
 from engine.character.rig.measures import picture_camera
 from engine.media.image import write_image
@@ -42,7 +42,7 @@ def write_findings(out: Path, people: Sequence[Person]) -> None:
             "focal": round(first.fitted.camera.focal, 3),
             "centre": list(first.fitted.camera.centre),
             "size": [width, height],
-            "wall": WALL,
+            "wall": WALL_DISTANCE_METRES,
         },
         "woken": woken(people),
     }
@@ -91,7 +91,7 @@ def _skeleton(person: Person) -> dict[str, Any]:
                 "place": seen[BODY_LANDMARKS.index(name)],
                 "confidence": round(float(figure.confidence[BODY_LANDMARKS.index(name)]), 3),
             }
-            for name in PLACED
+            for name in PLACEABLE_JOINTS
         },
         "fitted": {
             name: {"place": place, "parent": parent}

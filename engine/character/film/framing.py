@@ -26,19 +26,19 @@ from engine.motion.kinematics import pose_transforms
 
 Array = NDArray[np.float64]
 
-MARGIN = 0.03
+FRAME_MARGIN_SHARE = 0.03
 """What stays free along the picture's borders, as a share of its height: less where the person is pictured nearer to them."""
-BACK = 0.6
+MAX_STEP_BACK_LEGS = 0.6
 """How far anybody steps back, at most, leg lengths: one step of each foot."""
-BEHIND = 1.2
+MAX_RETREAT_METRES = 1.2
 """How far away from the viewer a motion may lead, metres: not into the wall of `engine.character.film.film`."""
-SPOT = MovementRoom(0.0, BEHIND, 0.0, 0.0)
-COMES = 0.3
+STANDING_ROOM = MovementRoom(0.0, MAX_RETREAT_METRES, 0.0, 0.0)
+MIN_APPROACH_METRES = 0.3
 """Metres by which a motion comes nearer that is on its way, and no sway."""
-HALVINGS = 5
-MOST_FRAMES = 48
+BISECTION_STEPS = 5
+MAX_SAMPLED_FRAMES = 48
 """Of a film those that are looked at, evenly spread: between them nobody gets through the margin."""
-ARMS = ("Arm", "Hand")
+ARM_JOINT_NAMES = ("Arm", "Hand")
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,9 @@ class _View:
         reach = np.where(y > eye[1], centre[1] - self.low[1], self.high[1] - centre[1])
         ahead = max(float((away - focal * np.abs(y - eye[1]) / np.maximum(reach, 1)).min()), 0.0)
         sides = [(bound - centre[0]) / focal * (away - ahead) - (x - eye[0]) for bound in (self.low[0], self.high[0])]
-        return MovementRoom(ahead, BEHIND, max(float(sides[1].min()), 0.0), max(float(-sides[0].max()), 0.0))
+        return MovementRoom(
+            ahead, MAX_RETREAT_METRES, max(float(sides[1].min()), 0.0), max(float(-sides[0].max()), 0.0)
+        )
 
 
 def kept_in_frame(character: Character, camera_at: Callable[[float], Camera], film: Callable[[float], Clip]) -> Clip:
@@ -113,10 +115,10 @@ class _Maker:
         self._film, self._skeleton = cache(film), character.mesh.skeleton
         self.first = film(0.0)
         ahead = self.first.root[:, 2] - self.first.root[0, 2]
-        self._comes = float(ahead.max()) > COMES
-        self.most = BACK * leg_length(self._skeleton)
+        self._comes = float(ahead.max()) > MIN_APPROACH_METRES
+        self.most = MAX_STEP_BACK_LEGS * leg_length(self._skeleton)
 
-    def made(self, back: float, room: MovementRoom = SPOT, leap: float = 1.0) -> Clip:
+    def made(self, back: float, room: MovementRoom = STANDING_ROOM, leap: float = 1.0) -> Clip:
         if back and self._comes:  # the steps that it takes anyway lead back
             return confine_clip(self._skeleton, self.first, replace(room, ahead=-back), leap)
         return confine_clip(self._skeleton, self._film(back) if back else self.first, room, leap)
@@ -143,7 +145,7 @@ def _least(fits: Callable[[float], bool]) -> float:
     if fits(0.0):
         return 0.0
     low, high = 0.0, 1.0
-    for _ in range(HALVINGS):
+    for _ in range(BISECTION_STEPS):
         middle = (low + high) / 2
         low, high = (low, middle) if fits(middle) else (middle, high)
     return high
@@ -153,9 +155,9 @@ def _view(character: Character, camera_at: Callable[[float], Camera], film: Clip
     mesh, camera = character.mesh, camera_at(0.0)
     bone = mesh.bones[np.arange(len(mesh.bones)), mesh.weights.argmax(1)]
     outer = np.concatenate([_outermost(mesh.vertices, np.flatnonzero(bone == one)) for one in np.unique(bone)])
-    arms = np.array([any(part in name for part in ARMS) for name in mesh.skeleton.names])[bone[outer]]
+    arms = np.array([any(part in name for part in ARM_JOINT_NAMES) for name in mesh.skeleton.names])[bone[outer]]
     height, width = camera.size
-    margin = MARGIN * height
+    margin = FRAME_MARGIN_SHARE * height
     view = _View(mesh, camera_at, outer, arms, np.full(2, margin), np.array([width, height]) - 1 - margin)
     pictured = camera.project(view.posed(film)[0]).astype(np.float64)[:, :2]
     return replace(view, low=np.minimum(view.low, pictured.min(0)), high=np.maximum(view.high, pictured.max(0)))
@@ -164,7 +166,7 @@ def _view(character: Character, camera_at: Callable[[float], Camera], film: Clip
 def _looked_at(clip: Clip) -> NDArray[np.intp]:
     """The frames of a clip that are looked at, the last one among them."""
     count = len(clip.root)
-    return np.unique(np.linspace(0, count - 1, min(count, MOST_FRAMES)).round().astype(np.intp))
+    return np.unique(np.linspace(0, count - 1, min(count, MAX_SAMPLED_FRAMES)).round().astype(np.intp))
 
 
 def _outermost(vertices: NDArray[np.float32], of: NDArray[np.intp]) -> NDArray[np.intp]:

@@ -24,7 +24,7 @@ from engine.motion.library import CLIPS, built_in
 from engine.motion.retargeting.retarget import retarget
 from engine.motion.step_out import step_out
 
-TRAVELS = 0.1
+MIN_TRAVEL_METRES = 0.1
 """Metres: a loop that gets further than this in one round goes somewhere."""
 
 
@@ -115,7 +115,7 @@ def _other_motion(skeleton: Skeleton, start: Clip, name: str, kept: Sequence[str
     clip = built_in(name, skeleton)
     if kept:
         clip = keep_pictured_parts(skeleton, clip, start, list(kept))
-    if clip.loops and np.linalg.norm(loop_travel(clip)) > TRAVELS:
+    if clip.loops and np.linalg.norm(loop_travel(clip)) > MIN_TRAVEL_METRES:
         return replace(in_place(clip), name=_in_place_name(clip))
     return clip
 

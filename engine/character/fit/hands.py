@@ -17,15 +17,15 @@ from engine.character.figure.figure import Figure
 from engine.character.fit.head import joint_axes
 from engine.character.fit.template_fit import FittedBody, load_human
 
-OFF = 0.06
+MAX_MEDIAN_RESIDUAL_LENGTHS = 0.06
 """Lengths of the hand by which half of its landmarks may be off after the fit; beyond, it is not believed."""
-LARGER, BESIDE = 1.6, 0.5
+MAX_HAND_SCALE_RATIO, MAX_HAND_OFFSET_LENGTHS = 1.6, 0.5
 """How much larger or smaller than the template's a hand may be, and how many of its lengths beside it, to be believed."""
-OPEN, APART = 0.8, 0.14
+MIN_FINGER_REACH_SHARE, MIN_FINGERTIP_SPREAD_LENGTHS = 0.8, 0.14
 """Share of their lengths that all fingers must reach across the view, and lengths of the hand that must lie between their
 tips, for the character to stretch them in T-pose. Of others the picture has one side, and of what touches no border: stretched,
 a curled hand would be a web. They stay as they are pictured."""
-SMALL = 12.0
+MIN_HAND_PIXELS = 12.0
 """Pixels; of smaller hands nothing can be said."""
 
 
@@ -36,7 +36,7 @@ def turn_hands(fitted: FittedBody, figure: Figure) -> FittedBody:
     heads = human.space.joints(fit.coefficients)
     rotations, kept = fit.rotations.copy(), fitted.kept.copy()
     for model, hand in zip(human.hands, figure.hands, strict=True):
-        if hand is None or (length := hand_length(hand)) < SMALL:
+        if hand is None or (length := hand_length(hand)) < MIN_HAND_PIXELS:
             continue
         axes, places = joint_axes(human.rig.parents, rotations, heads, fit.root_translation)
         wrist, arm = (human.rig.index(f"{model.side}{joint}") for joint in ("Hand", "ForeArm"))
@@ -44,14 +44,20 @@ def turn_hands(fitted: FittedBody, figure: Figure) -> FittedBody:
         found = fit_hand(model, fit.coefficients, anchor, hand)
         if _believed(found, length):
             rotations[found.joints] = found.rotations
-            kept[found.joints[1:]] = openness(hand) < OPEN or fingers_apart(hand) < APART
+            kept[found.joints[1:]] = (
+                openness(hand) < MIN_FINGER_REACH_SHARE or fingers_apart(hand) < MIN_FINGERTIP_SPREAD_LENGTHS
+            )
             _share_twist(rotations, arm, wrist, heads[wrist] - heads[arm])
     return replace(fitted, fit=replace(fit, rotations=rotations), kept=kept)
 
 
 def _believed(found: HandFit, length: float) -> bool:
-    near = np.linalg.norm(found.shift) < BESIDE * length
-    return bool(near and found.median_error < OFF and 1 / LARGER < found.scale < LARGER)
+    near = np.linalg.norm(found.shift) < MAX_HAND_OFFSET_LENGTHS * length
+    return bool(
+        near
+        and found.median_error < MAX_MEDIAN_RESIDUAL_LENGTHS
+        and 1 / MAX_HAND_SCALE_RATIO < found.scale < MAX_HAND_SCALE_RATIO
+    )
 
 
 def _share_twist(rotations: NDArray[np.float32], arm: int, wrist: int, along: NDArray[np.floating]) -> None:

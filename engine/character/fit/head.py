@@ -18,9 +18,9 @@ from engine.character.figure.figure import Figure
 from engine.character.fit.template_fit import FittedBody, load_human
 from engine.perception.landmarks import fiducials
 
-OFF = 0.2
+MAX_FIDUCIAL_ERROR_EYE_DISTANCES = 0.2
 """Distances of the eyes by which fiducials may be off on the average; beyond, the face is not believed."""
-TURN = 70.0
+MAX_HEAD_CORRECTION_DEGREES = 70.0
 """Degrees by which the face may correct what the body's fit says."""
 
 
@@ -53,7 +53,11 @@ def turn_head(fitted: FittedBody, figure: Figure) -> FittedBody:
     eyes = float(np.linalg.norm(seen[36:42].mean(0) - seen[42:48].mean(0)))
     turned = PICTURE_TO_TEMPLATE @ cv2.Rodrigues(vector)[0]
     away = np.degrees(np.arccos(np.clip((np.trace(worlds[head].T @ turned) - 1) / 2, -1, 1)))
-    if np.sqrt(((back - seen) ** 2).sum(1).mean()) > OFF * eyes or away > TURN or shift[2, 0] <= 0:
+    if (
+        np.sqrt(((back - seen) ** 2).sum(1).mean()) > MAX_FIDUCIAL_ERROR_EYE_DISTANCES * eyes
+        or away > MAX_HEAD_CORRECTION_DEGREES
+        or shift[2, 0] <= 0
+    ):
         return fitted
     rotations = fit.rotations.copy()
     rotations[head] = worlds[human.rig.parents[head]].T @ turned

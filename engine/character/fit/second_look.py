@@ -14,24 +14,24 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.figure.figure import SEEN, Figure, moved_along
+from engine.character.figure.figure import SEEN_JOINT_CONFIDENCE, Figure, moved_along
 from engine.imaging.masks.mask_pieces import bounding_box
 from engine.perception.body import BODY_LANDMARKS, FAINT_CONFIDENCE, Body, find_body
 
-GREY = 128
+BACKDROP_GREY_LEVEL = 128
 """Of what is before and behind the person."""
-GREY_MARGIN = 0.15
+GREY_MARGIN_SHARE = 0.15
 """Of grey around the person, as a share of the height."""
-LOOKED_AT = 512
+MAX_INPUT_HEIGHT_PIXELS = 512
 """Pixels of the person's height, at most, when they are looked at: the network makes less of it."""
-LOOKS_APART = 0.06
+MAX_JOINT_DISAGREEMENT_SHARE = 0.06
 """How far apart two looks have a joint that both see, at most, where they agree; as a share of the height."""
-COMPARED = tuple(
+COMPARED_LANDMARKS = tuple(
     BODY_LANDMARKS.index(f"{side}{joint}")
     for side in ("Left", "Right")
     for joint in ("Shoulder", "Elbow", "Wrist", "Hip", "Knee", "Ankle")
 )
-MIRRORED = np.array([
+MIRRORED_LANDMARKS = np.array([
     BODY_LANDMARKS.index(
         name.replace("Left", "Right") if "Left" in name else name.replace("Right", "Left")
     )
@@ -60,19 +60,19 @@ def _look(rgb: NDArray[np.uint8], alpha: NDArray[np.floating], mirror: bool) -> 
     """The body in what `alpha` (H, W) leaves of a picture, in the picture's pixels."""
     rows, columns = bounding_box(alpha > 0.5)
     shown = alpha[rows, columns, None]
-    person = np.asarray(rgb[rows, columns] * shown + GREY * (1 - shown), np.uint8)
-    scale = min(1.0, LOOKED_AT / person.shape[0])
+    person = np.asarray(rgb[rows, columns] * shown + BACKDROP_GREY_LEVEL * (1 - shown), np.uint8)
+    scale = min(1.0, MAX_INPUT_HEIGHT_PIXELS / person.shape[0])
     size = (max(1, round(person.shape[1] * scale)), max(1, round(person.shape[0] * scale)))
     person = np.asarray(cv2.resize(person, size, interpolation=cv2.INTER_AREA), np.uint8)
-    margin = round(GREY_MARGIN * size[1])
-    person = np.pad(person, ((margin, margin), (margin, margin), (0, 0)), constant_values=GREY)
+    margin = round(GREY_MARGIN_SHARE * size[1])
+    person = np.pad(person, ((margin, margin), (margin, margin), (0, 0)), constant_values=BACKDROP_GREY_LEVEL)
     body = find_body(person[:, ::-1] if mirror else person, FAINT_CONFIDENCE)
     if body is None:
         return None
     points, world, confidence = body.points, body.world, body.confidence
     if mirror:
-        points = (points * [-1, 1] + [person.shape[1] - 1, 0])[MIRRORED]
-        world, confidence = (world * [-1, 1, 1])[MIRRORED], confidence[MIRRORED]
+        points = (points * [-1, 1] + [person.shape[1] - 1, 0])[MIRRORED_LANDMARKS]
+        world, confidence = (world * [-1, 1, 1])[MIRRORED_LANDMARKS], confidence[MIRRORED_LANDMARKS]
     points = (points - margin + 0.5) / scale - 0.5 + [columns.start, rows.start]
     return Body(points.astype(np.float32), world.astype(np.float32), confidence)
 
@@ -99,9 +99,9 @@ def _in_agreement(looks: Sequence[Figure], height: float) -> list[Figure]:
 
 
 def _agree(one: Figure, other: Figure, height: float) -> bool:
-    away = np.linalg.norm(one.points[COMPARED, :] - other.points[COMPARED, :], axis=1)
-    seen = np.minimum(one.confidence, other.confidence)[list(COMPARED)] > SEEN
-    return bool((away[seen] < LOOKS_APART * height).all())
+    away = np.linalg.norm(one.points[COMPARED_LANDMARKS, :] - other.points[COMPARED_LANDMARKS, :], axis=1)
+    seen = np.minimum(one.confidence, other.confidence)[list(COMPARED_LANDMARKS)] > SEEN_JOINT_CONFIDENCE
+    return bool((away[seen] < MAX_JOINT_DISAGREEMENT_SHARE * height).all())
 
 
 def _mean(group: Sequence[Figure]) -> Figure:

@@ -31,11 +31,11 @@ from engine.geometry.surface import triangulate
 from engine.perception.body import BODY_LANDMARKS
 from engine.render.rasteriser import rasterise
 
-RIG = "mixamo"
+RIG_NAME = "mixamo"
 """The rig of a character, who is one surface: the joints of `engine.body.rig.FACE_JOINTS` would move nothing that opens or turns."""
-FOCAL = 2.2
+FOCAL_LENGTH_SIDES = 2.2
 """Focal length in longer sides of the picture: a moderate telephoto lens, as people are photographed."""
-RELIABLE = {
+LANDMARK_WEIGHTS = {
     "Nose": 4.0,
     "Eye": 4.0,
     "Pinky": 0.3,
@@ -48,21 +48,28 @@ RELIABLE = {
 } | dict.fromkeys(("EyeInner", "EyeOuter", "MouthLeft", "MouthRight"), 0.0)
 """How much these landmarks count; the others count 1. Nose and eyes are found best of all; with ears they say enough of the
 head, whose turn is found by all of its face points."""
-BEFORE, NARROWER, SEEN = 0.2, 0.9, 0.5
+ARM_FORWARD_METRES, TRUNK_CORE_SHARE, SEEN_JOINT_CONFIDENCE = 0.2, 0.9, 0.5
 """Metres from the trunk's middle to an arm before it; the share of the trunk's outline that is surely the trunk's; the
 confidence from which a joint is seen and not hidden."""
-FOREARMS_NEAR = 0.25
+FOREARM_DEPTH_BIAS = 0.25
 """How much nearer to the viewer than the elbow perception has wrists, more than they are, per length of the forearm: of
 straight arms in A-pose, rendered and photographed."""
-FLATTENED, UNSURE = 3.0, 0.12
+LEG_DEPTH_GAIN, MIN_LEG_DEPTH_DIFFERENCE = 3.0, 0.12
 """How much further one leg is before the other than perception has it, measured on renders; and the difference (of unit
 vectors) below which what it has is rather noise."""
-OFF_COUNTS = 2.0
+LANDMARK_ERROR_WEIGHT = 2.0
 """How much more a share of the height by which landmarks are off counts than a share of overlap, where one of several fits is
 chosen: front and back have one outline."""
-COMPARED_AT = 480
+WORKING_SIZE_PIXELS = 480
 """Pixels of the picture's longer side at which templates are held against a mask."""
-JOINTS = {"Arm": "Shoulder", "ForeArm": "Elbow", "Hand": "Wrist", "UpLeg": "Hip", "Leg": "Knee", "Foot": "Ankle"}
+JOINT_LANDMARKS = {
+    "Arm": "Shoulder",
+    "ForeArm": "Elbow",
+    "Hand": "Wrist",
+    "UpLeg": "Hip",
+    "Leg": "Knee",
+    "Foot": "Ankle",
+}
 """Landmarks at which limbs begin and end, by the joint."""
 
 
@@ -97,7 +104,7 @@ class Human:
 @cache
 def load_human() -> Human:
     """Load the template, its rig and its space of bodies, once for the process."""
-    template, rig = load_template(), load_rig(RIG)
+    template, rig = load_template(), load_rig(RIG_NAME)
     space = load_body_space().with_joints_of(rig)
     return Human(
         space,
@@ -115,13 +122,13 @@ def fit_figure(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
     human = load_human()
     landmarks = human.landmarks
     at = [BODY_LANDMARKS.index(name) for name in landmarks.names]
-    trust = np.array([RELIABLE.get(_part(name), 1.0) for name in landmarks.names], np.float32)
+    trust = np.array([LANDMARK_WEIGHTS.get(_part(name), 1.0) for name in landmarks.names], np.float32)
     height, width = figure.rgb.shape[:2]
     centre = (width - 1) / 2, (height - 1) / 2
-    camera = Camera((0.0, 0.0, 0.0), FOCAL * max(height, width), centre, (height, width))
+    camera = Camera((0.0, 0.0, 0.0), FOCAL_LENGTH_SIDES * max(height, width), centre, (height, width))
     places = {
         f"{side}{joint}": BODY_LANDMARKS.index(f"{side}{mark}")
-        for joint, mark in JOINTS.items()
+        for joint, mark in JOINT_LANDMARKS.items()
         for side in ("Left", "Right")
     }
     world = arms_before_the_trunk(figure) if figure.spatial else _in_the_plane(figure.points)
@@ -156,12 +163,14 @@ def fit_best(figures: Sequence[Figure], mask: NDArray[np.bool_]) -> FittedBody:
     if len(fits) == 1:
         return fits[0]
     height = float(np.ptp(np.flatnonzero(mask.any(1))))
-    return max(fits, key=lambda fitted: _overlap(fitted, mask) - OFF_COUNTS * fitted.fit.reprojection / height)
+    return max(
+        fits, key=lambda fitted: _overlap(fitted, mask) - LANDMARK_ERROR_WEIGHT * fitted.fit.reprojection / height
+    )
 
 
 def _overlap(fitted: FittedBody, mask: NDArray[np.bool_]) -> float:
     """Intersection over union of the bare template and the mask (H, W)."""
-    scale = min(1.0, COMPARED_AT / max(mask.shape))
+    scale = min(1.0, WORKING_SIZE_PIXELS / max(mask.shape))
     size = max(1, round(mask.shape[0] * scale)), max(1, round(mask.shape[1] * scale))
     small = cv2.resize(mask.astype(np.uint8), size[::-1], interpolation=cv2.INTER_NEAREST_EXACT) > 0
     template = pose_template(fitted, fitted.picture_camera(), load_human())
@@ -185,25 +194,25 @@ def pose_template(fitted: FittedBody, camera: PictureCamera, human: Human) -> Po
 
 def arms_before_the_trunk(figure: Figure) -> NDArray[np.float32]:
     """Perception's places in space (33, 3), with what is seen before the trunk before it: an arm behind it would be
-    hidden. `BEFORE` metres are those between the middle of a body and an arm that lies on it."""
+    hidden. `ARM_FORWARD_METRES` metres are those between the middle of a body and an arm that lies on it."""
     world = figure.world.copy()
     corners = ("LeftShoulder", "RightShoulder", "RightHip", "LeftHip")
     trunk = np.stack([figure.point(name) for name in corners])
     middle = trunk.mean(0)
-    trunk = np.asarray(middle + NARROWER * (trunk - middle), np.float32)
+    trunk = np.asarray(middle + TRUNK_CORE_SHARE * (trunk - middle), np.float32)
     depths = world[[BODY_LANDMARKS.index(name) for name in corners], 2]
     for side in ("Left", "Right"):
         for joint in ("Elbow", "Wrist"):
             at = BODY_LANDMARKS.index(f"{side}{joint}")
             x, y = (float(value) for value in figure.points[at])
-            if figure.confidence[at] > SEEN and cv2.pointPolygonTest(trunk, (x, y), False) > 0:
-                world[at, 2] = max(world[at, 2], float(depths.mean()) + BEFORE)
+            if figure.confidence[at] > SEEN_JOINT_CONFIDENCE and cv2.pointPolygonTest(trunk, (x, y), False) > 0:
+                world[at, 2] = max(world[at, 2], float(depths.mean()) + ARM_FORWARD_METRES)
     return world
 
 
 def forearms_back(limbs: NDArray[np.floating]) -> NDArray[np.floating]:
     """Directions (8, 3) of `DIRECTED_LIMBS` with forearms as far back as perception has them too near the viewer."""
-    forearms = limbs[1:4:2] - [0, 0, FOREARMS_NEAR]
+    forearms = limbs[1:4:2] - [0, 0, FOREARM_DEPTH_BIAS]
     forearms = forearms / np.maximum(np.linalg.norm(forearms, axis=1, keepdims=True), 1e-6)
     return np.concatenate([limbs[:1], forearms[:1], limbs[2:3], forearms[1:], limbs[4:]])
 
@@ -214,7 +223,7 @@ def legs_apart(limbs: NDArray[np.floating], front: NDArray[np.floating]) -> NDAr
     legs = limbs[4:].reshape(2, 2, 3)  # sides, thigh and shin
     before = (legs[0] - legs[1]) @ front
     power = before @ before
-    more = (FLATTENED * power / (power + UNSURE**2) - 1) * before / 2
+    more = (LEG_DEPTH_GAIN * power / (power + MIN_LEG_DEPTH_DIFFERENCE**2) - 1) * before / 2
     moved = legs + np.array([1, -1])[:, None, None] * more[:, None] * front
     return np.concatenate([limbs[:4], moved.reshape(4, 3)])
 

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
 from engine.character.fit.template_fit import FittedBody, load_human
-from engine.character.hybrid.trunk import LIMBS, UNDER
+from engine.character.hybrid.trunk import LIMB_LABELS, TRUNK_UNDERLAP_PIXELS
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARMS, LEGS
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
 from engine.character.shell.template_mesh import TemplateMesh
 from engine.character.surface.depth_order import body_behind, limb_before
 from engine.character.surface.part_surface import Surface
@@ -29,21 +29,21 @@ from engine.imaging.masks.mask_pieces import rows_apart
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import rasterise
 
-SHOULDER, HIP = 0.15, 0.16
+SHOULDER_OVERLAP_METRES, HIP_OVERLAP_METRES = 0.15, 0.16
 """Metres at rest around the joint in which the shell of arm or leg goes on in the trunk."""
-UP = 0.06
+LEG_UNDER_CLOTH_SHARE = 0.06
 """How far a leg goes on under cloth that hangs, as a share of the person's height."""
-BENEATH = 1.5
+INSET_PIXELS = 1.5
 """Pixels by which what is within the trunk lies beneath its surface."""
-THIN = 0.2
+MIN_DEPTH_SHARE = 0.2
 """Share of the trunk's depth that a limb within it keeps about its middle, at least."""
-BESIDE = 3
+LIMB_EDGE_TOLERANCE_PIXELS = 3
 """Pixels from limbs that are seen within which nothing is taken to be hidden by the trunk: outlines do not lie on one another exactly."""
-FORTH = 16.0
+MAX_FORWARD_PIXELS = 16.0
 """Pixels by which a limb that the trunk hides may be before it and is moved behind; twice as many, and it is not moved."""
-FULL, SOFT = 0.4, 4.0
+FULL_DEPTH_NEARNESS, DEPTH_SMOOTHING_PIXELS = 0.4, 4.0
 """How near to a joint, from 0 to 1 there, the trunk is as deep as the shell, and pixels over which that is smoothed."""
-EVEN = 4
+WEIGHT_SMOOTHING_ROUNDS = 4
 """Times that what moves a limb's vertices into the trunk is spread to their neighbours."""
 
 
@@ -71,24 +71,24 @@ def limbs_of(
     at, heads = space.vertices(coefficients)[mesh.ids], space.joints(coefficients)
     hangs = labels.cloth is not None and labels.cloth.hangs
     most = mesh.parts.argmax(1)
-    limb = np.where(np.isin(most, LIMBS), most, -1)
+    limb = np.where(np.isin(most, LIMB_LABELS), most, -1)
     overlap, near = np.zeros(len(most), np.bool_), np.zeros(len(most), np.float32)
-    for part in LIMBS:
+    for part in LIMB_LABELS:
         side = "Left" if BODY_PARTS[part].startswith("left") else "Right"
-        name, reach = ("Arm", SHOULDER) if part in ARMS else ("UpLeg", HIP)
+        name, reach = ("Arm", SHOULDER_OVERLAP_METRES) if part in ARM_LABELS else ("UpLeg", HIP_OVERLAP_METRES)
         distance = np.linalg.norm(at - heads[mesh.names.index(f"{side}{name}")], axis=1)
-        if part in LEGS and hangs:
+        if part in LEG_LABELS and hangs:
             continue
         near = np.maximum(near, np.clip(1 - distance / reach, 0, 1))
         beyond = (most == BODY_PARTS.index("torso")) & (distance < reach) & (limb < 0)
         limb[beyond], overlap[beyond] = part, True
     if hangs:
-        up = UP * rows_apart(labels.labels >= 0)
-        for leg in LEGS:
+        up = LEG_UNDER_CLOTH_SHARE * rows_apart(labels.labels >= 0)
+        for leg in LEG_LABELS:
             own = labels.labels == leg
             hem = np.flatnonzero(own.any(1))[0] if own.any() else np.inf
             limb[(limb == leg) & (pictured[:, 1] < hem - up)] = -1
-        overlap |= np.isin(limb, LEGS) & (pictured[:, 1] < _hem(labels, limb))
+        overlap |= np.isin(limb, LEG_LABELS) & (pictured[:, 1] < _hem(labels, limb))
     if within is not None:
         limb[~within] = -1
     return Limbs(limb, overlap & (limb >= 0), near.astype(np.float32))
@@ -97,7 +97,7 @@ def limbs_of(
 def _hem(labels: Labels, limb: NDArray[np.intp]) -> NDArray[np.float64]:
     """The first row (V,) of its leg that is seen, of vertices of a `limb` (V,)."""
     rows = np.full(len(BODY_PARTS) + 1, -np.inf)
-    for leg in LEGS:
+    for leg in LEG_LABELS:
         own = (labels.labels == leg).any(1)
         rows[leg] = np.flatnonzero(own)[0] if own.any() else -np.inf
     return rows[limb]
@@ -110,8 +110,8 @@ def joined_in_depth(
     behind its front, and what of them goes on in it is within: around joints the trunk is as deep as the shell."""
     moved = pictured.copy()
     trunk = _as_deep(mesh, moved, limbs, trunk)
-    beside = dilate_mask(trunk.mask & ~np.isin(labels.labels, LIMBS), UNDER + 1)
-    for part in LIMBS:
+    beside = dilate_mask(trunk.mask & ~np.isin(labels.labels, LIMB_LABELS), TRUNK_UNDERLAP_PIXELS + 1)
+    for part in LIMB_LABELS:
         own, chosen = labels.labels == part, (limbs.limb == part) & ~limbs.overlap
         if not (own.any() and chosen.any()):
             continue
@@ -131,9 +131,9 @@ def _as_deep(mesh: TemplateMesh, vertices: NDArray[np.float64], limbs: Limbs, tr
         shape = side.depth.shape
         raster = rasterise(vertices * [1, 1, -towards], triangles, (shape[0], shape[1]))
         there = (raster.triangle >= 0) & trunk.mask
-        share = np.clip(interpolate(limbs.near[:, None], triangles, raster)[..., 0] / FULL, 0, 1)
-        share = cv2.GaussianBlur(np.where(there, share, 0).astype(np.float32), (0, 0), SOFT)
-        goal = np.where(there, towards * (BENEATH - raster.depth), 0)
+        share = np.clip(interpolate(limbs.near[:, None], triangles, raster)[..., 0] / FULL_DEPTH_NEARNESS, 0, 1)
+        share = cv2.GaussianBlur(np.where(there, share, 0).astype(np.float32), (0, 0), DEPTH_SMOOTHING_PIXELS)
+        goal = np.where(there, towards * (INSET_PIXELS - raster.depth), 0)
         depth = np.where(there, side.depth + share * (goal - side.depth), side.depth)
         sides.append(Surface(depth.astype(np.float32), side.weights))
     return replace(trunk, front=sides[0], back=sides[1])
@@ -161,18 +161,20 @@ def _within(
     shape = trunk.mask.shape
     half = np.where(trunk.mask, (trunk.front.depth - trunk.back.depth) / 2, 0)
     middle = np.where(trunk.mask, (trunk.front.depth + trunk.back.depth) / 2, 0)
-    beneath = np.minimum(BENEATH, half * (1 - THIN))
+    beneath = np.minimum(INSET_PIXELS, half * (1 - MIN_DEPTH_SHARE))
     inner = cv2.erode(trunk.mask.astype(np.uint8), np.ones((3, 3), np.uint8), borderValue=0) > 0
     limb = limbs.limb >= 0
     x, y = np.clip(np.rint(vertices[:, :2]), 0, [shape[1] - 1, shape[0] - 1]).astype(int).T
     covered = inner[y, x] & limb
-    hidden = covered & ~dilate_mask(np.isin(labels.labels, LIMBS), BESIDE)[y, x] & ~limbs.overlap
+    hidden = (
+        covered & ~dilate_mask(np.isin(labels.labels, LIMB_LABELS), LIMB_EDGE_TOLERANCE_PIXELS)[y, x] & ~limbs.overlap
+    )
     front = (middle + half - beneath)[y, x]
     back = (middle - half + beneath)[y, x]
     z = vertices[:, 2]
     wanted = z.copy()
     over = np.maximum(z - front, 0)[hidden]
-    wanted[hidden] -= over * np.clip(2 - over / FORTH, 0, 1)
+    wanted[hidden] -= over * np.clip(2 - over / MAX_FORWARD_PIXELS, 0, 1)
     down = covered & limbs.overlap
     wanted[down] = np.minimum(z, front)[down]
     up = covered & limbs.overlap
@@ -181,7 +183,7 @@ def _within(
     beside = neighbours(mesh.triangles, len(vertices))
     degree = np.maximum(np.asarray(beside.sum(1)).ravel(), 1)
     spread = change.copy()
-    for _ in range(EVEN):
+    for _ in range(WEIGHT_SMOOTHING_ROUNDS):
         spread = (beside @ spread) / degree
         spread = np.where(np.abs(change) > np.abs(spread), change, spread)
     moved = vertices.copy()

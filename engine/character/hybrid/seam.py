@@ -11,22 +11,22 @@ from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
 from engine.character.hybrid.hybrid import Hybrid
-from engine.character.hybrid.trunk import LIMBS
+from engine.character.hybrid.trunk import LIMB_LABELS
 from engine.character.shell.colours.paint import texels
 from engine.character.texture.texture import Tiles
 from engine.geometry.surface import vertex_normals
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.render.rasteriser import rasterise
 
-FROM = 0.5
+TRUNK_WEIGHT_THRESHOLD = 0.5
 """Share of the trunk in what moves a vertex from which on its colours go over to the trunk's."""
-FACES, SURELY = 0.12, 0.3
+MIN_PICTURED_COSINE, FULLY_PICTURED_COSINE = 0.12, 0.3
 """Cosine to the viewer from which on what is seen of a limb is more and more, and all, the picture's."""
-BESIDE = 5
+LABEL_TOLERANCE_PIXELS = 5
 """Pixels of the grid around a limb's label in which its surface may be what is seen: neither's border is exact."""
-BEHIND = 3.0
+VISIBILITY_TOLERANCE_PIXELS = 3.0
 """Pixels of the grid by which a point may be behind what is nearest at its place and yet be seen."""
-ASIDE = 0.3
+MAX_SIDE_COSINE = 0.3
 """Cosine to the viewer up to which, on both sides, front and back go over into one another."""
 
 
@@ -38,7 +38,9 @@ def with_the_trunks_colours(
     not the same on the template and on a sleeve."""
     shell, labels, raster = hybrid.shell, hybrid.labels.labels, texels()
     mesh = shell.mesh
-    share = np.clip((mesh.parts[:, BODY_PARTS.index("torso")] - FROM) / (1 - FROM), 0, 1)
+    share = np.clip(
+        (mesh.parts[:, BODY_PARTS.index("torso")] - TRUNK_WEIGHT_THRESHOLD) / (1 - TRUNK_WEIGHT_THRESHOLD), 0, 1
+    )
     facing = -vertex_normals(shell.pictured, mesh.triangles)[:, 2]
     values = np.column_stack([shell.pictured, facing, share]).astype(np.float32)
     shown = np.asarray((hybrid.limbs.limb >= 0)[mesh.triangles].all(1), np.bool_)
@@ -50,11 +52,11 @@ def with_the_trunks_colours(
     picture = _sampled(rgb, (at[:, :2] - to_grid[:, 2]) / np.diag(to_grid))
     depth = -rasterise(shell.pictured * [1, 1, -1], mesh.triangles[shown], labels.shape).depth
     column, row = np.clip(np.rint(at[:, :2]).astype(int), 0, [labels.shape[1] - 1, labels.shape[0] - 1]).T
-    nearest = ~(depth[row, column] - at[:, 2] > BEHIND)
+    nearest = ~(depth[row, column] - at[:, 2] > VISIBILITY_TOLERANCE_PIXELS)
     own = _around_limbs(labels)[hybrid.limbs.limb[corners[:, 0]], row, column] & nearest
-    before = np.clip(0.5 + at[:, 3] / (2 * ASIDE), 0, 1)
+    before = np.clip(0.5 + at[:, 3] / (2 * MAX_SIDE_COSINE), 0, 1)
     of_front, of_back = at[:, 4] * before * ~own, at[:, 4] * (1 - before)
-    seen = np.clip((at[:, 3] - FACES) / (SURELY - FACES), 0, 1) * own
+    seen = np.clip((at[:, 3] - MIN_PICTURED_COSINE) / (FULLY_PICTURED_COSINE - MIN_PICTURED_COSINE), 0, 1) * own
     mixed = texture[y, x].astype(np.float32)
     for weight, colours in ((of_front, front), (of_back, back), (seen, picture)):
         mixed += weight[:, None] * (colours - mixed)
@@ -67,9 +69,9 @@ def _around_limbs(labels: NDArray[np.integer]) -> NDArray[np.bool_]:
     """For each part the pixels (P, h, w) that it may show: of limbs what is labelled so, and a little around it that is no other
     limb's; of other parts none."""
     around = np.zeros((len(BODY_PARTS), *labels.shape), np.bool_)
-    for limb in LIMBS:
-        others = np.isin(labels, [other for other in LIMBS if other != limb])
-        around[limb] = dilate_mask(labels == limb, BESIDE) & ~dilate_mask(others, 2)
+    for limb in LIMB_LABELS:
+        others = np.isin(labels, [other for other in LIMB_LABELS if other != limb])
+        around[limb] = dilate_mask(labels == limb, LABEL_TOLERANCE_PIXELS) & ~dilate_mask(others, 2)
         around[limb] |= labels == limb
     return around
 

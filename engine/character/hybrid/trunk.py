@@ -15,7 +15,7 @@ from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARMS, LEGS
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
 from engine.character.parts.occlusion import completed
 from engine.character.parts.regions import Region
 from engine.character.surface.drape import drape
@@ -26,8 +26,8 @@ from engine.character.surface.skirt_weights import moved_by_both
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import largest_piece
 
-LIMBS = (*ARMS, *LEGS)
-UNDER = 3
+LIMB_LABELS = (*ARM_LABELS, *LEG_LABELS)
+TRUNK_UNDERLAP_PIXELS = 3
 """Pixels by which the trunk goes on behind limbs everywhere: what lies between two borders of pixels would gape."""
 
 
@@ -36,29 +36,29 @@ def trunk_labels(labels: Labels) -> Labels:
     found, cloth = labels.labels, labels.cloth
     if cloth is not None and cloth.hangs:
         legs = np.full(found.shape, -1, np.int8) if cloth.legs is None else cloth.legs
-        clothed = np.where(np.isin(found, LEGS), BODY_PARTS.index("torso"), found)
+        clothed = np.where(np.isin(found, LEG_LABELS), BODY_PARTS.index("torso"), found)
         found = np.where(legs >= 0, legs, clothed).astype(np.int8)
-    apart = np.array([limb for limb in LIMBS if (found == limb).any()], np.int8)
+    apart = np.array([limb for limb in LIMB_LABELS if (found == limb).any()], np.int8)
     return replace(labels, labels=found, apart=apart, parting=np.zeros_like(labels.parting), behind=None)
 
 
 def trunk_region(labels: Labels, template: PosedTemplate, rig: Rig) -> Region:
     """The trunk's pixels with the head's, in one piece, and the template's triangles that are theirs. `labels`: of `trunk_labels`."""
     part = vertex_parts(rig)[template.triangles]
-    limbs = np.isin(labels.labels, LIMBS)
-    own = np.asarray((~np.isin(part, LIMBS)).any(1), np.bool_)
+    limbs = np.isin(labels.labels, LIMB_LABELS)
+    own = np.asarray((~np.isin(part, LIMB_LABELS)).any(1), np.bool_)
     if labels.cloth is not None and labels.cloth.hangs:
         own = own | _within_cloth(labels, template, part)
     seen = (labels.labels >= 0) & ~limbs
     whole = template.covers(own, seen.shape)
     body = completed(seen, limbs, labels.occlusion, whole)
-    return Region(largest_piece(body | (limbs & dilate_mask(body, UNDER))), own)
+    return Region(largest_piece(body | (limbs & dilate_mask(body, TRUNK_UNDERLAP_PIXELS))), own)
 
 
 def _within_cloth(labels: Labels, template: PosedTemplate, part: NDArray[np.intp]) -> NDArray[np.bool_]:
     """The template's triangles (T,) of legs above the hem from under which they come."""
-    within = np.asarray(np.isin(part, LEGS).any(1), np.bool_)
-    for leg in LEGS:
+    within = np.asarray(np.isin(part, LEG_LABELS).any(1), np.bool_)
+    for leg in LEG_LABELS:
         own = labels.labels == leg
         if own.any():
             hem = float(np.median(own.argmax(0)[own.any(0)]))

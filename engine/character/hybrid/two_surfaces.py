@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from engine.character.rig.rigging import Character
 from engine.geometry.skinned_mesh import SkinnedMesh
 
-WIDEST = 4096
+MAX_TEXTURE_WIDTH_PIXELS = 4096
 """Pixels of a texture's width at most: what every graphics card takes."""
-MARGIN = 8
+CROP_MARGIN_TEXELS = 8
 """Texels around what is used of a texture that are kept."""
 
 
@@ -39,8 +39,8 @@ def _cropped(mesh: SkinnedMesh) -> tuple[NDArray[np.uint8], NDArray[np.float64]]
     """What a mesh uses of its texture, and its places (V, 2) there, pixels."""
     height, width = mesh.texture.shape[:2]
     places = mesh.uv.astype(np.float64) * [width, height]
-    first = np.maximum(np.floor(places.min(0)).astype(int) - MARGIN, 0)
-    last = np.minimum(np.ceil(places.max(0)).astype(int) + MARGIN, [width, height])
+    first = np.maximum(np.floor(places.min(0)).astype(int) - CROP_MARGIN_TEXELS, 0)
+    last = np.minimum(np.ceil(places.max(0)).astype(int) + CROP_MARGIN_TEXELS, [width, height])
     return mesh.texture[first[1] : last[1], first[0] : last[0]], places - first
 
 
@@ -48,7 +48,7 @@ def _side_by_side(
     pictures: tuple[NDArray[np.uint8], ...], places: tuple[NDArray[np.float64], ...]
 ) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """One texture of some, and the places (V, 2) of all in it, in [0, 1]."""
-    scale = min(1.0, WIDEST / sum(one.shape[1] for one in pictures))
+    scale = min(1.0, MAX_TEXTURE_WIDTH_PIXELS / sum(one.shape[1] for one in pictures))
     if scale < 1:
         pictures = tuple(
             np.asarray(cv2.resize(one, (int(one.shape[1] * scale), round(one.shape[0] * scale)), interpolation=cv2.INTER_AREA), np.uint8)

@@ -23,19 +23,19 @@ from engine.geometry.joint_names import SIDES
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
 from engine.imaging.masks.mask_pieces import largest_piece
 
-NARROWEST, WIDEST = 0.045, 0.085
+MIN_ELBOW_HALF_WIDTH_METRES, MAX_ELBOW_HALF_WIDTH_METRES = 0.045, 0.085
 """Metres that half the width of an arm at its elbow has, at least and at most."""
-SHOULDER, WRIST = 0.65, 0.75
+SHOULDER_WIDTH_RATIO, WRIST_WIDTH_RATIO = 0.65, 0.75
 """Half the widths of an arm at shoulder and wrist, as shares of that at the elbow."""
-LOOSE, SAG = 1.2, 0.35
+SLEEVE_WIDTH_RATIO, SLEEVE_SAG_SHARE = 1.2, 0.35
 """A sleeve is wider than from the joint to the outline; that of the arm behind is seen below the other, and hangs."""
-PALM, FINGERS = 0.045, 0.03
+PALM_HALF_WIDTH_METRES, BENT_FINGERS_HALF_WIDTH_METRES = 0.045, 0.03
 """Metres that half the width of a hand has, at palm and bent fingers."""
-LENGTH = 0.13
+HAND_REACH_METRES = 0.13
 """Metres from the wrist to the middle of bent fingers."""
-RIM = 4.0
+OUTLINE_BAND_PIXELS = 4.0
 """Pixels of the grid from the person's outline in which no hand is tucked away."""
-STEPS = 24
+CIRCLES_PER_BONE = 24
 """Circles that make an arm from one joint to the next."""
 
 
@@ -73,10 +73,12 @@ def label_crossed(
         skin = np.asarray(cv2.warpAffine(arms.skin.astype(np.float32), to_grid, size, flags=cv2.INTER_AREA)) > 0.5
     front, back = SIDES[arms.crossing.front], arms.behind
     own = {side: _Arm.of(side, figure, template, rig, to_grid, mask) for side in SIDES}
-    covers = {side: arm.sleeve(mask.shape, SAG if side == back else 0.0) & mask for side, arm in own.items()}
+    covers = {
+        side: arm.sleeve(mask.shape, SLEEVE_SAG_SHARE if side == back else 0.0) & mask for side, arm in own.items()
+    }
     hands = {side: arm.hand(mask.shape) & mask for side, arm in own.items()}
     if arms.crossing.tucked_at is not None:  # at the outline the arm before it is too thin to hide it from all sides
-        hands[back] &= distance_inside(mask) > RIM
+        hands[back] &= distance_inside(mask) > OUTLINE_BAND_PIXELS
     reach = dilate_mask(hands[front] | covers[front], 2)
     seen = largest_piece(covers[front] | (hands[front] & skin & reach))
     whole = covers[back] | hands[back]
@@ -115,19 +117,27 @@ class _Arm:
         inside = distance_inside(mask)
         x, y = np.clip(np.rint(elbow), 0, [mask.shape[1] - 1, mask.shape[0] - 1]).astype(int)
         metre = template.pixels_per_metre
-        wide = LOOSE * float(np.clip(inside[y, x], NARROWEST * metre, WIDEST * metre))
-        return cls(shoulder, elbow, wrist, wrist + LENGTH * metre * along, wide, metre)
+        wide = SLEEVE_WIDTH_RATIO * float(
+            np.clip(inside[y, x], MIN_ELBOW_HALF_WIDTH_METRES * metre, MAX_ELBOW_HALF_WIDTH_METRES * metre)
+        )
+        return cls(shoulder, elbow, wrist, wrist + HAND_REACH_METRES * metre * along, wide, metre)
 
     def sleeve(self, shape: Sequence[int], sag: float = 0.0) -> NDArray[np.bool_]:
         """The pixels (h, w) of the sleeve, which hangs below the forearm by `sag` of half its width."""
-        upper = _tapered(shape, self.shoulder, self.elbow, SHOULDER * self.wide, self.wide)
+        upper = _tapered(shape, self.shoulder, self.elbow, SHOULDER_WIDTH_RATIO * self.wide, self.wide)
         for down in {0.0, sag * self.wide}:
             elbow, wrist = (joint + np.array([0, down]) for joint in (self.elbow, self.wrist))
-            upper |= _tapered(shape, elbow, wrist, self.wide, WRIST * self.wide)
+            upper |= _tapered(shape, elbow, wrist, self.wide, WRIST_WIDTH_RATIO * self.wide)
         return upper
 
     def hand(self, shape: Sequence[int]) -> NDArray[np.bool_]:
-        return _tapered(shape, self.wrist, self.fingers, PALM * self.metre, FINGERS * self.metre)
+        return _tapered(
+            shape,
+            self.wrist,
+            self.fingers,
+            PALM_HALF_WIDTH_METRES * self.metre,
+            BENT_FINGERS_HALF_WIDTH_METRES * self.metre,
+        )
 
 
 def _tapered(
@@ -135,7 +145,7 @@ def _tapered(
 ) -> NDArray[np.bool_]:
     """The pixels (h, w) around a line whose half width goes from `wide` at its start to `narrow` at its end."""
     drawn = np.zeros((shape[0], shape[1]), np.uint8)
-    for share in np.linspace(0, 1, STEPS):
+    for share in np.linspace(0, 1, CIRCLES_PER_BONE):
         x, y = np.rint(start + share * (end - start)).astype(int).tolist()
         cv2.circle(drawn, (x, y), max(1, round(wide + share * (narrow - wide))), (1,), -1)
     return np.asarray(drawn > 0)

@@ -15,26 +15,26 @@ from numpy.typing import NDArray
 from engine.body.parts import BODY_PARTS
 from engine.imaging.masks.mask_pieces import rows_apart
 
-CLOSE, FREE = 1.12, 1.5
+CLOSE_FIT_WIDTH_RATIO, FREE_HANGING_WIDTH_RATIO = 1.12, 1.5
 """How much wider than the template cloth is that still follows the legs, and that hangs freely."""
-ROUND = 0.68
+CLOTH_DEPTH_RATIO = 0.68
 """Depth of free cloth as a share of its width: about that of hips."""
-LOOSE = 0.5
+MIN_FREE_CLOTH_SHARE = 0.5
 """From which share on cloth is no trousers' whose legs touch."""
-WAIST = 0.65
+WAIST_TRUNK_SHARE = 0.65
 """How far down the trunk cloth may begin to hang freely."""
-AS_ONE = 0.25
+OVERLAPPING_LEGS_SHARE = 0.25
 """Share of the legs' width in which one hides the other, from which on cloth is loose only if it is wider than the hips: trousers of
 legs that are seen from the side are wide for one shin."""
-HEM, LATELY = 0.85, 16
+HEM_NARROWING_RATIO, HEM_WINDOW_ROWS = 0.85, 16
 """It ends where it is narrower than this share of what it was within so many rows."""
-EVEN, FADE = 0.012, 4.0
+CLOTH_SMOOTHING_SHARE, FADE_LENGTH_FACTOR = 0.012, 4.0
 """Share of the person's height over which cloth changes along the body, and over how much of that it begins."""
-UNEVEN = 0.1
+HEM_UNEVENNESS_SHARE = 0.1
 """Share of the height by which a hem may hang lower beside the legs."""
-BENEATH = 0.05
+HEM_SEARCH_SHARE = 0.05
 """Share of the height beneath its end over which is looked what goes on."""
-TROUSERS = 0.75
+TROUSERS_LOOSENESS_SHARE = 0.75
 """Share of its looseness that goes on there, from which on it was trousers' or a jumper's."""
 
 
@@ -94,8 +94,8 @@ class FreeCloth:
     def begins(self, first: int = 0) -> NDArray[np.float64]:
         """From 0 to 1 over the first rings from the one of index `first` on, and to 0 over the last if it goes on."""
         count = len(self.rings)
-        step = np.clip((np.arange(count) - first) / (FADE * self.even), 0, 1)
-        return np.minimum(step, np.arange(count)[::-1] / (FADE * self.even)) if self.goes_on else step
+        step = np.clip((np.arange(count) - first) / (FADE_LENGTH_FACTOR * self.even), 0, 1)
+        return np.minimum(step, np.arange(count)[::-1] / (FADE_LENGTH_FACTOR * self.even)) if self.goes_on else step
 
 
 def free_cloth(
@@ -118,20 +118,25 @@ def free_cloth(
     overlap = np.zeros_like(cloth) if overlap is None else overlap
     rings = _rings(cloth, (trunk, left, right), overlap, nearest, furthest)
     high = rows_apart(cloth)
-    far = max(2, round(BENEATH * high))
+    far = max(2, round(HEM_SEARCH_SHARE * high))
     hangs, goes_on = _hem(rings, cloth, trunk | left | right, far)
     if not hangs:
-        parts = np.array([ring.share < LOOSE and parting[ring.row, ring.first : ring.last + 1].any() for ring in rings])
+        parts = np.array(
+            [
+                ring.share < MIN_FREE_CLOTH_SHARE and parting[ring.row, ring.first : ring.last + 1].any()
+                for ring in rings
+            ]
+        )
         many = [k for k in np.flatnonzero(parts) if parts[k : k + far // 2].mean() > 0.5]
         if many:
             rings, goes_on = rings[: many[0]], True
     if len(rings) < 2:
         return None
-    even = EVEN * high
+    even = CLOTH_SMOOTHING_SHARE * high
     around = cv2.dilate((left | right).astype(np.uint8), np.ones((1, 2 * round(even) + 1), np.uint8)) > 0
     first = rings[-1].row + 1
     lower = np.zeros_like(cloth)
-    within = slice(first, round(first + UNEVEN * high))
+    within = slice(first, round(first + HEM_UNEVENNESS_SHARE * high))
     lower[within] = np.logical_and.accumulate((cloth & ~around)[within], axis=0)
     crotch = np.flatnonzero(trunk.any(1))[-1]
     above = sum(ring.row < crotch for ring in rings)
@@ -146,9 +151,9 @@ def _hem(rings: Sequence[Ring], cloth: NDArray[np.bool_], template: NDArray[np.b
     end, shares = rings[-1].row + 1, [ring.share for ring in rings]
     above = _looseness(cloth, template, max(end - far // 2, 0), end)
     beneath = _looseness(cloth, template, end + far, end + 2 * far)
-    goes_on = beneath > TROUSERS * above
+    goes_on = beneath > TROUSERS_LOOSENESS_SHARE * above
     loose = max(shares) if beneath > 0 else float(np.median(shares[-far:]))
-    return not goes_on and loose > LOOSE, goes_on
+    return not goes_on and loose > MIN_FREE_CLOTH_SHARE, goes_on
 
 
 def _rings(
@@ -162,11 +167,11 @@ def _rings(
     right leg (h, w) each, which may `overlap` (h, w)."""
     trunk, left, right = template
     both = np.asarray((left.any(1) & right.any(1)) | overlap.any(1))
-    as_one = overlap.sum(1) > AS_ONE * (left | right).sum(1)
+    as_one = overlap.sum(1) > OVERLAPPING_LEGS_SHARE * (left | right).sum(1)
     rings: list[Ring] = []
     rows = np.flatnonzero(trunk.any(1))
     widest = 0
-    for row in range(int(rows[0] + WAIST * (rows[-1] - rows[0])), len(cloth)):
+    for row in range(int(rows[0] + WAIST_TRUNK_SHARE * (rows[-1] - rows[0])), len(cloth)):
         if not (trunk[row].any() or both[row]):
             break
         there = np.flatnonzero((trunk | left | right)[row])
@@ -176,12 +181,20 @@ def _rings(
         width, least = piece[1] - piece[0] + 1, there[-1] - there[0] + 1
         widest = max(widest, least)
         least = widest if as_one[row] else least
-        share = float(np.clip((width / least - CLOSE) / (FREE - CLOSE), 0, 1))
-        if rings and share < LOOSE and width < HEM * max(ring.width for ring in rings[-LATELY:]):
+        share = float(
+            np.clip((width / least - CLOSE_FIT_WIDTH_RATIO) / (FREE_HANGING_WIDTH_RATIO - CLOSE_FIT_WIDTH_RATIO), 0, 1)
+        )
+        if (
+            rings
+            and share < MIN_FREE_CLOTH_SHARE
+            and width < HEM_NARROWING_RATIO * max(ring.width for ring in rings[-HEM_WINDOW_ROWS:])
+        ):
             break
         near, far = float(np.nanmax(nearest[row, there])), float(np.nanmin(furthest[row, there]))
         legs = _middle(left[row]), _middle(right[row])
-        rings.append(Ring(row, *piece, (near + far) / 2, max((near - far) / 2, ROUND * width / 2), share, legs))
+        rings.append(
+            Ring(row, *piece, (near + far) / 2, max((near - far) / 2, CLOTH_DEPTH_RATIO * width / 2), share, legs)
+        )
     return rings
 
 

@@ -6,20 +6,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
-from engine.character.parts.labels import ARMS, SPECK
+from engine.character.parts.labels import ARM_LABELS, MIN_PIECE_PIXELS
 from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, ColourMixture, log_likelihood_ratio
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import pieces_touching, without_small_pieces
 
-OUTLINE = 0.008
+ARM_OUTLINE_TOLERANCE_SHARE = 0.008
 """How far around the template's outline an arm's may be, as a share of the height."""
-CLEARLY = 3.0
+MIN_LOG_LIKELIHOOD_RATIO = 3.0
 """By how much likelier hair must be where the template has its arm (logarithms of probabilities)."""
-ACROSS = 0.05
+ARM_WIDTH_SHARE = 0.05
 """How wide an arm is that passes before hair, as a share of the height."""
-HAIRY, NOT_HAIR = 98.0, 0.4
+HAIR_LIKELIHOOD_PERCENTILE, MIN_NOT_HAIR_SHARE = 98.0, 0.4
 """Percent of hair whose colours say what may be hair; share of an arm that may not be, at least, to be told from hair."""
-SOFT = 2.0
+LIKELIHOOD_BLUR_PIXELS = 2.0
 """Pixels over which likelihoods are averaged."""
 
 
@@ -37,20 +37,22 @@ def hair_behind_arms(
     chin = int(np.flatnonzero((template == head).any(1))[-1])
     colours = rgb.astype(np.float64)
     of_hair = ColourMixture.fit(colours[hair])
-    hairy = float(np.percentile(of_hair.negative_log_likelihood(colours[hair]), HAIRY))
-    for arm in ARMS:
-        inner = (labels == arm) & ~_grown_by_share(template != arm, OUTLINE)
+    hairy = float(np.percentile(of_hair.negative_log_likelihood(colours[hair]), HAIR_LIKELIHOOD_PERCENTILE))
+    for arm in ARM_LABELS:
+        inner = (labels == arm) & ~_grown_by_share(template != arm, ARM_OUTLINE_TOLERANCE_SHARE)
         bare = inner.copy()
         bare[inner] = of_hair.negative_log_likelihood(colours[inner]) > hairy
         doubtful = (labels == arm) & (sure != arm)
         doubtful[chin:] = False
-        if bare.sum() < max(MIN_SAMPLES, NOT_HAIR * inner.sum()) or doubtful.sum() < SPECK:
+        if bare.sum() < max(MIN_SAMPLES, MIN_NOT_HAIR_SHARE * inner.sum()) or doubtful.sum() < MIN_PIECE_PIXELS:
             continue
-        likelier = log_likelihood_ratio(colours, doubtful, of_hair, ColourMixture.fit(colours[bare]), SOFT)
-        clear = np.where(_grown_by_share(template == arm, OUTLINE), CLEARLY, 0)
+        likelier = log_likelihood_ratio(
+            colours, doubtful, of_hair, ColourMixture.fit(colours[bare]), LIKELIHOOD_BLUR_PIXELS
+        )
+        clear = np.where(_grown_by_share(template == arm, ARM_OUTLINE_TOLERANCE_SHARE), MIN_LOG_LIKELIHOOD_RATIO, 0)
         given = doubtful & (likelier > clear)
-        near = _grown_by_share(labels == head, ACROSS)
-        found[pieces_touching(without_small_pieces(given, SPECK), near)] = head
+        near = _grown_by_share(labels == head, ARM_WIDTH_SHARE)
+        found[pieces_touching(without_small_pieces(given, MIN_PIECE_PIXELS), near)] = head
     return found
 
 

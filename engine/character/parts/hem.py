@@ -17,7 +17,7 @@ from engine.body.rig import Rig
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.parts.free_cloth import FreeCloth, free_cloth
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARMS, LEAST, LEGS
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, MIN_LIMB_PIXELS
 from engine.character.parts.overlapping_legs import leg_before
 from engine.character.parts.regions import Region, find_regions
 from engine.character.parts.unseen_limbs import not_seen
@@ -25,18 +25,18 @@ from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, UNSEEDED, Colo
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import largest_piece, pieces_touching, rows_apart, without_small_pieces
 
-BAND = 0.05
+HEM_BAND_SHARE = 0.05
 """How far above and below the last ring of the cloth its hem may be, as a share of the person's height."""
-LEAN = 3.0
+FAR_LABEL_COST = 3.0
 """What a pixel so far away costs with the label that is not its own there, in units of equation 16."""
-THREAD = 3
+LEG_EDGE_PIXELS = 3
 """Pixels up to which what seems to hang down beside a leg is the leg's edge."""
 
 
 def with_cloth(labels: Labels, rgb: NDArray[np.uint8], template: PosedTemplate, rig: Rig) -> Labels:
     """Labels with the cloth that goes round both legs, and where it hangs, the legs that come out from under it: what goes round
     both is one piece with the trunk, and neither of them is apart there. `rgb` (h, w, 3): the picture on their grid."""
-    unseen = [limb for limb in not_seen(labels) if limb in ARMS]
+    unseen = [limb for limb in not_seen(labels) if limb in ARM_LABELS]
     region, _ = find_regions(labels, [int(limb) for limb in labels.apart], template, rig, unseen)
     cloth = around_legs(region, labels, template, rig)
     if cloth is None or not cloth.hangs:
@@ -46,26 +46,26 @@ def with_cloth(labels: Labels, rgb: NDArray[np.uint8], template: PosedTemplate, 
     part = vertex_parts(rig)[template.triangles]
     for leg in np.unique(legs[legs >= 0]):
         first = np.flatnonzero((legs == leg).any(1))[0]
-        if template.covers((part == leg).all(1), legs.shape)[first:].sum() < LEAST:
+        if template.covers((part == leg).all(1), legs.shape)[first:].sum() < MIN_LIMB_PIXELS:
             legs[legs == leg] = -1  # nothing says what shape it has
     lower = cloth.lower.copy()
     first = cloth.rings[-1].row + 1
-    beneath = round(2 * BAND * rows_apart(labels.labels >= 0))
+    beneath = round(2 * HEM_BAND_SHARE * rows_apart(labels.labels >= 0))
     lower[first : first + beneath] |= (cloth.worn & (legs < 0))[first : first + beneath]
     cloth = replace(cloth, legs=legs, lower=lower, before=before)
-    return replace(labels, apart=np.setdiff1d(labels.apart, LEGS), cloth=cloth)
+    return replace(labels, apart=np.setdiff1d(labels.apart, LEG_LABELS), cloth=cloth)
 
 
 def around_legs(body: Region, labels: Labels, template: PosedTemplate, rig: Rig) -> FreeCloth | None:
     """The cloth that goes round both legs, one that passes before the other included."""
     part = vertex_parts(rig)[template.triangles]
-    crossing = [int(limb) for limb in labels.apart if limb in LEGS]
+    crossing = [int(limb) for limb in labels.apart if limb in LEG_LABELS]
     clothed = body.triangles | np.isin(part, crossing).any(1)
     sides = template.sides(clothed, body.mask.shape)
     shown = np.where(sides.front.mask, part[:, 0][clothed][sides.front.raster.triangle], -1)
-    bare = [arm for arm in ARMS if arm not in labels.apart]
+    bare = [arm for arm in ARM_LABELS if arm not in labels.apart]
     cloth = (body.mask | np.isin(labels.labels, crossing)) & ~np.isin(labels.labels, bare)
-    legs = [template.covers(clothed & (part == leg).all(1), shown.shape) for leg in LEGS]
+    legs = [template.covers(clothed & (part == leg).all(1), shown.shape) for leg in LEG_LABELS]
     return free_cloth(cloth, shown, sides.front.depth, sides.back.depth, labels.parting, legs[0] & legs[1])
 
 
@@ -75,27 +75,29 @@ def legs_below(
     """The leg (h, w), an index of `BODY_PARTS`, that shows from under a hem; -1 elsewhere. The hem is near the last ring, where
     the picture `rgb` (h, w, 3) goes over from the cloth's colours to the legs'. Each is in one piece, unless the one that is `before` it
     parts it."""
-    end, wide = cloth.rings[-1].row, max(2, round(BAND * rows_apart(labels >= 0)))
+    end, wide = cloth.rings[-1].row, max(2, round(HEM_BAND_SHARE * rows_apart(labels >= 0)))
     rows = np.broadcast_to(np.arange(len(labels))[:, None], labels.shape)
-    person = (labels >= 0) & ~np.isin(labels, ARMS) & (labels != BODY_PARTS.index("head"))
-    below = person & (rows > end) & np.isin(labels, LEGS) & ~cloth.lower
+    person = (labels >= 0) & ~np.isin(labels, ARM_LABELS) & (labels != BODY_PARTS.index("head"))
+    below = person & (rows > end) & np.isin(labels, LEG_LABELS) & ~cloth.lower
     band = person & (abs(rows - end) <= wide) & (cloth.worn | below)
     shown = _parted(rgb, person & (cloth.worn | below) & (abs(rows - end) <= 3 * wide), band, below, end, wide)
     legs = np.where(band, shown, below)
     alone = (person & ~legs).astype(np.uint8)
-    thread = person & ~(cv2.morphologyEx(alone, cv2.MORPH_OPEN, np.ones((THREAD, THREAD), np.uint8)) > 0)
-    legs |= thread & (rows > end) & dilate_mask(legs, THREAD)
+    thread = person & ~(
+        cv2.morphologyEx(alone, cv2.MORPH_OPEN, np.ones((LEG_EDGE_PIXELS, LEG_EDGE_PIXELS), np.uint8)) > 0
+    )
+    legs |= thread & (rows > end) & dilate_mask(legs, LEG_EDGE_PIXELS)
     # what hangs together with no foot is cloth
     legs = pieces_touching(legs, rows > end + wide)
     found = np.full(labels.shape, -1, np.int8)
-    away = np.stack([cv2.distanceTransform((labels != leg).astype(np.uint8), cv2.DIST_L2, 5) for leg in LEGS])
-    found[legs] = np.array(LEGS, np.int8)[away.argmin(0)][legs]
-    for leg in LEGS:
+    away = np.stack([cv2.distanceTransform((labels != leg).astype(np.uint8), cv2.DIST_L2, 5) for leg in LEG_LABELS])
+    found[legs] = np.array(LEG_LABELS, np.int8)[away.argmin(0)][legs]
+    for leg in LEG_LABELS:
         own = found == leg
         whole = largest_piece(own)
         if before not in (None, leg):
-            whole |= pieces_touching(without_small_pieces(own, LEAST), dilate_mask(found == before, 1))
-        found[own & ~whole if whole.sum() >= LEAST else own] = -1
+            whole |= pieces_touching(without_small_pieces(own, MIN_LIMB_PIXELS), dilate_mask(found == before, 1))
+        found[own & ~whole if whole.sum() >= MIN_LIMB_PIXELS else own] = -1
     return found
 
 
@@ -116,7 +118,7 @@ def _parted(
     rows = np.nonzero(near)[0]
     pixels, inner, before = colours[near], band[near], below[near]
     costs = colour_costs([ColourMixture.fit(some) for some in learned], pixels)
-    off = LEAN * (rows - end) / wide
+    off = FAR_LABEL_COST * (rows - end) / wide
     costs += np.stack([np.maximum(off, 0), np.maximum(-off, 0)], 1)
     labels = before.astype(np.intp)
     cut = ContrastGraph.of(colours, near).cut(costs, labels, np.where(inner, UNSEEDED, labels))

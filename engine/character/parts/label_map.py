@@ -19,8 +19,8 @@ from engine.character.parts.crossed_labels import ArmLabels, Behind
 from engine.character.parts.free_cloth import FreeCloth
 from engine.character.parts.hair_behind_arms import hair_behind_arms
 from engine.character.parts.labels import (
-    ARMS,
-    LEGS,
+    ARM_LABELS,
+    LEG_LABELS,
     complete_labels,
     hair_beside_arms,
     refined_labels,
@@ -61,7 +61,7 @@ class Labels:
         if self.cloth is None or self.cloth.legs is None or not self.cloth.parted:
             return self
         legs = self.cloth.legs
-        clothed = np.where(np.isin(self.labels, LEGS), BODY_PARTS.index("torso"), self.labels)
+        clothed = np.where(np.isin(self.labels, LEG_LABELS), BODY_PARTS.index("torso"), self.labels)
         return replace(
             self,
             labels=np.where(legs >= 0, legs, clothed).astype(np.int8),
@@ -110,7 +110,7 @@ def label_parts(
         likely = projected
         if crossed is not None:
             known = np.where(crossed.shown >= 0, crossed.shown, known)
-            likely = _projected(template, part_of, ~np.isin(part_of, ARMS), mask.shape)
+            likely = _projected(template, part_of, ~np.isin(part_of, ARM_LABELS), mask.shape)
         shown = np.where(known >= 0, known, likely)
         rough = rough_labels(mask, shown)
         rough = np.where(known >= 0, known, rough)
@@ -134,7 +134,7 @@ def label_parts(
         return whole
     behind = crossed.behind
     found_so = (labels >= 0) & (labels == rough) & (given is None)  # whoever paints says what is behind nothing
-    hides = (np.isin(labels, ARMS) | found_so) & (labels != behind.limb)
+    hides = (np.isin(labels, ARM_LABELS) | found_so) & (labels != behind.limb)
     return replace(whole, behind=Behind(behind.limb, behind.area & hides, behind.hand & hides))
 
 
@@ -156,11 +156,11 @@ def _with_occlusion(
     """Labels with what they say of limbs before others, and where hands are `hidden` (h, w); `before`: the leg that passes
     before the other."""
     places = [rest_places(labels, part, projected, rest) for part in range(len(BODY_PARTS))]
-    pixels = {arm: occlusion_pixels(labels, arm, places) for arm in ARMS}
+    pixels = {arm: occlusion_pixels(labels, arm, places) for arm in ARM_LABELS}
     parting = np.zeros(labels.shape, np.bool_)
-    for leg in LEGS:
-        only = [where if part in LEGS else np.full_like(where, np.nan) for part, where in enumerate(places)]
-        parting |= occlusion_pixels(np.where(np.isin(labels, LEGS), labels, -1), leg, only, LEGS_APART)
+    for leg in LEG_LABELS:
+        only = [where if part in LEG_LABELS else np.full_like(where, np.nan) for part, where in enumerate(places)]
+        parting |= occlusion_pixels(np.where(np.isin(labels, LEG_LABELS), labels, -1), leg, only, LEGS_APART)
     if before is not None:
         pixels = {before: beside_the_other(labels, before)} | pixels
     return Labels(

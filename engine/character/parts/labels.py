@@ -19,53 +19,53 @@ from engine.imaging.masks.colour_segmentation import (
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.imaging.masks.mask_pieces import pieces_touching
 
-ARMS = (BODY_PARTS.index("left_arm"), BODY_PARTS.index("right_arm"))
-LEGS = (BODY_PARTS.index("left_leg"), BODY_PARTS.index("right_leg"))
-OTHER_SIDE = {one: other for pair in (ARMS, LEGS) for one, other in (pair, pair[::-1])}
+ARM_LABELS = (BODY_PARTS.index("left_arm"), BODY_PARTS.index("right_arm"))
+LEG_LABELS = (BODY_PARTS.index("left_leg"), BODY_PARTS.index("right_leg"))
+OTHER_SIDE = {one: other for pair in (ARM_LABELS, LEG_LABELS) for one, other in (pair, pair[::-1])}
 """The limb of the other side."""
-LEAST = 50
+MIN_LIMB_PIXELS = 50
 """Pixels of a limb that is worth being a part of its own."""
 
-ROUGH_HEIGHT = 160
+ROUGH_HEIGHT_PIXELS = 160
 """Pixels of height at which labels are found first."""
-GAMMA_ROUGH = 16.0
+ROUGH_SMOOTHNESS_WEIGHT = 16.0
 """How much neighbours agree at first: the paper's value."""
-GAMMA_HEIGHT = 640
+SMOOTHNESS_HEIGHT_PIXELS = 640
 """Pixels of height for which it is taken to be meant: costs of areas grow with the cube of the size, those
 of borders with the size itself."""
-ROUNDS = 3
+LABELLING_ROUNDS = 3
 """How often mixtures and labels are found anew from one another."""
-SLEEVE, BEYOND = 0.04, 2.0
+SLEEVE_REACH_SHARE, BEYOND_SLEEVE_COST = 0.04, 2.0
 """How far sleeves reach beyond the template's arms, as a share of the height, and by how much more than its distance a pixel
 further away is unlikely to be an arm's."""
-STEPS = 0.7
+BORDER_SMOOTHING_PIXELS = 0.7
 """Pixels of the small labels over which their borders are smoothed."""
-SPECK = 40
+MIN_PIECE_PIXELS = 40
 """Pixels below which a piece of a label is an error of the colours' model: a crease, a cuff, a shadow."""
-ASIDE = 0.25
+MIN_SECOND_PIECE_SHARE = 0.25
 """Share of an arm's largest piece below which another one is not the arm's."""
-BARE_ARM = 0.008
+BARE_ARM_MARGIN_SHARE = 0.008
 """How far beyond the template's arm no hair is looked for, as a share of the height."""
-ASTRAY = 0.25
+STRAY_PIXEL_COST = 0.25
 """What a pixel that the template covers costs with the label of a part of it that is one pixel away, in units of equation 16: too
 little where colours differ, as those of hand and trousers, but those of a sleeve and the trunk beside it say nothing."""
-NOWHERE = 1e3
+UNSHOWN_LABEL_COST_PIXELS = 1e3
 """The cost, in pixels, of a label that the template does not show."""
 
 
 def rough_labels(mask: NDArray[np.bool_], template: NDArray[np.integer]) -> NDArray[np.intp]:
     """L_init: labels (H, W), -1 outside `mask`, that resemble the projected template's (`template` (H, W), -1 where
-    it is not) in shape and hang together. Equations 12 to 14, found at `ROUGH_HEIGHT`."""
+    it is not) in shape and hang together. Equations 12 to 14, found at `ROUGH_HEIGHT_PIXELS`."""
     height, width = mask.shape
-    factor = min(1.0, ROUGH_HEIGHT / height)
+    factor = min(1.0, ROUGH_HEIGHT_PIXELS / height)
     size = (max(1, round(width * factor)), max(1, round(height * factor)))
     small = cv2.resize(mask.astype(np.uint8), size, interpolation=cv2.INTER_NEAREST_EXACT) > 0
     seen = cv2.resize(template.astype(np.int16), size, interpolation=cv2.INTER_NEAREST_EXACT)
     unary = np.stack([_distance_to(seen == label)[small] for label in range(len(BODY_PARTS))], 1)  # equation 13
-    for arm in ARMS:  # sleeves are wider than arms, but not as wide as the skirt beside one
-        unary[:, arm] += BEYOND * np.maximum(unary[:, arm] - SLEEVE * size[1], 0)
+    for arm in ARM_LABELS:  # sleeves are wider than arms, but not as wide as the skirt beside one
+        unary[:, arm] += BEYOND_SLEEVE_COST * np.maximum(unary[:, arm] - SLEEVE_REACH_SHARE * size[1], 0)
     edges, _ = grid_edges(small)
-    gamma = GAMMA_ROUGH * (size[1] / GAMMA_HEIGHT) ** 2
+    gamma = ROUGH_SMOOTHNESS_WEIGHT * (size[1] / SMOOTHNESS_HEIGHT_PIXELS) ** 2
     found = np.full(small.shape, -1, np.intp)
     found[small] = alpha_expansion(unary, edges, np.full(len(edges), gamma), unary.argmin(1))
     return _enlarged(complete_labels(np.ones_like(small), found), mask)
@@ -74,7 +74,7 @@ def rough_labels(mask: NDArray[np.bool_], template: NDArray[np.integer]) -> NDAr
 def _enlarged(labels: NDArray[np.intp], mask: NDArray[np.bool_]) -> NDArray[np.intp]:
     """Labels (h, w) at the size of the mask (H, W), -1 outside of it, without the steps that their pixels would make there."""
     size = (mask.shape[1], mask.shape[0])
-    around = STEPS * mask.shape[0] / labels.shape[0]
+    around = BORDER_SMOOTHING_PIXELS * mask.shape[0] / labels.shape[0]
     likely = []
     for label in range(len(BODY_PARTS)):
         large = cv2.resize((labels == label).astype(np.float32), size, interpolation=cv2.INTER_LINEAR)
@@ -100,9 +100,9 @@ def hair_beside_arms(
     head = BODY_PARTS.index("head")
     colours = rgb.astype(np.float64)
     hair = (labels == head) & (template != head)
-    for arm in ARMS:
+    for arm in ARM_LABELS:
         own = labels == arm
-        close = dilate_mask(template == arm, max(1, round(BARE_ARM * labels.shape[0])))
+        close = dilate_mask(template == arm, max(1, round(BARE_ARM_MARGIN_SHARE * labels.shape[0])))
         doubtful = own & ~close & (sure != arm)
         if min(int(one.sum()) for one in (hair, doubtful, own & close)) < MIN_SAMPLES:
             continue
@@ -125,11 +125,11 @@ def without_specks(
             continue
         areas = stats[:count, cv2.CC_STAT_AREA]
         known = np.bincount(pieces[(sure == part) & (pieces > 0)], minlength=count)
-        small = areas < SPECK
-        if part in ARMS:
+        small = areas < MIN_PIECE_PIXELS
+        if part in ARM_LABELS:
             other = (labels == OTHER_SIDE[part]).astype(np.uint8)
             met = np.unique(pieces[(cv2.dilate(other, np.ones((5, 5), np.uint8)) > 0) | plain])
-            least = areas[known.argmax()] if known.any() else ASIDE * areas[1:].max()
+            least = areas[known.argmax()] if known.any() else MIN_SECOND_PIECE_SHARE * areas[1:].max()
             small |= (areas < least) & ~np.isin(np.arange(count), met)
         small[[0, 1 + int(np.argmax(areas[1:]))]] = False
         kept[small[pieces]] = -1
@@ -171,12 +171,12 @@ def _refine(
         return
     graph = ContrastGraph.of(colours, near)
     pixels, inner, first = colours[near], region[near], labels[near]
-    astray = ASTRAY * np.stack([_distance_to(template == label)[near] for label in meeting], 1)
+    astray = STRAY_PIXEL_COST * np.stack([_distance_to(template == label)[near] for label in meeting], 1)
     astray[template[near] < 0] = 0
     index = {label: k for k, label in enumerate(meeting)}
     seeds = np.where(inner, UNSEEDED, [index.get(int(label), len(meeting)) for label in first])
     current = first
-    for _ in range(ROUNDS):
+    for _ in range(LABELLING_ROUNDS):
         shown = [pixels[current == label] for label in meeting]
         if min(len(own) for own in shown) < MIN_SAMPLES:
             break
@@ -192,7 +192,7 @@ def _refine(
 
 def _distance_to(mask: NDArray[np.bool_]) -> NDArray[np.float64]:
     if not mask.any():
-        return np.full(mask.shape, NOWHERE)
+        return np.full(mask.shape, UNSHOWN_LABEL_COST_PIXELS)
     return np.asarray(distance_to(mask), np.float64)
 
 

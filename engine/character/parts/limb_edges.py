@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 
 from engine.imaging.masks.mask_distance import dilate_mask
 
-BESIDE = 0.004
+EDGE_TOLERANCE_SHARE = 0.004
 """How far a limb's edge may lie from that of its label, as a share of the person's height."""
-CONTRAST = 12.0
+MIN_EDGE_CONTRAST_LEVELS = 12.0
 """Levels by which colours differ on two sides of an edge, at least."""
 
-APART = 3
+COLOUR_EDGE_BAND_PIXELS = 3
 """Pixels of the grid around the rest of the person within which a limb ends where its colours do, and not where the mask does."""
 
 
@@ -22,7 +22,7 @@ def border(limb: NDArray[np.bool_], person: NDArray[np.bool_], rgb: NDArray[np.u
     of the rest of the `person` (h, w) is near."""
     size = (limb.shape[1], limb.shape[0])
     soft = np.asarray(cv2.resize(soft_limbs(limb, rgb), size, interpolation=cv2.INTER_AREA), np.float32)
-    return np.where(dilate_mask(person & ~limb, APART), soft, 1).astype(np.float32)
+    return np.where(dilate_mask(person & ~limb, COLOUR_EDGE_BAND_PIXELS), soft, 1).astype(np.float32)
 
 
 def soft_limbs(limbs: NDArray[np.bool_], rgb: NDArray[np.uint8]) -> NDArray[np.float32]:
@@ -30,7 +30,7 @@ def soft_limbs(limbs: NDArray[np.bool_], rgb: NDArray[np.uint8]) -> NDArray[np.f
     near theirs. By a guided filter (K. He, J. Sun, X. Tang, ECCV 2010)."""
     size = (rgb.shape[1], rgb.shape[0])
     large = np.asarray(cv2.resize(limbs.astype(np.float32), size, interpolation=cv2.INTER_LINEAR))
-    reach = max(2, round(BESIDE * size[1]))
-    likely = cv2.ximgproc.guidedFilter(rgb, large, reach, CONTRAST**2)
+    reach = max(2, round(EDGE_TOLERANCE_SHARE * size[1]))
+    likely = cv2.ximgproc.guidedFilter(rgb, large, reach, MIN_EDGE_CONTRAST_LEVELS**2)
     close = cv2.dilate((large > 0.5).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=reach)
     return np.where(close > 0, np.clip(likely, 0, 1), 0).astype(np.float32)

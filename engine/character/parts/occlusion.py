@@ -17,16 +17,16 @@ from engine.imaging.filling.nearest import nearest_in
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.imaging.masks.mask_pieces import largest_piece, outline, pieces_by_area
 
-NEAR = 0.16
+NEIGHBOUR_DISTANCE_METRES = 0.16
 """Metres at rest within which two points of the template are near each other on its surface."""
-REACH = 0.02
+OCCLUSION_DILATION_SHARE = 0.02
 """By how much the occlusion pixels are dilated, as a share of the picture's height."""
-ACROSS = 0.08
+MAX_GAP_WIDTH_SHARE = 0.08
 """How far it may be behind a limb from what is seen on one of its sides to what is seen on the other, as a share of the
 picture's height."""
-SMALL = 0.005
+MIN_VISIBLE_PIECE_SHARE = 0.005
 """Share of what is seen below which a piece of it is not missed."""
-SHORTEST = 8
+MIN_BORDER_PIXELS = 8
 """Pixels of border that make an occlusion."""
 
 
@@ -39,7 +39,7 @@ def rest_places(
     """
     found = np.full((*labels.shape, 3), np.nan, np.float32)
     mask, source = largest_piece(labels == label), largest_piece(template == label)
-    if mask.sum() < SHORTEST or source.sum() < SHORTEST:
+    if mask.sum() < MIN_BORDER_PIXELS or source.sum() < MIN_BORDER_PIXELS:
         return found
     border, reference = outline(mask), outline(source)
     if len(border) < 4 or len(reference) < 4:
@@ -55,7 +55,10 @@ def rest_places(
 
 
 def occlusion_pixels(
-    labels: NDArray[np.integer], limb: int, places: Sequence[NDArray[np.float32]], near: float = NEAR
+    labels: NDArray[np.integer],
+    limb: int,
+    places: Sequence[NDArray[np.float32]],
+    near: float = NEIGHBOUR_DISTANCE_METRES,
 ) -> NDArray[np.bool_]:
     """Pixels of the limb (H, W) beside which another part shows that is not `near`, in metres, on the body's surface.
     `places`: those of each part at rest (`rest_places`)."""
@@ -69,12 +72,12 @@ def occlusion_pixels(
             with np.errstate(invalid="ignore"):
                 far = np.linalg.norm(places[limb] - moved, axis=-1) > near
             found |= (labels == limb) & beside & far
-    return found if found.sum() >= SHORTEST else np.zeros_like(found)
+    return found if found.sum() >= MIN_BORDER_PIXELS else np.zeros_like(found)
 
 
 def occlusion_mask(pixels: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """The paper's O: the occlusion pixels and what is around them."""
-    radius = max(2, round(REACH * pixels.shape[0]))
+    radius = max(2, round(OCCLUSION_DILATION_SHARE * pixels.shape[0]))
     disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1, 2 * radius + 1))
     return np.asarray(cv2.dilate(pixels.astype(np.uint8), disk) > 0)
 
@@ -118,13 +121,13 @@ def _one_piece(
 ) -> NDArray[np.bool_]:
     """The body in one connected piece: where a limb cuts it in two, the template says what joins them, and what it does not
     have, as hair, goes on behind the limb from one side to the other."""
-    pieces = pieces_by_area(visible, SMALL * visible.sum())
+    pieces = pieces_by_area(visible, MIN_VISIBLE_PIECE_SHARE * visible.sum())
     if len(pieces) > 1:
         visible = visible | (hidden_by & template)
-        pieces = pieces_by_area(visible, SMALL * visible.sum())
+        pieces = pieces_by_area(visible, MIN_VISIBLE_PIECE_SHARE * visible.sum())
     for piece in pieces[1:]:  # hair on both sides of an arm is not the template's
         way = distance_to(pieces[0]) + distance_to(piece)
-        visible = visible | (hidden_by & (way < ACROSS * visible.shape[0]))
+        visible = visible | (hidden_by & (way < MAX_GAP_WIDTH_SHARE * visible.shape[0]))
     return largest_piece(visible)
 
 
@@ -135,7 +138,7 @@ def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
     start = int(np.flatnonzero(~flags)[0])
     turned = np.roll(flags, -start).astype(np.int8)
     begins, ends = np.flatnonzero(np.diff(turned) == 1) + 1, np.flatnonzero(np.diff(np.append(turned, 0)) == -1)
-    return [(int(b) + start, int(e) + start) for b, e in zip(begins, ends, strict=True) if e - b >= SHORTEST]
+    return [(int(b) + start, int(e) + start) for b, e in zip(begins, ends, strict=True) if e - b >= MIN_BORDER_PIXELS]
 
 
 def _similarity(

@@ -14,12 +14,12 @@ from engine.body.parts import vertex_parts
 from engine.body.rig import Rig
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.fit.template_maps import side_maps
-from engine.character.parts.labels import LEGS, OTHER_SIDE
+from engine.character.parts.labels import LEG_LABELS, OTHER_SIDE
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 
-CROSSING = 0.04
+CROSSING_RADIUS_METRES = 0.04
 """Metres around the place where legs cross within which is looked which of them is seen."""
-HIDDEN = 0.1
+MIN_HIDDEN_LEG_SHARE = 0.1
 """Share of a leg that the other one hides, from which on it has to be made where nobody sees it."""
 
 
@@ -29,14 +29,14 @@ def leg_before(labels: NDArray[np.integer], template: PosedTemplate, rig: Rig) -
 
     `labels` (h, w): what each pixel shows.
     """
-    if not np.isin(labels, LEGS).any():
+    if not np.isin(labels, LEG_LABELS).any():
         return None
     y, x = np.mgrid[: labels.shape[0], : labels.shape[1]]
     for place in _crossings(template, rig):
-        near = np.hypot(x - place[0], y - place[1]) < CROSSING * template.pixels_per_metre
-        seen = [int((near & (labels == leg)).sum()) for leg in LEGS]
+        near = np.hypot(x - place[0], y - place[1]) < CROSSING_RADIUS_METRES * template.pixels_per_metre
+        seen = [int((near & (labels == leg)).sum()) for leg in LEG_LABELS]
         if any(seen):
-            return LEGS[int(np.argmax(seen))]
+            return LEG_LABELS[int(np.argmax(seen))]
     return _hiding(template, rig, labels.shape)
 
 
@@ -65,9 +65,9 @@ def _hiding(template: PosedTemplate, rig: Rig, shape: tuple[int, ...]) -> int | 
     """The template's leg that hides the other, on a grid (h, w)."""
     part = vertex_parts(rig)[template.triangles]
     legs = [side_maps(template.vertices, template.triangles[(part == leg).all(1)], (shape[0], shape[1]), "front")
-            for leg in LEGS]  # fmt: skip
-    for before, (leg, other) in zip(LEGS, (legs, legs[::-1]), strict=True):
-        if (other.mask & leg.mask & (leg.depth > other.depth)).sum() > HIDDEN * other.mask.sum():
+            for leg in LEG_LABELS]  # fmt: skip
+    for before, (leg, other) in zip(LEG_LABELS, (legs, legs[::-1]), strict=True):
+        if (other.mask & leg.mask & (leg.depth > other.depth)).sum() > MIN_HIDDEN_LEG_SHARE * other.mask.sum():
             return before
     return None
 
@@ -85,10 +85,10 @@ def as_the_template(labels: NDArray[np.integer], template: NDArray[np.integer], 
     """Labels (h, w) in which each leg is what is nearest to that leg of the projected `template` (h, w): where legs cross, one
     comes out behind the other in wedges, which even labels cut off. What the leg that is `before` wears hides as much of the
     other as it stands off elsewhere."""
-    away = {leg: distance_to(template == leg) for leg in LEGS}
+    away = {leg: distance_to(template == leg) for leg in LEG_LABELS}
     off = standing_off(labels, before, away[before])
     front = away[before] <= np.maximum(away[OTHER_SIDE[before]], off)
-    return np.where(np.isin(labels, LEGS), np.where(front, before, OTHER_SIDE[before]), labels)
+    return np.where(np.isin(labels, LEG_LABELS), np.where(front, before, OTHER_SIDE[before]), labels)
 
 
 def beside_the_other(labels: NDArray[np.integer], leg: int) -> NDArray[np.bool_]:

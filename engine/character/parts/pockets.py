@@ -16,36 +16,36 @@ from numpy.typing import NDArray
 from engine.body.parts import BODY_PARTS
 from engine.body.rig import Rig
 from engine.character.fit.template_maps import side_maps
-from engine.character.parts.labels import ARMS, complete_labels
-from engine.character.parts.unfound_hands import SURE, UnfoundHand, unit
+from engine.character.parts.labels import ARM_LABELS, complete_labels
+from engine.character.parts.unfound_hands import SEEN_FINGER_CONFIDENCE, UnfoundHand, unit
 from engine.geometry.joint_names import SIDES
 from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, ColourMixture, smoothed_map
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.imaging.masks.mask_pieces import pieces_touching
 
-UNSEEN = 0.7
+UNSEEN_FINGER_CONFIDENCE = 0.7
 """Confidence of a finger below which the hand surely is not seen."""
-GOES_ON, HARDLY = 0.2, 0.4
+CLOTH_SHARE, CLOTH_WITHOUT_SKIN_SHARE = 0.2, 0.4
 """Share of the template's hand that stands out from the cloth around it, up to which the cloth goes on there, whatever else is said;
 and up to which it does if no skin is seen there, or no finger."""
-USUAL = 0.9
+PLAIN_CLOTH_SHARE = 0.9
 """Share of the cloth that does not stand out from itself."""
-AROUND, NEAR, BY = 1.2, 2.5, 0.3
+PARTED_RADIUS_HAND_LENGTHS, CLOTH_RADIUS_HAND_LENGTHS, MIN_CLOTH_DISTANCE_HAND_LENGTHS = 1.2, 2.5, 0.3
 """Lengths of the hand from its middle within which pixels are parted, and within which cloth tells of its colours; and how far
 that is from the template's hand, at least: the hand may be beside it."""
-CUFF = 0.3
+CUFF_LENGTH_HAND_LENGTHS = 0.3
 """Lengths of the hand by which a sleeve reaches beyond the wrist."""
-CERTAIN = 3.0
+MIN_LOG_LIKELIHOOD_RATIO = 3.0
 """By how much (a logarithm) a colour has to be likelier."""
-HIDDEN = 0.7
+MIN_NOT_SKIN_SHARE = 0.7
 """Share of the template's hand that is surely no skin where a hand is hidden."""
-HUES = 8.0
+MIN_HUE_DISTANCE = 8.0
 """Distance of two hues (CIE Lab, 8 bits, without lightness) below which they say nothing."""
-EVEN, SHADOW = 1.0, 2
+COLOUR_BLUR_PIXELS, CUFF_SHADOW_PIXELS = 1.0, 2
 """Pixels of the grid over which colours are taken together, and which part a hand from its cuff."""
-WEB = 7
+FINGER_CLOSING_PIXELS = 7
 """Pixels between fingers that are closed: of a hidden hand they are together."""
-OTHER_LIGHT = 10.0
+SKIN_COLOUR_VARIANCE = 10.0
 """Variance by which a hand's skin differs from the face's."""
 
 
@@ -62,7 +62,7 @@ def template_hand(
     vertices: NDArray[np.floating], triangles: NDArray[np.integer], rig: Rig, arm: int, shape: tuple[int, int]
 ) -> NDArray[np.bool_]:
     """The pixels (h, w) of the template's hand, without what is before it. `vertices` (V, 3) in picture space."""
-    side = SIDES[ARMS.index(arm)]
+    side = SIDES[ARM_LABELS.index(arm)]
     own = np.array([name.startswith(f"{side}Hand") for name in rig.names])[rig.bones[:, 0]]
     return side_maps(vertices, triangles[own[triangles].all(1)], shape, "front").mask
 
@@ -87,43 +87,64 @@ def parted(
     distance = np.linalg.norm(away, axis=-1)
     aside = distance_to(template)
     arm, worn = labels == hand.arm, np.isin(labels, [BODY_PARTS.index(f) for f in ("torso", "left_leg", "right_leg")])
-    around = (distance < AROUND * length) & (arm | worn)
-    sleeve, cloth = arm & (distance > AROUND * length), worn & (distance < NEAR * length) & (aside > BY * length)
+    around = (distance < PARTED_RADIUS_HAND_LENGTHS * length) & (arm | worn)
+    sleeve, cloth = (
+        arm & (distance > PARTED_RADIUS_HAND_LENGTHS * length),
+        worn & (distance < CLOTH_RADIUS_HAND_LENGTHS * length) & (aside > MIN_CLOTH_DISTANCE_HAND_LENGTHS * length),
+    )
     if min(int(one.sum()) for one in (sleeve, cloth, around)) < MIN_SAMPLES:
         return None
     colours = rgb.astype(np.float64)
     of_cloth, of_sleeve = ColourMixture.fit(colours[cloth]), ColourMixture.fit(colours[sleeve])
-    usual = np.quantile(of_cloth.negative_log_likelihood(colours[cloth]), USUAL)
+    usual = np.quantile(of_cloth.negative_log_likelihood(colours[cloth]), PLAIN_CLOTH_SHARE)
     stands_out = float((of_cloth.negative_log_likelihood(colours[seen]) > usual).mean())
     cost = {
         "cloth": of_cloth.negative_log_likelihood(colours[around]),
         "sleeve": of_sleeve.negative_log_likelihood(colours[around]),
     }
     if len(hand.skin) >= MIN_SAMPLES and not _alike(hand.skin, rgb[cloth]):
-        cost["skin"] = ColourMixture.fit(hand.skin).widened(OTHER_LIGHT).negative_log_likelihood(colours[around])
+        cost["skin"] = (
+            ColourMixture.fit(hand.skin).widened(SKIN_COLOUR_VARIANCE).negative_log_likelihood(colours[around])
+        )
         worn_cost = np.minimum(cost["cloth"], cost["sleeve"])
-        like_skin = smoothed_map(worn_cost - cost["skin"], around, EVEN)
-        if (like_skin < -CERTAIN)[seen].mean() < HIDDEN or stands_out > HARDLY:
+        like_skin = smoothed_map(worn_cost - cost["skin"], around, COLOUR_BLUR_PIXELS)
+        if (like_skin < -MIN_LOG_LIKELIHOOD_RATIO)[
+            seen
+        ].mean() < MIN_NOT_SKIN_SHARE or stands_out > CLOTH_WITHOUT_SKIN_SHARE:
             return None if hand.before else _bare(like_skin, arm, around)
-    elif hand.confidence > SURE or stands_out > (HARDLY if hand.confidence < UNSEEN else GOES_ON):
+    elif hand.confidence > SEEN_FINGER_CONFIDENCE or stands_out > (
+        CLOTH_WITHOUT_SKIN_SHARE if hand.confidence < UNSEEN_FINGER_CONFIDENCE else CLOTH_SHARE
+    ):
         return None
     of_arm = np.minimum(cost["sleeve"], cost.get("skin", np.inf))
-    sleeved = smoothed_map(cost["cloth"] - of_arm, around, EVEN)
-    cloth = arm & around & (sleeved < np.where(beyond > CUFF * length, CERTAIN, -CERTAIN))
-    fingers = cv2.morphologyEx(seen.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((WEB, WEB), np.uint8)) > 0
+    sleeved = smoothed_map(cost["cloth"] - of_arm, around, COLOUR_BLUR_PIXELS)
+    cloth = (
+        arm
+        & around
+        & (
+            sleeved
+            < np.where(beyond > CUFF_LENGTH_HAND_LENGTHS * length, MIN_LOG_LIKELIHOOD_RATIO, -MIN_LOG_LIKELIHOOD_RATIO)
+        )
+    )
+    fingers = (
+        cv2.morphologyEx(
+            seen.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((FINGER_CLOSING_PIXELS, FINGER_CLOSING_PIXELS), np.uint8)
+        )
+        > 0
+    )
     return PartedHand(np.zeros_like(arm), cloth, fingers & (worn | cloth))
 
 
 def _bare(like_skin: NDArray[np.float32], arm: NDArray[np.bool_], around: NDArray[np.bool_]) -> PartedHand:
     """A hand that is seen: what is like skin (h, w), joined with its arm (h, w) where both are `around` (h, w) its place."""
-    bare = pieces_touching(around & (like_skin > 0), like_skin > CERTAIN)
+    bare = pieces_touching(around & (like_skin > 0), like_skin > MIN_LOG_LIKELIHOOD_RATIO)
     nothing = np.zeros_like(arm)
     return PartedHand(_joined(bare, arm) & around, nothing, nothing)
 
 
 def with_hand_parted(labels: NDArray[np.intp], found: PartedHand, arm: int) -> NDArray[np.intp]:
     """Labels (h, w) in which an arm has what is its own, and the trunk and the legs what is theirs."""
-    beneath = complete_labels(labels >= 0, np.where(np.isin(labels, ARMS), -1, labels))
+    beneath = complete_labels(labels >= 0, np.where(np.isin(labels, ARM_LABELS), -1, labels))
     return np.where(found.arm, arm, np.where(found.cloth, beneath, labels))
 
 
@@ -131,13 +152,18 @@ def _alike(skin: NDArray[np.float64], cloth: NDArray[np.uint8]) -> bool:
     """Whether the hue of some skin (N, 3) is that of some cloth (M, 3), as in a picture without colours."""
     medians = np.stack([np.median(skin, axis=0), np.median(cloth, axis=0)]).astype(np.uint8)
     lab = cv2.cvtColor(medians[None], cv2.COLOR_RGB2LAB)[0].astype(np.float64)
-    return bool(np.linalg.norm(lab[0, 1:] - lab[1, 1:]) < HUES)
+    return bool(np.linalg.norm(lab[0, 1:] - lab[1, 1:]) < MIN_HUE_DISTANCE)
 
 
 def _joined(bare: NDArray[np.bool_], arm: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """What is bare (h, w) with what parts it from its arm: the shadow in a cuff."""
     if not bare.any():
         return bare
-    both = cv2.morphologyEx((bare | arm).astype(np.uint8), cv2.MORPH_CLOSE, np.ones((SHADOW, SHADOW), np.uint8)) > 0
-    near = dilate_mask(bare, SHADOW)
+    both = (
+        cv2.morphologyEx(
+            (bare | arm).astype(np.uint8), cv2.MORPH_CLOSE, np.ones((CUFF_SHADOW_PIXELS, CUFF_SHADOW_PIXELS), np.uint8)
+        )
+        > 0
+    )
+    near = dilate_mask(bare, CUFF_SHADOW_PIXELS)
     return np.asarray(bare | (both & near))

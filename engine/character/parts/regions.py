@@ -18,21 +18,21 @@ from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARMS, LEGS
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
 from engine.character.parts.occlusion import completed
 from engine.character.parts.overlapping_legs import hidden_leg
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.imaging.masks.mask_pieces import largest_piece
 
-SHOULDER, HIP = 0.105, 0.125
+SHOULDER_OVERLAP_METRES, HIP_OVERLAP_METRES = 0.105, 0.125
 """Metres around the joint in which arm or leg and the body overlap."""
-UNDER = 3
+BODY_UNDERLAP_PIXELS = 3
 """Pixels by which the body goes on behind an arm everywhere: what lies between two borders of pixels would gape."""
-WRIST = 4.0
+PATH_TOLERANCE_PIXELS = 4.0
 """Pixels by which a way from the sleeve to a hidden hand may be longer than the shortest."""
-SHOWN = 0.5
+MIN_TEMPLATE_SHOWN_SHARE = 0.5
 """Share of a limb that the template shows where it is not seen, below which it is taken to be behind the body there."""
-WHOLE = 0.9
+SINGLE_PIECE_SHARE = 0.9
 """Share of a limb in one piece, below which another is taken to pass before it."""
 
 
@@ -95,14 +95,14 @@ def limb_in_one_piece(
     own, person = labels.labels == limb, labels.labels >= 0
     if labels.behind is not None and labels.behind.limb == limb:
         own = own | labels.behind.area
-    seen = own | (person & joint & dilate_mask(own, round(SHOULDER / 2 * template.pixels_per_metre)))
+    seen = own | (person & joint & dilate_mask(own, round(SHOULDER_OVERLAP_METRES / 2 * template.pixels_per_metre)))
     lost, behind = not (largest_piece(seen) & joint).any(), False
     if lost or _torn(seen):
-        between = dilate_mask(template.covers(triangles, own.shape), UNDER)
+        between = dilate_mask(template.covers(triangles, own.shape), BODY_UNDERLAP_PIXELS)
         beneath = between & np.isin(labels.labels, apart)
         led = between & person
         shown = template.shows(triangles, own.shape) & led
-        hidden = lost and shown.sum() < SHOWN * led.sum()
+        hidden = lost and shown.sum() < MIN_TEMPLATE_SHOWN_SHARE * led.sum()
         behind = hidden or _torn(seen | beneath)
         seen = own | led if behind else seen | (led if lost else beneath)
     return largest_piece(_with_hand(seen, labels.hidden == limb)), behind
@@ -113,12 +113,12 @@ def _with_hand(arm: NDArray[np.bool_], hidden: NDArray[np.bool_]) -> NDArray[np.
     if not (hidden.any() and arm.any()):
         return arm | hidden
     to_arm, to_hand = distance_to(arm), distance_to(hidden)
-    return np.asarray(arm | hidden | (to_arm + to_hand <= to_arm[hidden].min() + WRIST))
+    return np.asarray(arm | hidden | (to_arm + to_hand <= to_arm[hidden].min() + PATH_TOLERANCE_PIXELS))
 
 
 def _torn(mask: NDArray[np.bool_]) -> bool:
     """Whether much of a mask is not in one piece."""
-    return bool(largest_piece(mask).sum() < WHOLE * mask.sum())
+    return bool(largest_piece(mask).sum() < SINGLE_PIECE_SHARE * mask.sum())
 
 
 def _limb_region(
@@ -127,9 +127,9 @@ def _limb_region(
     """`part` (T, 3): that of each corner of the template's triangles."""
     overlap, joint = _around_joint(limb, template, rig, labels.labels.shape)
     mask, behind = limb_in_one_piece(labels, limb, apart, template, (part == limb).all(1), joint)
-    if limb in LEGS:
-        without_arms = template.covers(np.asarray((~np.isin(part, ARMS)).all(1)), mask.shape)
-        hand = np.isin(labels.labels, ARMS) & ~without_arms
+    if limb in LEG_LABELS:
+        without_arms = template.covers(np.asarray((~np.isin(part, ARM_LABELS)).all(1)), mask.shape)
+        hand = np.isin(labels.labels, ARM_LABELS) & ~without_arms
         mask = largest_piece(mask & ((_inner(labels) & ~hand) | (labels.labels == limb)))
     return LimbRegion(mask, (part == limb).any(1) | overlap, limb, overlap, joint, behind)
 
@@ -150,12 +150,12 @@ def body_in_one_piece(
         return largest_piece(body)
     before = np.isin(labels.labels, [one.limb for one in limbs if not one.behind])
     crossing = np.zeros_like(before)
-    for leg in (one.limb for one in limbs if one.limb in LEGS):
+    for leg in (one.limb for one in limbs if one.limb in LEG_LABELS):
         crossing = labels.labels == leg
         body = body | (crossing & hidden_leg(labels.labels, leg, template, part))
     whole = template.covers(triangles, before.shape)
     body = completed(body, before & covered, labels.occlusion | crossing, whole)
-    body = body | (before & np.where(crossing, dilate_mask(body, 1), dilate_mask(body, UNDER)))
+    body = body | (before & np.where(crossing, dilate_mask(body, 1), dilate_mask(body, BODY_UNDERLAP_PIXELS)))
     for one in limbs:
         if one.behind:  # what lies between two borders of pixels would gape; a shoulder beside it is no trunk's
             body = body | ((labels.labels == one.limb) & ~one.joint & dilate_mask(body, 1))
@@ -170,7 +170,7 @@ def _around_joint(
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """The template's triangles (T,), and the grid's pixels (h, w), around an arm's shoulder or a leg's hip."""
     side = "Left" if BODY_PARTS[limb].startswith("left") else "Right"
-    bone, reach = ("Arm", SHOULDER) if limb in ARMS else ("UpLeg", HIP)
+    bone, reach = ("Arm", SHOULDER_OVERLAP_METRES) if limb in ARM_LABELS else ("UpLeg", HIP_OVERLAP_METRES)
     joint = rig.index(f"{side}{bone}")
     close = np.linalg.norm(template.rest - template.rest_joints[joint], axis=1) < reach
     y, x = np.mgrid[: shape[0], : shape[1]]
@@ -181,4 +181,4 @@ def _around_joint(
 def _inner(labels: Labels) -> NDArray[np.bool_]:
     """The person's pixels (h, w) away from the outline: at the sides of the hips one of body and leg alone is seen."""
     person = (labels.labels >= 0).astype(np.uint8)
-    return np.asarray(cv2.erode(person, np.ones((3, 3), np.uint8), iterations=UNDER) > 0)
+    return np.asarray(cv2.erode(person, np.ones((3, 3), np.uint8), iterations=BODY_UNDERLAP_PIXELS) > 0)

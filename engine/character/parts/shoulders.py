@@ -12,16 +12,16 @@ from numpy.typing import NDArray
 from engine.body.parts import BODY_PARTS
 from engine.body.rig import Rig
 from engine.character.fit.posed_template import PosedTemplate
-from engine.character.parts.labels import ARMS
+from engine.character.parts.labels import ARM_LABELS
 from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, ColourMixture, ContrastGraph, colour_costs
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import pieces_touching
 
-REACH, TRUNK = 0.13, 0.35
+SHOULDER_RADIUS_METRES, TRUNK_SAMPLE_RADIUS_METRES = 0.13, 0.35
 """Metres around a shoulder in which labels may go by colours, and in which the trunk's are learned."""
-SURE = 4.0
+MIN_LOG_LIKELIHOOD_RATIO = 4.0
 """By how much a colour must be likelier of one than of the other, in units of equation 16."""
-MOSTLY, STRAY = 0.8, 0.3
+MIN_AGREEING_SHARE, MAX_TRUNK_COLOURED_ARM_SHARE = 0.8, 0.3
 """Share of the pixels that must be so, and of those labelled an arm that may be of the trunk's colours: more are a sleeve's, cut
 from the cloth of the trunk."""
 
@@ -37,11 +37,11 @@ def labelled_shoulders(
     torso = labels == BODY_PARTS.index("torso")
     joints = [template.joints[rig.index(f"{side}Arm")] for side in ("Left", "Right")]
     away = [np.hypot(x - joint[0], y - joint[1]) / template.pixels_per_metre for joint in joints]
-    near = np.minimum(*away) < REACH
-    for arm, distance in zip(ARMS, away, strict=True):
+    near = np.minimum(*away) < SHOULDER_RADIUS_METRES
+    for arm, distance in zip(ARM_LABELS, away, strict=True):
         own = labels == arm
-        here = (distance < REACH) & (own | torso)
-        learned = [colours[torso & ~near & (distance < TRUNK)], colours[own & ~near]]
+        here = (distance < SHOULDER_RADIUS_METRES) & (own | torso)
+        learned = [colours[torso & ~near & (distance < TRUNK_SAMPLE_RADIUS_METRES)], colours[own & ~near]]
         if not here.any() or min(len(some) for some in learned) < MIN_SAMPLES:
             continue
         known = [ColourMixture.fit(some) for some in learned]
@@ -49,7 +49,9 @@ def labelled_shoulders(
         costs = colour_costs(known, colours[here])
         likelier = costs[:, 0] - costs[:, 1]
         of_the_trunk = (likelier < 0) & own[here]
-        if (abs(likelier) > SURE).mean() > MOSTLY and of_the_trunk.sum() <= STRAY * own[here].sum():
+        if (
+            abs(likelier) > MIN_LOG_LIKELIHOOD_RATIO
+        ).mean() > MIN_AGREEING_SHARE and of_the_trunk.sum() <= MAX_TRUNK_COLOURED_ARM_SHARE * own[here].sum():
             found = ContrastGraph.of(colours, here).cut(costs, costs.argmin(1))
             whole = out.copy()
             whole[here] = np.array([BODY_PARTS.index("torso"), arm, BODY_PARTS.index("head")])[found]
@@ -65,5 +67,5 @@ def _hair(head: NDArray[np.float64], arm: ColourMixture) -> list[ColourMixture]:
     if len(head) < MIN_SAMPLES:
         return []
     likelier = arm.negative_log_likelihood(head) - ColourMixture.fit(head).negative_log_likelihood(head)
-    hair = head[likelier > SURE]
+    hair = head[likelier > MIN_LOG_LIKELIHOOD_RATIO]
     return [ColourMixture.fit(hair)] if len(hair) >= MIN_SAMPLES else []

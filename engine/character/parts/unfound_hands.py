@@ -13,19 +13,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.figure.figure import Figure
-from engine.character.parts.labels import ARMS
+from engine.character.parts.labels import ARM_LABELS
 from engine.geometry.joint_names import SIDES
 from engine.perception.body import BODY_LANDMARKS
 
-LOW, BESIDE, REACH = 0.7, 1.5, 0.5
+HIP_DEPTH_TRUNK_SHARE, WRIST_HIP_WIDTH_RATIO, MAX_HIP_DISTANCE_TRUNK_LENGTHS = 0.7, 1.5, 0.5
 """Where a wrist is at the hip: how far down the trunk, at least; how much further from the middle than the hip's joint; and
 how far from that joint, at most, in lengths of the trunk."""
-NARROWEST = 0.15
+MIN_HIP_OFFSET_TRUNK_LENGTHS = 0.15
 """The same of that joint from the middle, at least: seen from the side it is nowhere aside."""
-BEFORE, APART = 0.55, 0.35
+BELLY_DEPTH_TRUNK_SHARE, MIN_WRIST_DISTANCE_TRUNK_LENGTHS = 0.55, 0.35
 """Where one is before the belly, as in the pocket of a jumper: how far down the trunk, at least; and how far both wrists are from
 each other, at least: else one hand hides the other."""
-SURE = 0.9
+SEEN_FINGER_CONFIDENCE = 0.9
 """Confidence of a finger from which on a hand before the belly is seen."""
 
 
@@ -54,16 +54,21 @@ def unfound_hands(figure: Figure, rgb: NDArray[np.uint8], to_grid: NDArray[np.fl
     skin = np.zeros((0, 3))
     if figure.face is not None:
         skin = _skin(rgb, figure.face[:, :2] @ to_grid[:, :2].T + to_grid[:, 2])
-    apart = float(np.linalg.norm(at("LeftWrist") - at("RightWrist"))) > APART * trunk
+    apart = float(np.linalg.norm(at("LeftWrist") - at("RightWrist"))) > MIN_WRIST_DISTANCE_TRUNK_LENGTHS * trunk
     found = []
-    for arm, side, hand in zip(ARMS, SIDES, figure.hands, strict=True):
+    for arm, side, hand in zip(ARM_LABELS, SIDES, figure.hands, strict=True):
         wrist, hip = at(f"{side}Wrist"), at(f"{side}Hip")
         half = float(np.linalg.norm(hip - hips))
-        aside = float((wrist - hips) @ unit(hip - hips)) > BESIDE * max(half, NARROWEST * trunk)
+        aside = float((wrist - hips) @ unit(hip - hips)) > WRIST_HIP_WIDTH_RATIO * max(
+            half, MIN_HIP_OFFSET_TRUNK_LENGTHS * trunk
+        )
         low = float((wrist - shoulders) @ down) / trunk**2
         sure = float(min(figure.confidence[BODY_LANDMARKS.index(f"{side}{finger}")] for finger in ("Index", "Pinky")))
-        beside, before = aside and low > LOW, apart and low > BEFORE and sure < SURE
-        if hand is None and (beside or before) and np.linalg.norm(wrist - hip) < REACH * trunk:
+        beside, before = (
+            aside and low > HIP_DEPTH_TRUNK_SHARE,
+            apart and low > BELLY_DEPTH_TRUNK_SHARE and sure < SEEN_FINGER_CONFIDENCE,
+        )
+        if hand is None and (beside or before) and np.linalg.norm(wrist - hip) < MAX_HIP_DISTANCE_TRUNK_LENGTHS * trunk:
             knuckles = (at(f"{side}Index") + at(f"{side}Pinky")) / 2
             found.append(UnfoundHand(arm, wrist, knuckles, sure, not beside, skin))
     return tuple(found)

@@ -21,16 +21,16 @@ from engine.character.fit.head import joint_axes
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARMS, LEAST, LEGS, OTHER_SIDE
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, MIN_LIMB_PIXELS, OTHER_SIDE
 from engine.imaging.masks.mask_pieces import largest_piece
 
-WITHIN = 0.97
+MIN_VERTICES_INSIDE_SHARE = 0.97
 """Share of the limb's vertices that must be within the person's outline: what is not hidden there would be seen."""
-OFF = 2
+OUTLINE_MARGIN_PIXELS = 2
 """Pixels from the outline within which nothing of a hidden limb can be."""
-TURNS = sorted(range(-45, 50, 5), key=abs)
+TRIED_TURNS_DEGREES = sorted(range(-45, 50, 5), key=abs)
 """Degrees by which the limb is turned about its joint, in the picture's plane, until it is within."""
-BONES = dict(zip((*ARMS, *LEGS), ("LeftArm LeftForeArm", "RightArm RightForeArm", "LeftUpLeg LeftLeg", "RightUpLeg RightLeg"), strict=True))  # fmt: skip
+LIMB_BEND_JOINTS = dict(zip((*ARM_LABELS, *LEG_LABELS), ("LeftArm LeftForeArm", "RightArm RightForeArm", "LeftUpLeg LeftLeg", "RightUpLeg RightLeg"), strict=True))  # fmt: skip
 """Each limb's joints: the one about which it turns, and the one at which it bends."""
 
 
@@ -80,34 +80,34 @@ def not_seen(labels: Labels) -> list[int]:
     return [
         limb
         for limb, other in OTHER_SIDE.items()
-        if (labels.labels == limb).sum() < LEAST
+        if (labels.labels == limb).sum() < MIN_LIMB_PIXELS
         and not (labels.hidden == limb).any()
-        and largest_piece(labels.labels == other).sum() >= LEAST
-        and not (limb in LEGS and skirt)
+        and largest_piece(labels.labels == other).sum() >= MIN_LIMB_PIXELS
+        and not (limb in LEG_LABELS and skirt)
     ]
 
 
 def _inner(labels: Labels) -> NDArray[np.bool_]:
     """The person's pixels (h, w) behind which a limb is hidden."""
     person = (labels.labels >= 0).astype(np.uint8)
-    return np.asarray(cv2.erode(person, np.ones((3, 3), np.uint8), iterations=OFF, borderValue=0) > 0)
+    return np.asarray(cv2.erode(person, np.ones((3, 3), np.uint8), iterations=OUTLINE_MARGIN_PIXELS, borderValue=0) > 0)
 
 
 def _is_within(template: PosedTemplate, triangles: NDArray[np.bool_], inner: NDArray[np.bool_]) -> bool:
     """Whether a limb of some `triangles` (T,) is among the pixels `inner` (h, w)."""
     x, y = np.rint(template.vertices[np.unique(template.triangles[triangles]), :2]).astype(int).T
     on_grid = (x >= 0) & (y >= 0) & (x < inner.shape[1]) & (y < inner.shape[0])
-    return bool((on_grid & inner[np.where(on_grid, y, 0), np.where(on_grid, x, 0)]).mean() > WITHIN)
+    return bool((on_grid & inner[np.where(on_grid, y, 0), np.where(on_grid, x, 0)]).mean() > MIN_VERTICES_INSIDE_SHARE)
 
 
 def _turned(fitted: FittedBody, limb: int) -> Iterator[FittedBody]:
     """The fit with a limb turned more and more, first bent as it is, then stretched."""
     human, fit = load_human(), fitted.fit
-    joint, bend = (human.rig.index(name) for name in BONES[limb].split())
+    joint, bend = (human.rig.index(name) for name in LIMB_BEND_JOINTS[limb].split())
     heads = human.space.joints(fit.coefficients)
     axes, _ = joint_axes(human.rig.parents, fit.rotations, heads, fit.root_translation)
     for bent in (fit.rotations[bend], np.eye(3)):
-        for degrees in TURNS:
+        for degrees in TRIED_TURNS_DEGREES:
             turn = Rotation.from_euler("z", degrees, degrees=True).as_matrix()
             rotations = fit.rotations.copy()
             rotations[joint] = axes[human.rig.parents[joint]].T @ turn @ axes[joint]

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from engine.imaging.masks.mask_pieces import bounding_box, mask_height, pieces_by_area
 
-WHOLE = 0.98
+WHOLE_OVERLAP_SHARE = 0.98
 """Overlap of the character's silhouette with the outline from which it is said to be whole."""
-THIN = 0.004
+OUTLINE_TOLERANCE_SHARE = 0.004
 """Half the width of what is no more than the outline's own uncertainty, as a share of the person's height."""
-LEAST = 0.002
+MIN_PIECE_SHARE = 0.002
 """Share of the outline's pixels from which a piece is told of."""
 
 
@@ -32,12 +32,12 @@ def left_out(mask: NDArray[np.bool_], drawn: NDArray[np.bool_]) -> list[LeftOut]
     """The pieces of an outline (H, W) that what is `drawn` (H, W) leaves out, the largest first."""
     if not mask.any():
         return []
-    radius = max(1, round(THIN * mask_height(mask)))
+    radius = max(1, round(OUTLINE_TOLERANCE_SHARE * mask_height(mask)))
     disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1, 2 * radius + 1))
     thick = cv2.morphologyEx((mask & ~drawn).astype(np.uint8), cv2.MORPH_OPEN, disk) > 0
     area = int(mask.sum())
     found = []
-    for piece in pieces_by_area(thick, LEAST * area, connectivity=8):
+    for piece in pieces_by_area(thick, MIN_PIECE_SHARE * area, connectivity=8):
         rows, columns = bounding_box(piece)
         box = (columns.start, rows.start, columns.stop - columns.start, rows.stop - rows.start)
         found.append(LeftOut(box, float(piece.sum() / area)))
@@ -56,8 +56,8 @@ def warn_of_silhouette(overlap: float, pieces: list[LeftOut], warn: Callable[[st
             f"The character does not have all that the outline shows: {places}. If it is the person's, paint it with the part"
             " that it belongs to (labels); if not, take it off the outline (mask).",
         )
-    if overlap < WHOLE:
+    if overlap < WHOLE_OVERLAP_SHARE:
         warn(
             "silhouette_differs",
-            f"As pictured, the character's silhouette overlaps the outline by {overlap:.1%}: less than {WHOLE:.0%}.",
+            f"As pictured, the character's silhouette overlaps the outline by {overlap:.1%}: less than {WHOLE_OVERLAP_SHARE:.0%}.",
         )

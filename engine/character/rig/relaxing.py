@@ -22,19 +22,19 @@ from engine.geometry.welding import weld
 from engine.motion.kinematics import pose_transforms
 from engine.motion.library import CLIPS, built_in
 
-BEGINS, FULL = 2.5, 3.1
+MIN_STRETCH_RATIO, FULL_STRETCH_RATIO = 2.5, 3.1
 """How many times as long as pictured an edge becomes that is made stiffer, and one that is made so by the most."""
-STIFFER = 10.0
+MAX_STIFFENING_FACTOR = 10.0
 """By how much at most an edge is made stiffer in a round: how much more the difference of its ends' weights counts than what
 these were."""
-ROUNDS = 7
-RINGS, FADING = 4, 0.8
+RELAXATION_ROUNDS = 7
+STIFFENING_RINGS, STIFFENING_DECAY = 4, 0.8
 """How far around an edge others are made stiffer, in edges, and what is left of it with each."""
-EVERY = 10
+CLIP_FRAME_STEP = 10
 """Frames of the built-in clips by which it is tried."""
-SHORTEST = 1e-4
+MIN_EDGE_METRES = 1e-4
 """Metres: what is shorter counts as so long."""
-AT_ONCE = 16
+CHUNK_FRAMES = 16
 """Frames that are posed together."""
 
 
@@ -63,7 +63,7 @@ def relaxed(character: Character) -> Character:
 
     In some rounds edges that stretch too far, and those around, are made stiffer: weights follow that are as near to the
     old ones as differences along stiff edges permit. The round in whose worst frame the fewest edges are more than
-    `FULL` times as long as pictured is kept.
+    `FULL_STRETCH_RATIO` times as long as pictured is kept.
     """
     mesh = character.mesh
     point = weld(mesh)
@@ -72,14 +72,19 @@ def relaxed(character: Character) -> Character:
     pictured = pose_transforms(mesh.skeleton, character.pictured.rotations, character.pictured.root)[0]
     clips = [built_in(name, mesh.skeleton) for name in CLIPS]
     frames = np.concatenate(
-        [pose_transforms(mesh.skeleton, clip.rotations[::EVERY], clip.root[::EVERY]) for clip in clips]
+        [
+            pose_transforms(mesh.skeleton, clip.rotations[::CLIP_FRAME_STEP], clip.root[::CLIP_FRAME_STEP])
+            for clip in clips
+        ]
     )
     bound = best = _Bound(mesh.vertices[first], mesh.bones[first], mesh.weights[first])
     before = _dense(bound, len(mesh.skeleton.names))
     stretch, least = _stretch(surface, bound, frames)
     stiffness = np.zeros(len(first))
-    for _ in range(ROUNDS):
-        stiffness += STIFFER * _spread(surface, np.clip((stretch - BEGINS) / (FULL - BEGINS), 0, 1))
+    for _ in range(RELAXATION_ROUNDS):
+        stiffness += MAX_STIFFENING_FACTOR * _spread(
+            surface, np.clip((stretch - MIN_STRETCH_RATIO) / (FULL_STRETCH_RATIO - MIN_STRETCH_RATIO), 0, 1)
+        )
         weights = stiffened_weights(surface, before, stiffness)
         bound = _bound_anew(surface, bound, weights, (weights != before).any(1), pictured)
         stretch, share = _stretch(surface, bound, frames)
@@ -99,7 +104,7 @@ def _surface(pictured: NDArray[np.float64], faces: NDArray[np.integer]) -> Surfa
     edges = np.stack([name // count, name % count], 1).astype(np.intp)
     lengths = np.linalg.norm(pictured[edges[:, 0]] - pictured[edges[:, 1]], axis=1)
     half = sparse.csr_matrix((np.ones(len(edges)), edges.T), (count, count))
-    return SurfaceGraph(pictured, edges, np.maximum(lengths, SHORTEST), half + half.T)
+    return SurfaceGraph(pictured, edges, np.maximum(lengths, MIN_EDGE_METRES), half + half.T)
 
 
 def _dense(bound: _Bound, joints: int) -> NDArray[np.float64]:
@@ -110,11 +115,11 @@ def _dense(bound: _Bound, joints: int) -> NDArray[np.float64]:
 
 
 def _stretch(surface: SurfaceGraph, bound: _Bound, frames: NDArray[np.float32]) -> tuple[NDArray[np.float64], float]:
-    """How many times as long as pictured each edge (E,) becomes in frames (F, J, 4, 4), and the share of edges beyond `FULL` in
-    the worst of them."""
+    """How many times as long as pictured each edge (E,) becomes in frames (F, J, 4, 4), and the share of edges beyond
+    `FULL_STRETCH_RATIO` in the worst of them."""
     most, worst = np.zeros(len(surface.edges)), 0
-    for start in range(0, len(frames), AT_ONCE):
-        posed = skin(bound.places, bound.bones, bound.weights, frames[start : start + AT_ONCE])
+    for start in range(0, len(frames), CHUNK_FRAMES):
+        posed = skin(bound.places, bound.bones, bound.weights, frames[start : start + CHUNK_FRAMES])
         worst = max(worst, _longest(posed, surface.edges, surface.lengths, most))
     return most, worst / max(len(most), 1)
 
@@ -131,7 +136,7 @@ def _longest(posed: np.ndarray, edges: np.ndarray, lengths: np.ndarray, most: np
                 square += (posed[f, a, k] - posed[f, b, k]) ** 2
             times = np.sqrt(square) / lengths[e]
             most[e] = max(most[e], times)
-            far += times > FULL
+            far += times > FULL_STRETCH_RATIO
         worst = max(worst, far)
     return worst
 
@@ -142,8 +147,8 @@ def _spread(surface: SurfaceGraph, wanted: NDArray[np.float64]) -> NDArray[np.fl
     for end in surface.edges.T:
         np.maximum.at(spread, end, wanted)
     degree = np.maximum(np.asarray(surface.neighbours.sum(1)).ravel(), 1)
-    for _ in range(RINGS):
-        spread = np.maximum(spread, FADING * (surface.neighbours @ spread) / degree)
+    for _ in range(STIFFENING_RINGS):
+        spread = np.maximum(spread, STIFFENING_DECAY * (surface.neighbours @ spread) / degree)
     return spread
 
 

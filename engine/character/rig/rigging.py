@@ -18,11 +18,11 @@ from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.welding import same_rows
 from engine.motion.clip import Clip
 
-LEAST_VOLUME, KEPT_VOLUME = 0.35, 0.6
+MIN_VOLUME_RATIO, TARGET_VOLUME_RATIO = 0.35, 0.6
 """What blending turns may leave of a volume. Where it leaves less halfway between a vertex's two strongest joints, as in a
 sharply bent elbow, the way back to T-pose is no longer one: there the vertex goes with the strongest, as much more as
 it takes to keep the second."""
-HALVINGS = 7
+BISECTION_STEPS = 7
 """Of the share that is asked for how much more."""
 
 
@@ -94,17 +94,17 @@ def at_rest(
     transforms: NDArray[np.floating],
 ) -> tuple[NDArray[np.float64], NDArray[np.float32], NDArray[np.float64]]:
     """The way back from a pose: vertices (V, 3) at rest which the joints' transforms (J, 4, 4) bring to `posed` (V, 3); the
-    weights (V, 4) by which they do: some are changed where there is no way back (`LEAST_VOLUME`); and what these blend
+    weights (V, 4) by which they do: some are changed where there is no way back (`MIN_VOLUME_RATIO`); and what these blend
     for each vertex, (V, 4, 4)."""
     turned = transforms.astype(np.float64)
     blended = _blended(weights, turned[bones])
     halfway = _volume((turned[bones[:, 0]] + turned[bones[:, 1]]) / 2)
-    least = np.where(halfway < LEAST_VOLUME, KEPT_VOLUME, LEAST_VOLUME)
+    least = np.where(halfway < MIN_VOLUME_RATIO, TARGET_VOLUME_RATIO, MIN_VOLUME_RATIO)
     crushed = np.flatnonzero(_volume(blended) < least)
     kept = weights.copy()
     own, mixed = turned[bones[crushed, 0]], blended[crushed]
     more, step = np.ones(len(crushed)), 0.5
-    for _ in range(HALVINGS):
+    for _ in range(BISECTION_STEPS):
         enough = _volume(_between(mixed, own, more - step)) >= least[crushed]
         more -= np.where(enough, step, 0)
         step /= 2

@@ -11,7 +11,7 @@ from engine.character.fit.template_fit import FittedBody, load_human
 from engine.character.shell.template_mesh import TemplateMesh
 from engine.geometry.nearest_rotations import nearest_rotations
 
-CORRECTIONS, FURTHEST = 6, 0.012
+CORRECTION_ROUNDS, MAX_CORRECTION_METRES = 6, 0.012
 """How often what blending leaves of a displacement is looked at and corrected, and by how many metres at most in all."""
 
 
@@ -24,7 +24,7 @@ def shell_at_rest(
     fitted: FittedBody,
 ) -> NDArray[np.float64]:
     """Vertices (V, 3) at rest, metres, that the pictured joints bring to `pictured` (V, 3) of picture space, to within what
-    `FURTHEST` leaves where blending crushes.
+    `MAX_CORRECTION_METRES` leaves where blending crushes.
 
     `straight` (V, 3): the template in T-pose, and `template` (V, 3) in the picture, not displaced. The template at rest is known;
     of the displacement each vertex's goes back by the rotation that is nearest to its blended transform.
@@ -36,10 +36,10 @@ def shell_at_rest(
     goal = camera.to_metres(pictured)
     rest = rest + _turned(back, goal - camera.to_metres(template))
     more = np.zeros_like(rest)
-    for _ in range(CORRECTIONS):
+    for _ in range(CORRECTION_ROUNDS):
         more += _turned(back, goal - _moved(transforms, rest + more))
         far = np.linalg.norm(more, axis=1, keepdims=True)
-        more *= np.minimum(1, FURTHEST / np.maximum(far, FURTHEST))
+        more *= np.minimum(1, MAX_CORRECTION_METRES / np.maximum(far, MAX_CORRECTION_METRES))
     return np.asarray(rest + more)
 
 

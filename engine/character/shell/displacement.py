@@ -13,7 +13,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import LinearOperator, cg, splu
 
-from engine.character.figure.silhouette import HEIGHT
+from engine.character.figure.silhouette import GRID_HEIGHT_PIXELS
 from engine.character.shell.matching import match_outlines
 from engine.character.shell.outlines import Outlines
 from engine.character.shell.template_mesh import TemplateMesh
@@ -22,19 +22,19 @@ from engine.geometry.surface import vertex_areas, vertex_normals
 
 STIFFNESS_SCHEDULE = ((400.0, 0.05), (100.0, 0.06), (25.0, 0.07), (6.0, 0.07), (2.0, 0.06), (0.5, 0.05))
 """How stiff the surface is in each round, and how far within the outline its rim may be, as a share of the person's height."""
-EXTREMITY, HEAD_STIFFER = 25.0, 3.0
+EXTREMITY_STIFFNESS_FACTOR, HEAD_STIFFNESS_FACTOR = 25.0, 3.0
 """By how much more hands and feet, and the head, are stiff."""
-HELD = 6.0
+STRETCHED_EXTREMITY_COST = 6.0
 """What a stretched hand or foot costs: without it both are drawn out linearly for nothing."""
-LOOSE, LOOSE_ROUNDS = (1.0, 0.6), 2
+FINAL_STIFFNESS, FINAL_ROUNDS = (1.0, 0.6), 2
 """The same two for some last rounds: what is left to go is the shape of shoes, cuffs and fingers, not where they are."""
-STAY, EAR_STAYS, HAND_STAYS, FOOT_STAYS = 1e-5, 0.02, 5e-4, 1e-4
+PIXEL_ANCHOR_WEIGHT, EAR_ANCHOR_WEIGHT, HAND_ANCHOR_WEIGHT, FOOT_ANCHOR_WEIGHT = 1e-5, 0.02, 5e-4, 1e-4
 """What a square pixel of surface costs for staying not where it was: everywhere, and of ears, hands and feet."""
-DOUBT = 0.035
+DOUBTED_MATCH_SHARE = 0.035
 """Share of the height from which on a match is doubted."""
-POINT = 3.0
+KNOWN_POINT_WEIGHT = 3.0
 """What a known point counts, in points of an outline."""
-STEPS, ENOUGH = 40, 1e-3
+CONJUGATE_GRADIENT_STEPS, CONJUGATE_GRADIENT_TOLERANCE = 40, 1e-3
 """Of conjugate gradients, at most; and the share of the error that may be left."""
 
 
@@ -57,19 +57,22 @@ class Displaced:
 
 def displace(mesh: TemplateMesh, template: NDArray[np.float64], outlines: Outlines, known: KnownPoints) -> Displaced:
     """Displace `template` (V, 3) in picture space, so that the rims of its parts come to lie on their outlines."""
-    tight, loose = _Energy(mesh, template, EXTREMITY, HELD), _Energy(mesh, template, *LOOSE)
+    tight, loose = (
+        _Energy(mesh, template, EXTREMITY_STIFFNESS_FACTOR, STRETCHED_EXTREMITY_COST),
+        _Energy(mesh, template, *FINAL_STIFFNESS),
+    )
     pictured = template.copy()
     move = np.zeros((len(template), 2))
     vertex = point = np.zeros(0, np.intp)
     for energy, stiffness, inwards in (
         *((tight, *each) for each in STIFFNESS_SCHEDULE),
-        *((loose, *STIFFNESS_SCHEDULE[-1]),) * LOOSE_ROUNDS,
+        *((loose, *STIFFNESS_SCHEDULE[-1]),) * FINAL_ROUNDS,
     ):
         normals = -vertex_normals(pictured, mesh.triangles).astype(np.float64)
         vertex, point = match_outlines(mesh, template, pictured, normals, outlines, inwards)
         outward = outlines.normals[point]
         off = ((outlines.points[point] - pictured[vertex, :2]) * outward).sum(1)
-        weight = outlines.weight[point] / (1 + (off / (DOUBT * HEIGHT)) ** 2)
+        weight = outlines.weight[point] / (1 + (off / (DOUBTED_MATCH_SHARE * GRID_HEIGHT_PIXELS)) ** 2)
         goal = ((outlines.points[point] - template[vertex, :2]) * outward).sum(1)
         move = energy.least(stiffness, _Lines(vertex, outward, goal, weight), known, move)
         pictured[:, :2] = template[:, :2] + move
@@ -95,10 +98,15 @@ class _Energy:
         area = vertex_areas(template, mesh.triangles)
         area = np.maximum(area, 0.02 * np.median(area))
         extremity = np.clip(1.5 * mesh.hand, 0, 1) + np.clip(1.5 * mesh.foot, 0, 1)
-        stiff = np.where(mesh.head > 0.5, HEAD_STIFFER, 1.0) * (1 + stiffer * extremity)
+        stiff = np.where(mesh.head > 0.5, HEAD_STIFFNESS_FACTOR, 1.0) * (1 + stiffer * extremity)
         self.bending = sp.csc_array(laplacian @ sp.diags_array(stiff / area) @ laplacian)
         own = extremity[mesh.triangles].min(1) > 0.5
-        stays = STAY + EAR_STAYS * mesh.ear + HAND_STAYS * (mesh.hand > 0.5) + FOOT_STAYS * (mesh.foot > 0.5)
+        stays = (
+            PIXEL_ANCHOR_WEIGHT
+            + EAR_ANCHOR_WEIGHT * mesh.ear
+            + HAND_ANCHOR_WEIGHT * (mesh.hand > 0.5)
+            + FOOT_ANCHOR_WEIGHT * (mesh.foot > 0.5)
+        )
         self.staying = sp.csc_array(
             held * cotangent_laplacian(template, mesh.triangles[own]) + sp.diags_array(stays * area)
         )
@@ -113,7 +121,7 @@ class _Energy:
         directions is factored, for both at once, and preconditions conjugate gradients on the true one.
         """
         count = self.count
-        alone = np.bincount(known.vertices, np.full(len(known.vertices), POINT), count).astype(np.float64)
+        alone = np.bincount(known.vertices, np.full(len(known.vertices), KNOWN_POINT_WEIGHT), count).astype(np.float64)
         fixed = stiffness * self.bending + self.staying + sp.diags_array(alone)
         mean = np.bincount(lines.vertices, lines.weights / 2, count)
         factor = splu(
@@ -128,14 +136,14 @@ class _Energy:
         right = self._gathered(lines, lines.weights * lines.goals)
         for axis in range(2):
             shift = known.places[:, axis] - self.template[known.vertices, axis]
-            right[:, axis] += np.bincount(known.vertices, POINT * shift, count)
+            right[:, axis] += np.bincount(known.vertices, KNOWN_POINT_WEIGHT * shift, count)
         size = (2 * count, 2 * count)
         solved, _ = cg(
             LinearOperator(size, times, dtype=np.float64),
             right.ravel(),
             start.ravel(),
-            rtol=ENOUGH,
-            maxiter=STEPS,
+            rtol=CONJUGATE_GRADIENT_TOLERANCE,
+            maxiter=CONJUGATE_GRADIENT_STEPS,
             M=LinearOperator(size, lambda flat: factor.solve(flat.reshape(count, 2)).ravel(), dtype=np.float64),
         )
         return np.asarray(solved).reshape(count, 2)

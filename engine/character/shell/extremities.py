@@ -25,21 +25,21 @@ from engine.character.shell.template_mesh import TemplateMesh, template_mesh
 from engine.geometry.joint_names import FINGERS
 from engine.perception.landmarks import fiducials
 
-CURL = (12.0, 20.0, 24.0, 28.0, 32.0)
+FINGER_CURL_DEGREES = (12.0, 20.0, 24.0, 28.0, 32.0)
 """Degrees by which each joint of thumb, index, middle, ring and little finger bends in a hand at rest ..."""
-FIRST = 0.6
+FIRST_JOINT_CURL_SHARE = 0.6
 """... and how much of that the first of its three joints."""
-FOOT = 0.6
+MIN_FOOT_WEIGHT = 0.6
 """Share of foot and toes in what moves a vertex that is of a foot; and metres above the sole up to which the shin is, too."""
-ANKLE = 0.1
-NOSE = slice(27, 36)
+ANKLE_HEIGHT_METRES = 0.1
+NOSE_FIDUCIALS = slice(27, 36)
 """Of the fiducials: about them there is skin."""
-HUE, DARKER, LIGHTER, SHARE = 9.0, 0.6, 1.5, 0.6
+MAX_FOOT_HUE_DISTANCE, MIN_FOOT_LIGHTNESS_RATIO, MAX_FOOT_LIGHTNESS_RATIO, MIN_BARE_FOOT_SHARE = 9.0, 0.6, 1.5, 0.6
 """By how much the skin of a foot differs from the face's in CIELAB's a and b at most, how light it may be, in the face's lightness,
 and of how much of a foot that must hold for it to be bare."""
-SHIN = 0.9
+MIN_SHIN_WEIGHT = 0.9
 """Share of the shin's joint in what moves a vertex that is of a shin."""
-FEWEST = 25
+MIN_COLOUR_PIXELS = 25
 """Pixels of skin and of feet with which either is known."""
 
 
@@ -51,8 +51,8 @@ def with_relaxed_hands(fitted: FittedBody) -> FittedBody:
         joints = np.array([[human.rig.index(f"{model.side}Hand{finger}{k}") for k in (1, 2, 3)] for finger in FINGERS])
         if not np.allclose(rotations[joints], np.eye(3), atol=1e-4):
             continue
-        for finger, axis, degrees in zip(joints, model.bend, CURL, strict=True):
-            for joint, share in zip(finger, (FIRST, 1.0, 1.0), strict=True):
+        for finger, axis, degrees in zip(joints, model.bend, FINGER_CURL_DEGREES, strict=True):
+            for joint, share in zip(finger, (FIRST_JOINT_CURL_SHARE, 1.0, 1.0), strict=True):
                 rotations[joint] = Rotation.from_rotvec(share * degrees * axis, degrees=True).as_matrix()
         kept[joints] = True
     return replace(fitted, fit=replace(fitted.fit, rotations=rotations), kept=kept)
@@ -73,8 +73,8 @@ def _feet() -> tuple[tuple[NDArray[np.bool_], ...], tuple[ToeCap, ...]]:
     """Masks of both feet among the vertices of the skin, and the caps in which shoes end; the first time caps are made."""
     mesh, mean = template_mesh(), load_human().space.mean
     places, own = mean[mesh.ids[~mesh.eye]], mesh.foot[~mesh.eye]
-    low = places[:, 1] < places[:, 1].min() + ANKLE
-    masks = tuple((low | (own > FOOT)) & (side * places[:, 0] > 0) for side in (1, -1))
+    low = places[:, 1] < places[:, 1].min() + ANKLE_HEIGHT_METRES
+    masks = tuple((low | (own > MIN_FOOT_WEIGHT)) & (side * places[:, 0] > 0) for side in (1, -1))
 
     def convert() -> dict[str, np.ndarray]:
         made = [toe_cap(places, _skin_triangles(mesh), mask) for mask in masks]
@@ -98,11 +98,11 @@ def barefoot(figure: Figure, silhouette: Silhouette, labels: Labels, template: N
     mesh = template_mesh()
     lab = cv2.cvtColor(silhouette.rgb.astype(np.float32) / 255, cv2.COLOR_RGB2LAB)
     height, width = labels.labels.shape
-    nose = fiducials(figure.face[:, :2])[NOSE] @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
+    nose = fiducials(figure.face[:, :2])[NOSE_FIDUCIALS] @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
     face = cv2.fillConvexPoly(np.zeros((height, width), np.uint8), cv2.convexHull(np.rint(nose).astype(np.int32)), (1,))
     legs = np.isin(labels.labels, [BODY_PARTS.index(name) for name in ("left_leg", "right_leg")])
     skin = lab[face > 0]
-    if len(skin) < FEWEST:
+    if len(skin) < MIN_COLOUR_PIXELS:
         return False
     own = np.median(skin, axis=0)
 
@@ -112,10 +112,10 @@ def barefoot(figure: Figure, silhouette: Silhouette, labels: Labels, template: N
         inside = (x >= 0) & (y >= 0) & (x < width) & (y < height)
         near[y[inside], x[inside]] = 1
         seen = lab[legs & (cv2.dilate(near, np.ones((5, 5), np.uint8)) > 0)]
-        if len(seen) < FEWEST:
+        if len(seen) < MIN_COLOUR_PIXELS:
             return False
-        same = np.linalg.norm(seen[:, 1:] - own[1:], axis=1) < HUE
-        same &= (seen[:, 0] > DARKER * own[0]) & (seen[:, 0] < LIGHTER * own[0])
-        return bool(same.mean() > SHARE)
+        same = np.linalg.norm(seen[:, 1:] - own[1:], axis=1) < MAX_FOOT_HUE_DISTANCE
+        same &= (seen[:, 0] > MIN_FOOT_LIGHTNESS_RATIO * own[0]) & (seen[:, 0] < MAX_FOOT_LIGHTNESS_RATIO * own[0])
+        return bool(same.mean() > MIN_BARE_FOOT_SHARE)
 
-    return alike(mesh.foot > 0.9) and alike(mesh.share("LeftLeg", "RightLeg") > SHIN)
+    return alike(mesh.foot > 0.9) and alike(mesh.share("LeftLeg", "RightLeg") > MIN_SHIN_WEIGHT)

@@ -9,32 +9,32 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.character.figure.silhouette import HEIGHT
-from engine.character.parts.labels import ARMS, LEGS
-from engine.character.shell.outlines import HEAD, TRUNK, Outlines
+from engine.character.figure.silhouette import GRID_HEIGHT_PIXELS
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
+from engine.character.shell.outlines import HEAD_LABEL, TRUNK_LABEL, Outlines
 from engine.character.shell.template_mesh import TemplateMesh
 
 MAX_RIM_NORMAL_DEPTH = 0.5
 """Of a unit normal towards the viewer, at most, on a rim."""
-ALIKE = 0.7
+MIN_NORMAL_COSINE = 0.7
 """Cosine between an outline's normal and that of a rim that may be its."""
-ASIDE = 0.012
+MAX_LATERAL_SHARE = 0.012
 """How far aside of an outline point's normal its vertex may be, as a share of the person's height; and of what it is aside,
 how much counts as being further in."""
-ASIDE_COUNTS = 0.5
-OUTWARDS = 0.05
+LATERAL_WEIGHT = 0.5
+MAX_OUTWARD_SHARE = 0.05
 """How far from its vertex an outline may be within the body, as a share of the person's height."""
-INWARDS = (0.03, 0.05, 0.05)
+MAX_INWARD_SHARES = (0.03, 0.05, 0.05)
 """The same beyond the body, of hands, feet and the head; of the rest it is said by the round."""
-LIMITS = (0.045, 0.06, 0.06, 0.085)
+MAX_DISPLACEMENT_SHARES = (0.045, 0.06, 0.06, 0.085)
 """How far a vertex of hands, feet, the head and the rest may be displaced along the normal, as a share of the person's height."""
-BENEATH = 0.002
+BORDER_INSET_SHARE = 0.002
 """How far, as a share of the height, a part is drawn back from a border beneath which it may go on."""
-SAME_PART = 0.05
+MIN_PART_WEIGHT = 0.05
 """Share of a part in what moves a vertex that may lie on its border."""
-STEP = 4.0
+SEARCH_STEP_PIXELS = 4.0
 """Pixels between the places along a normal at which vertices are looked for."""
-NEIGHBOURS = 10
+NEIGHBOUR_COUNT = 10
 
 
 def match_outlines(
@@ -52,10 +52,14 @@ def match_outlines(
     `inwards`: how far within the outline, as a share of the person's height, a vertex may be.
     """
     rim = np.flatnonzero((np.abs(normals[:, 2]) < MAX_RIM_NORMAL_DEPTH) & ~mesh.eye & ~mesh.ear)
-    along = np.arange(-OUTWARDS * HEIGHT, inwards * HEIGHT + STEP, STEP)
+    along = np.arange(
+        -MAX_OUTWARD_SHARE * GRID_HEIGHT_PIXELS, inwards * GRID_HEIGHT_PIXELS + SEARCH_STEP_PIXELS, SEARCH_STEP_PIXELS
+    )
     places = outlines.points[:, None] - along[None, :, None] * outlines.normals[:, None]
     tree = cKDTree(pictured[rim, :2])
-    near = np.asarray(tree.query(places, NEIGHBOURS, distance_upper_bound=1.3 * ASIDE * HEIGHT)[1])
+    near = np.asarray(
+        tree.query(places, NEIGHBOUR_COUNT, distance_upper_bound=1.3 * MAX_LATERAL_SHARE * GRID_HEIGHT_PIXELS)[1]
+    )
     point, _, _ = np.nonzero(near < len(rim))
     pairs = np.unique(point.astype(np.int64) * len(pictured) + rim[near[near < len(rim)]])
     point, vertex = pairs // len(pictured), pairs % len(pictured)
@@ -82,19 +86,24 @@ def _fits(
     inside, aside = (way * outward).sum(1), np.abs(way[:, 0] * -outward[:, 1] + way[:, 1] * outward[:, 0])
     across = normals[vertex, :2] / np.maximum(np.linalg.norm(normals[vertex, :2], axis=1, keepdims=True), 1e-6)
     kinds = [mesh.hand[vertex] > 0.5, mesh.foot[vertex] > 0.5, mesh.head[vertex] > 0.5]
-    reach = np.select(kinds, INWARDS, inwards) * HEIGHT
-    limit = np.select(kinds, LIMITS[:3], LIMITS[3]) * HEIGHT
+    reach = np.select(kinds, MAX_INWARD_SHARES, inwards) * GRID_HEIGHT_PIXELS
+    limit = np.select(kinds, MAX_DISPLACEMENT_SHARES[:3], MAX_DISPLACEMENT_SHARES[3]) * GRID_HEIGHT_PIXELS
     whole = np.abs(((outlines.points[point] - template[vertex, :2]) * outward).sum(1))
-    fits = (aside < ASIDE * HEIGHT) & ((across * outward).sum(1) > ALIKE) & (inside < reach) & (whole < limit)
-    fits &= inside > -np.where(outlines.hidden[point], BENEATH, OUTWARDS) * HEIGHT
-    return fits & _of_part(mesh, vertex, outlines.part[point]), inside + ASIDE_COUNTS * aside
+    fits = (
+        (aside < MAX_LATERAL_SHARE * GRID_HEIGHT_PIXELS)
+        & ((across * outward).sum(1) > MIN_NORMAL_COSINE)
+        & (inside < reach)
+        & (whole < limit)
+    )
+    fits &= inside > -np.where(outlines.hidden[point], BORDER_INSET_SHARE, MAX_OUTWARD_SHARE) * GRID_HEIGHT_PIXELS
+    return fits & _of_part(mesh, vertex, outlines.part[point]), inside + LATERAL_WEIGHT * aside
 
 
 def _of_part(mesh: TemplateMesh, vertex: NDArray[np.int64], part: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Whether vertices (P,) may lie on the border of a part (P,). Trunk and legs have no border where they meet."""
-    own = mesh.parts[vertex, part] > SAME_PART
-    lower = mesh.parts[vertex][:, [TRUNK, *LEGS]].sum(1) > SAME_PART
+    own = mesh.parts[vertex, part] > MIN_PART_WEIGHT
+    lower = mesh.parts[vertex][:, [TRUNK_LABEL, *LEG_LABELS]].sum(1) > MIN_PART_WEIGHT
     other = np.zeros(len(vertex), np.bool_)
-    for one, across in (LEGS, LEGS[::-1]):
+    for one, across in (LEG_LABELS, LEG_LABELS[::-1]):
         other |= (part == one) & (mesh.parts[vertex].argmax(1) == across)
-    return np.asarray(own | (lower & ~np.isin(part, (*ARMS, HEAD)) & ~other))
+    return np.asarray(own | (lower & ~np.isin(part, (*ARM_LABELS, HEAD_LABEL)) & ~other))

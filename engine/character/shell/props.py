@@ -14,37 +14,37 @@ from scipy.ndimage import distance_transform_edt
 from scipy.spatial import cKDTree
 
 from engine.body.parts import BODY_PARTS
-from engine.character.figure.silhouette import HEIGHT, Silhouette
-from engine.character.parts.labels import ARMS
+from engine.character.figure.silhouette import GRID_HEIGHT_PIXELS, Silhouette
+from engine.character.parts.labels import ARM_LABELS
 from engine.character.shell.piece import Piece
 from engine.character.shell.template_mesh import TemplateMesh
 from engine.geometry.surface import vertex_normals
 from engine.render.rasteriser import rasterise
 
-STEP = 2
+VERTEX_SPACING_PIXELS = 2
 """Pixels between the vertices of a piece."""
-LEAST_SOFT_PIXELS, LEAST_PIXELS = 110, 50
+MIN_PIECE_PIXELS, MIN_HELD_PIECE_PIXELS = 110, 50
 """Pixels of what is worth being a piece; and of what a hand holds or is on a head."""
-FAR, FAR_FROM_HEAD = 6.0, 3.0
+MIN_REACH_PIXELS, MIN_HEAD_REACH_PIXELS = 6.0, 3.0
 """How far, in pixels, the furthest of a piece is from the shell at least; the same of a head's, for hair is all around it."""
-WITHIN = 8
+SHELL_UNDERLAP_PIXELS = 8
 """Pixels by which a piece goes on beneath the shell."""
 MAX_RIM_NORMAL_DEPTH = 0.45
 """Of a unit normal towards the viewer, at most, on a rim."""
-HELD, WORN, AT_FOOT = 0.35, 0.5, 0.4
+MIN_HAND_RIM_SHARE, MIN_HEAD_RIM_SHARE, MIN_FOOT_RIM_SHARE = 0.35, 0.5, 0.4
 """Share of the rim's nearest vertices that are a hand's, the head's or a foot's where a piece is theirs. At feet nothing is: what is left
 there is the fit's error."""
-ROUND, THICK = 1.2, {"head": 0.05, "hand": 0.05, "soft": 0.04}
+DEPTH_PER_DISTANCE, MAX_DEPTH_SHARES = 1.2, {"head": 0.05, "hand": 0.05, "soft": 0.04}
 """How deep a piece is to each side: by its distance from the shell, and at most, as a share of the person's height."""
-FLATTER = 0.8
+SECTION_FLATTENING = 0.8
 """Its section is so much flatter than a circle's."""
-MOSTLY_ARM = 0.6
+MIN_ARM_WEIGHT_SHARE = 0.6
 """Share of arms in what moves a piece of cloth from which on it is an arm's."""
-SHIFT, STEEP = 2.5, 0.05
+MAX_BORDER_SHIFT_PIXELS, MIN_MASK_SLOPE = 2.5, 0.05
 """Pixels by which its border is drawn to the outline at most, and the slope of the mask from which it is."""
-EVEN_DEPTH, EVEN_WEIGHTS = 5.0, 6.0
+DEPTH_SMOOTHING_VERTICES, WEIGHT_SMOOTHING_VERTICES = 5.0, 6.0
 """Vertices over which depths and weights are smoothed."""
-NEIGHBOURS = 6
+NEIGHBOUR_COUNT = 6
 
 
 @dataclass(frozen=True)
@@ -84,17 +84,17 @@ def props_of(
     found = []
     for number in range(1, count):
         own = pieces == number
-        if stats[number, cv2.CC_STAT_AREA] < LEAST_PIXELS:
+        if stats[number, cv2.CC_STAT_AREA] < MIN_HELD_PIECE_PIXELS:
             continue
         y, x = np.nonzero(own)
         near = rim[np.asarray(tree.query(np.stack([x, y], 1)[::3])[1])]
         carrier = _carrier(mesh, near)
         furthest = float(away[own].max())
-        if carrier is None or furthest < (FAR_FROM_HEAD if carrier == "Head" else FAR):
+        if carrier is None or furthest < (MIN_HEAD_REACH_PIXELS if carrier == "Head" else MIN_REACH_PIXELS):
             continue
-        if carrier == "soft" and stats[number, cv2.CC_STAT_AREA] < LEAST_SOFT_PIXELS:
+        if carrier == "soft" and stats[number, cv2.CC_STAT_AREA] < MIN_PIECE_PIXELS:
             continue
-        reach = (cv2.dilate(own.astype(np.uint8), _disk(WITHIN)) > 0) & mask
+        reach = (cv2.dilate(own.astype(np.uint8), _disk(SHELL_UNDERLAP_PIXELS)) > 0) & mask
         piece = _lens(mesh, pictured, (rim, tree), silhouette, reach, covered, carrier, furthest)
         if piece is not None:
             found.append(piece)
@@ -104,12 +104,12 @@ def props_of(
 def _carrier(mesh: TemplateMesh, near: NDArray[np.intp]) -> str | None:
     """The joint that carries a piece beside the vertices `near` (N,), `soft` where it goes with all of them, None where it is an
     error of a foot's place."""
-    if (mesh.foot[near] > 0.3).mean() > AT_FOOT:
+    if (mesh.foot[near] > 0.3).mean() > MIN_FOOT_RIM_SHARE:
         return None
     hand = near[mesh.hand[near] > 0.5]
-    if len(hand) > HELD * len(near):
+    if len(hand) > MIN_HAND_RIM_SHARE * len(near):
         return "LeftHand" if mesh.parts[hand, BODY_PARTS.index("left_arm")].mean() > 0.5 else "RightHand"
-    return "Head" if (mesh.head[near] > 0.5).mean() > WORN else "soft"
+    return "Head" if (mesh.head[near] > 0.5).mean() > MIN_HEAD_RIM_SHARE else "soft"
 
 
 def _lens(
@@ -128,15 +128,18 @@ def _lens(
         return None
     rim, tree = rims
     x, y, moved = _to_outline(lattice, silhouette)
-    _, nearest = tree.query(np.stack([x, y], 1), NEIGHBOURS)
-    middle = lattice.smoothed(pictured[rim[nearest], 2].mean(1)[:, None], EVEN_DEPTH)[:, 0]
+    _, nearest = tree.query(np.stack([x, y], 1), NEIGHBOUR_COUNT)
+    middle = lattice.smoothed(pictured[rim[nearest], 2].mean(1)[:, None], DEPTH_SMOOTHING_VERTICES)[:, 0]
     kind = {"Head": "head", "soft": "soft"}.get(carrier, "hand")
     at = (lattice.y.astype(int), lattice.x.astype(int))
     border = distance_transform_edt(silhouette.mask)[at]
-    half = min(ROUND * furthest, THICK[kind] * HEIGHT)
-    thick = np.where(moved | (border < 1.5), 0, half * np.sqrt(1 - (1 - np.clip(border / half, 0, 1)) ** 2)) * FLATTER
+    half = min(DEPTH_PER_DISTANCE * furthest, MAX_DEPTH_SHARES[kind] * GRID_HEIGHT_PIXELS)
+    thick = (
+        np.where(moved | (border < 1.5), 0, half * np.sqrt(1 - (1 - np.clip(border / half, 0, 1)) ** 2))
+        * SECTION_FLATTENING
+    )
     beneath = distance_transform_edt(covered)[at]
-    thick *= np.clip(1 - beneath / (WITHIN + 1), 0.15, 1)
+    thick *= np.clip(1 - beneath / (SHELL_UNDERLAP_PIXELS + 1), 0.15, 1)
     front, back = (np.stack([x, y, middle + sign * (thick + 0.05)], 1) for sign in (1, -1))
     a, b, c, d = lattice.cells.T
     faces = np.concatenate([np.stack([a, d, c], 1), np.stack([a, c, b], 1)])
@@ -152,7 +155,7 @@ def _lens(
 
 
 def _lattice(reach: NDArray[np.bool_]) -> _Lattice:
-    cells = reach[1::STEP, 1::STEP]
+    cells = reach[1::VERTEX_SPACING_PIXELS, 1::VERTEX_SPACING_PIXELS]
     rows, columns = np.nonzero(cells)
     used = np.zeros((cells.shape[0] + 1, cells.shape[1] + 1), np.bool_)
     corners = ((0, 0), (0, 1), (1, 1), (1, 0))
@@ -164,8 +167,8 @@ def _lattice(reach: NDArray[np.bool_]) -> _Lattice:
     within = np.array(reach.shape) - 1
     return _Lattice(
         used,
-        np.minimum(STEP * x, within[1]).astype(np.float64),
-        np.minimum(STEP * y, within[0]).astype(np.float64),
+        np.minimum(VERTEX_SPACING_PIXELS * x, within[1]).astype(np.float64),
+        np.minimum(VERTEX_SPACING_PIXELS * y, within[0]).astype(np.float64),
         np.stack([number[rows + dy, columns + dx] for dy, dx in corners], 1),
     )
 
@@ -180,8 +183,8 @@ def _to_outline(
     slope = np.stack([one[at] for one in slopes], 1).astype(np.float64)
     steep = np.linalg.norm(slope, axis=1)
     around = np.bincount(lattice.cells.ravel(), minlength=len(lattice.x)) < 4
-    moved = around & (steep > STEEP) & (distance_transform_edt(silhouette.mask)[at] < 4)
-    way = np.clip((0.5 - soft[at]) / np.maximum(steep, 0.02), -SHIFT, SHIFT)
+    moved = around & (steep > MIN_MASK_SLOPE) & (distance_transform_edt(silhouette.mask)[at] < 4)
+    way = np.clip((0.5 - soft[at]) / np.maximum(steep, 0.02), -MAX_BORDER_SHIFT_PIXELS, MAX_BORDER_SHIFT_PIXELS)
     shift = np.where(moved[:, None], slope / np.maximum(steep, 1e-6)[:, None] * way[:, None], 0)
     return lattice.x + shift[:, 0], lattice.y + shift[:, 1], moved
 
@@ -201,12 +204,12 @@ def _carried(
         mesh.weights[nearest].astype(np.float64) / nearest.shape[1],
     )
     of_arm = np.zeros(len(mesh.names), np.bool_)
-    of_arm[np.unique(mesh.bones[mesh.parts[:, list(ARMS)].sum(1) > 0.99, 0])] = True
-    if dense[:, of_arm].sum() < MOSTLY_ARM * dense.sum():
+    of_arm[np.unique(mesh.bones[mesh.parts[:, list(ARM_LABELS)].sum(1) > 0.99, 0])] = True
+    if dense[:, of_arm].sum() < MIN_ARM_WEIGHT_SHARE * dense.sum():
         dense[:, of_arm] = 0
         dense[:, mesh.names.index("Hips")] += 1e-4
     used = np.flatnonzero(dense.any(0))
-    dense[:, used] = lattice.smoothed(dense[:, used], EVEN_WEIGHTS)
+    dense[:, used] = lattice.smoothed(dense[:, used], WEIGHT_SMOOTHING_VERTICES)
     bones = np.argsort(-dense, 1)[:, :4]
     shares = dense[np.arange(count)[:, None], bones]
     return bones.astype(np.intp), (shares / shares.sum(1, keepdims=True)).astype(np.float32)

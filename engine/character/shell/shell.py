@@ -29,7 +29,7 @@ from engine.character.shell.thickness import thickened
 from engine.geometry.skinning import bone_transforms, skin
 from engine.perception.landmarks import fiducials
 
-JAW = 17
+JAW_LANDMARK_COUNT = 17
 """The first of the 68 fiducials are the jaw's line: where it is seen depends on the view, and so they are no points of the face."""
 
 
@@ -106,8 +106,8 @@ def face_points(figure: Figure, silhouette: Silhouette, mesh: TemplateMesh) -> K
     network makes up the half that is not seen."""
     if figure.face is None or in_profile(figure):
         return KnownPoints(np.zeros(0, np.intp), np.zeros((0, 2)))
-    seen = fiducials(figure.face[:, :2])[JAW:].astype(np.float64)
+    seen = fiducials(figure.face[:, :2])[JAW_LANDMARK_COUNT:].astype(np.float64)
     places = seen @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
-    vertices = mesh.renamed(load_human().face[JAW:])
+    vertices = mesh.renamed(load_human().face[JAW_LANDMARK_COUNT:])
     there = vertices >= 0
     return KnownPoints(vertices[there], places[there])

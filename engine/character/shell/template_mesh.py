@@ -13,11 +13,11 @@ from engine.body.parts import BODY_PARTS, part_of_bone
 from engine.character.fit.template_fit import load_human
 from engine.geometry.surface import triangulate
 
-EAR, EAR_DEPTH = 0.045, 0.025
+EAR_RADIUS_METRES, EAR_DEPTH_METRES = 0.045, 0.025
 """Metres around the outermost point of an ear, and inwards from it, that are the ear's."""
-SURELY_HEAD = 0.9
+MIN_HEAD_WEIGHT = 0.9
 """Share of the head in what moves a vertex that is surely of it."""
-INFLUENCES = 4
+MAX_VERTEX_INFLUENCES = 4
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ def template_mesh() -> TemplateMesh:
         quads.astype(np.int64) * len(template.uv) + template.uv_quads[faces], return_inverse=True
     )
     rig = human.rig
-    strongest = np.argsort(-rig.weights[ids], axis=1, kind="stable")[:, :INFLUENCES]
+    strongest = np.argsort(-rig.weights[ids], axis=1, kind="stable")[:, :MAX_VERTEX_INFLUENCES]
     bones = np.take_along_axis(rig.bones[ids].astype(np.intp), strongest, 1)
     weights = np.take_along_axis(rig.weights[ids].astype(np.float64), strongest, 1)
     weights /= weights.sum(1, keepdims=True)
@@ -98,7 +98,7 @@ def template_mesh() -> TemplateMesh:
         share(np.array(["Foot" in name or "Toe" in name for name in rig.names])),
         head,
         np.isin(ids, np.unique(template.quads[template.faces("left_eye", "right_eye")])),
-        _ears(human.space.mean[ids], head > SURELY_HEAD),
+        _ears(human.space.mean[ids], head > MIN_HEAD_WEIGHT),
         tuple(rig.names),
     )
 
@@ -109,6 +109,6 @@ def _ears(places: NDArray[np.floating], head: NDArray[np.bool_]) -> NDArray[np.b
     for side in (1, -1):
         aside = side * places[:, 0]
         tip = np.flatnonzero(head)[np.argmax(aside[head])]
-        near = np.linalg.norm(places - places[tip], axis=1) < EAR
-        ears |= near & (aside > aside[tip] - EAR_DEPTH) & head
+        near = np.linalg.norm(places - places[tip], axis=1) < EAR_RADIUS_METRES
+        ears |= near & (aside > aside[tip] - EAR_DEPTH_METRES) & head
     return ears

@@ -17,12 +17,12 @@ from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheets import Layer
 from engine.imaging.masks.mask_distance import dilate_mask
 
-STEEPEST = 0.7
+MAX_DEPTH_SLOPE = 0.7
 """By how much half of the depth may grow with a step down."""
-BOXY = 2.2
+SUPERELLIPSE_EXPONENT = 2.2
 """Exponent of the cross-section, a superellipse: of 2 it would be an ellipse."""
 
-OPEN = 3.0
+OPEN_LENGTH_FACTOR = 3.0
 """How far cloth is open from beneath, in units of that over which it changes along the body."""
 
 
@@ -32,14 +32,16 @@ def drape(body: Layer, cloth: FreeCloth) -> Layer:
         np.array([getattr(ring, name) for ring in cloth.rings], np.float64) for name in ("middle", "half", "share")
     )
     middle, half, share = (
-        gaussian_filter1d(one, cloth.even, mode="nearest") for one in (middle, _hanging(half, STEEPEST), share)
+        gaussian_filter1d(one, cloth.even, mode="nearest") for one in (middle, _hanging(half, MAX_DEPTH_SLOPE), share)
     )
     if cloth.hangs:  # around both legs it is round, however close
         share = np.maximum(share, cloth.begins(cloth.above))
     share = share * cloth.begins()
     depths = body.front.depth.copy(), body.back.depth.copy()
     for k, row, columns in cloth.rows():
-        height = half[k] * (1 - np.abs(cloth.rings[k].across(columns)) ** BOXY) ** (1 / BOXY)
+        height = half[k] * (1 - np.abs(cloth.rings[k].across(columns)) ** SUPERELLIPSE_EXPONENT) ** (
+            1 / SUPERELLIPSE_EXPONENT
+        )
         for depth, towards in zip(depths, (1, -1), strict=True):
             own = depth[row, columns]
             depth[row, columns] = own + share[k] * (middle[k] + towards * height - own)
@@ -55,7 +57,7 @@ def _hem(mask: NDArray[np.bool_], cloth: FreeCloth) -> NDArray[np.float32]:
     hem = mask & cloth.worn & dilate_mask(~mask, 1)
     hem[:first] = False
     up, within = np.zeros(mask.shape, np.float32), hem
-    for step in range(1, round(OPEN * cloth.even) + 1):
+    for step in range(1, round(OPEN_LENGTH_FACTOR * cloth.even) + 1):
         within = within & np.roll(mask, step, 0)
         up += within
     return up

@@ -18,9 +18,9 @@ from engine.character.parts.label_map import Labels
 from engine.character.surface.part_surface import Warp
 from engine.perception.landmarks import fiducials
 
-APART = 8
+FIXED_POINT_SPACING_PIXELS = 8
 """Pixels between the points of the head's border that stay."""
-JAW = 17
+JAW_LANDMARK_COUNT = 17
 """The first of the 68 fiducials lie along the jaw: they slide along it, and are not points of the surface."""
 
 
@@ -47,7 +47,7 @@ def with_face(warp: Warp, face: Face) -> Warp:
     columns, rows = (np.ascontiguousarray(seen[:, k], np.float32)[:, None] for k in range(2))
     now = cv2.remap(np.ascontiguousarray(warp.places), columns, rows, cv2.INTER_LINEAR)[:, 0]
     inner = cv2.erode(face.head.astype(np.uint8), np.ones((3, 3), np.uint8), borderValue=0) > 0
-    rim = np.argwhere(face.head & ~inner)[::APART, ::-1].astype(np.float64)
+    rim = np.argwhere(face.head & ~inner)[::FIXED_POINT_SPACING_PIXELS, ::-1].astype(np.float64)
     moved = RBFInterpolator(
         np.concatenate([seen, rim]), np.concatenate([laid - now, np.zeros_like(rim)]), kernel="thin_plate_spline"
     )
@@ -64,6 +64,6 @@ def seen_face(
     `template`'s vertices at a face's points."""
     if figure.face is None or in_profile(figure):
         return None
-    seen = fiducials(figure.face[:, :2])[JAW:].astype(np.float64)
+    seen = fiducials(figure.face[:, :2])[JAW_LANDMARK_COUNT:].astype(np.float64)
     on_grid = seen @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
-    return Face(on_grid, template.vertices[points[JAW:], :2], labels.labels == BODY_PARTS.index("head"))
+    return Face(on_grid, template.vertices[points[JAW_LANDMARK_COUNT:], :2], labels.labels == BODY_PARTS.index("head"))

@@ -18,7 +18,7 @@ from engine.character.fit.posed_template import PosedTemplate
 from engine.character.fit.template_maps import SideMaps, weights_at
 from engine.character.parts.crossed_labels import Behind
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import LEAST, LEGS, OTHER_SIDE
+from engine.character.parts.labels import LEG_LABELS, MIN_LIMB_PIXELS, OTHER_SIDE
 from engine.character.parts.regions import Region, find_regions
 from engine.character.parts.unseen_limbs import UnseenLimb, unseen_limbs
 from engine.character.surface.depth_order import (
@@ -40,7 +40,7 @@ from engine.character.surface.skirt_weights import moved_by_both
 from engine.character.surface.solid_limb import SolidLimb, solid_arms, solid_limb
 from engine.imaging.masks.mask_pieces import largest_piece
 
-BARE = ("Head", "Neck", "Jaw", "Eye", "Hand", "Foot", "Toe")
+BARE_JOINT_NAMES = ("Head", "Neck", "Jaw", "Eye", "Hand", "Foot", "Toe")
 """What is in the names of joints that move skin, hair or shoes, not cloth."""
 
 
@@ -50,11 +50,11 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
     beneath = legs_beneath(labels, template, rig)
     legs = [leg.limb for leg in beneath]
     apart = [int(limb) for limb in labels.apart
-             if limb not in legs and largest_piece(labels.labels == limb).sum() >= LEAST]  # fmt: skip
+             if limb not in legs and largest_piece(labels.labels == limb).sum() >= MIN_LIMB_PIXELS]  # fmt: skip
     unseen = unseen_limbs(labels, template, rig)
     region, limbs = find_regions(labels, apart, template, rig, [one.limb for one in unseen])
     cloth = labels.cloth
-    parting = labels.parting & (not any(limb in LEGS for limb in apart))
+    parting = labels.parting & (not any(limb in LEG_LABELS for limb in apart))
     parting[: cloth.rings[-1].row + 1 if cloth else 0] = False
     body = replace(layer_of(region, template, rig, face), cut=cut_along(labels.labels, parting))
     body = each_by_its_own(body, labels.labels, parting, rig)
@@ -76,7 +76,7 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
         else:
             limb = hand_beneath(layer_of(one, template, rig), body, labels.hidden == one.limb)
         body = body_behind(body, limb, own)
-        if one.limb in LEGS:
+        if one.limb in LEG_LABELS:
             body = body_within(body, limb, own & one.joint)
         limb = limb_before(limb, body, own)
         if limb.solid is None:
@@ -116,7 +116,7 @@ def layer_of(region: Region, template: PosedTemplate, rig: Rig, face: Face | Non
     """A region's front and back. `face` changes the front's warp."""
     sides = template.sides(region.triangles, region.mask.shape)
     warp = warp_part(region.mask, sides.front.mask)
-    bare = np.array([any(part in name for part in BARE) for name in rig.names])
+    bare = np.array([any(part in name for part in BARE_JOINT_NAMES) for name in rig.names])
 
     def rebuilt(own: Warp, side: SideMaps) -> Surface:
         weights = weights_at(side.raster, sides.triangles, rig.bones, rig.weights, len(rig.names))

@@ -17,7 +17,7 @@ from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheets import Layer
 from engine.imaging.masks.mask_distance import dilate_mask
 
-HALF = 0.5
+MIN_OWN_LEG_WEIGHT = 0.5
 """Share of what moves a leg that must be its own to be believed."""
 
 
@@ -48,7 +48,7 @@ def each_by_its_own(body: Layer, labels: NDArray[np.integer], parting: NDArray[n
             kept[:, others] = 0
             total = kept.sum(1)
             known = np.zeros(body.mask.shape, np.bool_)
-            known[region] = total > HALF
+            known[region] = total > MIN_OWN_LEG_WEIGHT
             if not known.any():
                 continue
             weights[region] = kept / np.maximum(total, 1e-6)[:, None]

@@ -23,17 +23,17 @@ from engine.imaging.filling.harmonic_fill import HarmonicFill, harmonic_fill
 from engine.imaging.filling.nearest import nearest_in
 from engine.imaging.masks.mask_pieces import outline
 
-ALONG = 10.0
+OUTLINE_DEPTH_SMOOTHING_PIXELS = 10.0
 """Pixels along the outline over which its depth is smoothed: the template's own outline jumps where limbs overlap."""
-ACROSS = 1.5
+NORMAL_SMOOTHING_PIXELS = 1.5
 """Pixels over which warped normals are smoothed."""
-WORN = 6.0
+CLOTH_NORMAL_SMOOTHING_PIXELS = 6.0
 """The same where clothes are: they hide what the body has beneath."""
-SPREAD_BARE, SPREAD_WORN = 6, 220
+SKIN_WEIGHT_ROUNDS, CLOTH_WEIGHT_ROUNDS = 6, 220
 """Rounds in which skinning weights spread, on skin and then on clothes: over 2 and 12 pixels."""
-LOOSE = 2
+LOOKUP_DILATION_PIXELS = 2
 """Pixels around those that are looked up which are filled, too: the face moves them a little."""
-DEEPER = 0.15
+MAX_EXTRA_DEPTH_SHARE = 0.15
 """By how much of the template's own depth a part may reach beyond it: limbs that point at the viewer have normals that say
 little, and their depth would run away."""
 
@@ -69,7 +69,7 @@ def warp_part(mask: NDArray[np.bool_], template: NDArray[np.bool_]) -> Warp:
     looked_up = np.zeros(mask.shape, np.uint8)
     x, y = np.clip(np.rint(places[ys, xs]), 0, [mask.shape[1] - 1, mask.shape[0] - 1]).astype(int).T
     looked_up[y, x] = 1
-    wanted = cv2.dilate(looked_up, np.ones((3, 3), np.uint8), iterations=LOOSE) > 0
+    wanted = cv2.dilate(looked_up, np.ones((3, 3), np.uint8), iterations=LOOKUP_DILATION_PIXELS) > 0
     return Warp(border, partners, places, wanted)
 
 
@@ -105,9 +105,9 @@ def part_surface(
     looked = _look_up(template.normals, warp, whole)
     looked /= np.maximum(np.linalg.norm(looked, axis=-1, keepdims=True), 1e-6)
     looked = np.where(mask[..., None], looked, 0)
-    normals = np.asarray(cv2.GaussianBlur(looked, (0, 0), ACROSS), np.float32)
+    normals = np.asarray(cv2.GaussianBlur(looked, (0, 0), NORMAL_SMOOTHING_PIXELS), np.float32)
     if bare is not None:
-        worn = cv2.GaussianBlur(carried[..., ~bare].sum(-1), (0, 0), WORN)[..., None]
+        worn = cv2.GaussianBlur(carried[..., ~bare].sum(-1), (0, 0), CLOTH_NORMAL_SMOOTHING_PIXELS)[..., None]
         normals = normals + np.clip(worn, 0, 1) * (_smooth(looked, mask) - normals)
     depth = template.depth[whole.nearest]
     held = np.zeros(mask.shape, np.bool_)
@@ -115,10 +115,10 @@ def part_surface(
     held[at[:, 1], at[:, 0]] = True
     known = np.zeros(mask.shape, np.float32)
     along = depth[partners[:, 1], partners[:, 0]]
-    known[at[:, 1], at[:, 0]] = gaussian_filter1d(along, ALONG, mode="wrap")
+    known[at[:, 1], at[:, 0]] = gaussian_filter1d(along, OUTLINE_DEPTH_SMOOTHING_PIXELS, mode="wrap")
     found = template.towards * integrate_normals(normals, mask, held, template.towards * known)
     nearest, furthest = float(np.nanmax(template.depth)), float(np.nanmin(template.depth))
-    margin = DEEPER * (nearest - furthest)
+    margin = MAX_EXTRA_DEPTH_SHARE * (nearest - furthest)
     found = np.clip(found, furthest - margin, nearest + margin)
     return Surface(found, _spread(carried, mask, bare))
 
@@ -129,8 +129,8 @@ def _spread(
     """Weights (H, W, J) spread within the mask, summing to one: clothes bend more widely than skin (`bare` joints)."""
     inside = weights[mask]
     moving = np.flatnonzero(inside.any(0))
-    near = diffuse(inside[:, moving], mask, SPREAD_BARE)
-    spread = diffuse(near, mask, SPREAD_WORN)
+    near = diffuse(inside[:, moving], mask, SKIN_WEIGHT_ROUNDS)
+    spread = diffuse(near, mask, CLOTH_WEIGHT_ROUNDS)
     if bare is not None:
         skin = near[:, bare[moving]].sum(1, keepdims=True)
         spread += np.clip(skin, 0, 1) * (near - spread)
@@ -142,11 +142,12 @@ def _spread(
 
 
 def _smooth(normals: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """Normals smoothed over `WORN` pixels where they are not near the outline, at which they must turn away."""
-    wide = np.asarray(cv2.GaussianBlur(normals, (0, 0), WORN), np.float32)
-    narrow = np.asarray(cv2.GaussianBlur(normals, (0, 0), ACROSS), np.float32)
+    """Normals smoothed over `CLOTH_NORMAL_SMOOTHING_PIXELS` pixels where they are not near the outline, at which they
+    must turn away."""
+    wide = np.asarray(cv2.GaussianBlur(normals, (0, 0), CLOTH_NORMAL_SMOOTHING_PIXELS), np.float32)
+    narrow = np.asarray(cv2.GaussianBlur(normals, (0, 0), NORMAL_SMOOTHING_PIXELS), np.float32)
     inner = np.asarray(cv2.distanceTransform(mask.astype(np.uint8), cv2.DIST_L2, 5))[..., None]
-    return np.asarray(narrow + np.clip(inner / (2 * WORN), 0, 1) * (wide - narrow), np.float32)
+    return np.asarray(narrow + np.clip(inner / (2 * CLOTH_NORMAL_SMOOTHING_PIXELS), 0, 1) * (wide - narrow), np.float32)
 
 
 def _look_up(values: NDArray[np.float32], warp: Warp, whole: Filled) -> NDArray[np.float32]:

@@ -8,11 +8,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-OUT = 1.2
+MAX_BORDER_SHIFT_PIXELS = 1.2
 """Pixels by which the border may move to the mask's edge."""
-STEPS, LEAST_SLOPE = 25, 0.1
+EDGE_SEARCH_PLACES, MIN_MASK_SLOPE = 25, 0.1
 """In how many places the edge is looked for, and how steep the mask must be there (a pixel)."""
-BORDER_SWEEPS = 3
+BORDER_SMOOTHING_ROUNDS = 3
 """How often the border is smoothed: a silhouette of pixels is jagged."""
 
 
@@ -45,7 +45,7 @@ def smoothed_border(points: NDArray[np.float64], rim: NDArray[np.intp]) -> NDArr
     degree = np.bincount(rim.ravel(), minlength=count)
     moving = degree > 0
     moved = points.copy()
-    for _ in range(BORDER_SWEEPS):
+    for _ in range(BORDER_SMOOTHING_ROUNDS):
         for share in (0.5, -0.53):
             sums = [np.bincount(ends[:, 0], moved[ends[:, 1], axis], count)[moving] for axis in range(3)]
             moved[moving] += share * (np.stack(sums, 1) / degree[moving, None] - moved[moving])
@@ -53,20 +53,21 @@ def smoothed_border(points: NDArray[np.float64], rim: NDArray[np.intp]) -> NDArr
 
 
 def to_the_edge(points: NDArray[np.float64], soft: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Points (N, 2) moved along the mask's slope to the nearest place where it is 0.5; those without one within `OUT` stay."""
+    """Points (N, 2) moved along the mask's slope to the nearest place where it is 0.5; those without one within
+    `MAX_BORDER_SHIFT_PIXELS` stay."""
     slope = [
         np.asarray(cv2.Sobel(soft, cv2.CV_32F, *step, ksize=3, scale=1 / 8), np.float32) for step in ((1, 0), (0, 1))
     ]
     across = np.stack([_sampled(one, points[None])[0] for one in slope], 1)
     steep = np.linalg.norm(across, axis=1)
     across /= np.maximum(steep, 1e-6)[:, None]
-    steps = np.linspace(-OUT, OUT, STEPS)
+    steps = np.linspace(-MAX_BORDER_SHIFT_PIXELS, MAX_BORDER_SHIFT_PIXELS, EDGE_SEARCH_PLACES)
     above = _sampled(soft, points[None] + steps[:, None, None] * across[None]) - 0.5
     crosses = above[:-1] * above[1:] <= 0
     share = above[:-1] / np.where(above[:-1] == above[1:], 1, above[:-1] - above[1:])
     place = np.where(crosses, steps[:-1, None] + share * (steps[1] - steps[0]), np.inf)
     nearest = np.take_along_axis(place, np.abs(place).argmin(0)[None], 0)[0]
-    found = np.isfinite(nearest) & (steep > LEAST_SLOPE)
+    found = np.isfinite(nearest) & (steep > MIN_MASK_SLOPE)
     return np.asarray(points + np.where(found, nearest, 0)[:, None] * across)
 
 

@@ -20,13 +20,13 @@ from engine.character.surface.sheet_border import joining_strip, open_edges, smo
 from engine.character.surface.solid_limb import SolidLimb, places_on_the_picture
 from engine.render.rasteriser import rasterise
 
-INFLUENCES = 4
+MAX_VERTEX_INFLUENCES = 4
 """Joints that move a vertex, at most: what engines take."""
-THINNEST, EDGE = 0.5, 0.3
+MIN_HALF_DEPTH_PIXELS, MIN_BORDER_HALF_DEPTH_PIXELS = 0.5, 0.3
 """Pixels between the middle and each side, at least, inside a part; and at its border."""
-FORWARD = 0.2
+LIMB_OFFSET_PIXELS = 0.2
 """Pixels by which a limb lies before the body where both have the same depth: about the joint they overlap."""
-APART = 0.02
+CUT_GAP_PIXELS = 0.02
 """Pixels of depth between the two sides of a cut, which are otherwise in one place."""
 
 
@@ -107,15 +107,15 @@ def close(
     shared = (weights[0] + weights[1]) / 2
     for one in weights:
         one[border] = shared[border]
-    middle = (z[0] + z[1]) / 2 + FORWARD * owners + APART * (sources != places).any(1)
+    middle = (z[0] + z[1]) / 2 + LIMB_OFFSET_PIXELS * owners + CUT_GAP_PIXELS * (sources != places).any(1)
     up = np.zeros(count)
     for k, layer in enumerate(layers):
         if layer.hem is not None:
             up[owners == k] = layer.hem[ys, xs][owners == k]
     hem = np.zeros(count, np.bool_)
     hem[rim[(up[rim] > 0).all(1)].ravel()] = True
-    half = np.maximum((z[0] - z[1]) / 2, THINNEST)
-    half[border & ~hem] = EDGE
+    half = np.maximum((z[0] - z[1]) / 2, MIN_HALF_DEPTH_PIXELS)
+    half[border & ~hem] = MIN_BORDER_HALF_DEPTH_PIXELS
     points = smoothed_border(np.stack([xs, ys, middle], 1).astype(np.float64), rim)
     for k, layer in enumerate(layers):
         if (own := border & (owners == k)).any():
@@ -153,7 +153,7 @@ def _with_solids(sheets: ClosedMesh, layers: Sequence[Layer]) -> ClosedMesh:
         bones, weights = strongest(limb.weights)
         neither = np.zeros(count, np.bool_)
         which = np.full(count, layers[k].limb, np.int8)
-        vertices = limb.vertices + np.array([0, 0, FORWARD * k])
+        vertices = limb.vertices + np.array([0, 0, LIMB_OFFSET_PIXELS * k])
         meshes.append(
             ClosedMesh(vertices, limb.triangles, ~neither, neither, np.full(count, k), which, bones, weights, places)
         )
@@ -167,7 +167,7 @@ def _with_solids(sheets: ClosedMesh, layers: Sequence[Layer]) -> ClosedMesh:
 
 def strongest(weights: NDArray[np.float32]) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """The strongest influences of weights (V, J): joints and weights, (V, 4) each, strongest first, summing to one."""
-    chosen = np.argsort(-weights, 1, kind="stable")[:, :INFLUENCES]
+    chosen = np.argsort(-weights, 1, kind="stable")[:, :MAX_VERTEX_INFLUENCES]
     kept = np.take_along_axis(weights, chosen, 1)
     kept = kept / np.maximum(kept.sum(1, keepdims=True), 1e-9)
     return np.where(kept > 0, chosen, 0).astype(np.uint8), kept.astype(np.float32)

@@ -12,18 +12,18 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from engine.body.rig import MIN_SKIN_WEIGHT, Rig
-from engine.character.parts.free_cloth import FADE, FreeCloth
+from engine.character.parts.free_cloth import FADE_LENGTH_FACTOR, FreeCloth
 from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheets import Layer
 
-SPAN = 0.8
+LEG_BLEND_SHARE = 0.8
 """Share of the width over which cloth goes over from one leg to the other: with all of it, it stretches least; with less,
 legs come out of a hem where they are."""
-LEAST_SPAN = 0.3
+MIN_LEG_BLEND_SHARE = 0.3
 """The least of it, where legs stand close."""
-SOME = 0.5
+MIN_LEG_PIXELS = 0.5
 """Pixels of a row that each leg moves where both begin to move cloth."""
-LEG = ("Leg", "Foot", "Toe")
+LEG_JOINT_NAMES = ("Leg", "Foot", "Toe")
 """What is in the names of the legs' joints."""
 
 
@@ -31,7 +31,7 @@ def moved_by_both(body: Layer, cloth: FreeCloth, rig: Rig) -> Layer:
     """The body whose cloth goes with both legs: a skirt from the waist on, what goes on in trousers from the crotch on.
     Where legs come from under it they begin to."""
     left, right = (
-        np.array([name.startswith(side) and any(part in name for part in LEG) for name in rig.names])
+        np.array([name.startswith(side) and any(part in name for part in LEG_JOINT_NAMES) for name in rig.names])
         for side in ("Left", "Right")
     )
     front, back = body.front.weights.copy(), body.back.weights.copy()
@@ -56,7 +56,7 @@ def moved_by_both(body: Layer, cloth: FreeCloth, rig: Rig) -> Layer:
     for k, row, columns in cloth.rows():
         span(k, row, columns, share[k])
     if not cloth.goes_on and not cloth.parted:
-        first, fading = cloth.rings[-1].row + 1, FADE * cloth.even
+        first, fading = cloth.rings[-1].row + 1, FADE_LENGTH_FACTOR * cloth.even
         for row in range(first, min(first + round(fading), len(body.mask))):
             legs = np.flatnonzero(cloth.worn[row] & ~cloth.lower[row])
             span(len(cloth.rings) - 1, row, legs, 1 - (row - first) / fading)
@@ -72,7 +72,7 @@ def _between_legs(cloth: FreeCloth, towards: float) -> tuple[NDArray[np.float64]
     half = np.maximum((ends[:, 1] - ends[:, 0]) / 2, 1)
     legs = (np.array([ring.legs for ring in cloth.rings]) - ends.mean(1)[:, None]) / half[:, None]
     seen = np.isfinite(legs).all(1)
-    middle, steep = np.zeros(len(rows)), np.full(len(rows), 1 / SPAN)
+    middle, steep = np.zeros(len(rows)), np.full(len(rows), 1 / LEG_BLEND_SHARE)
     if not seen.any():
         return middle, steep
     left, right = (gaussian_filter1d(np.interp(rows, rows[seen], legs[seen, side]), cloth.even, mode="nearest")
@@ -80,7 +80,9 @@ def _between_legs(cloth: FreeCloth, towards: float) -> tuple[NDArray[np.float64]
     down = np.clip((rows - cloth.above) / max(len(rows) - 1 - cloth.above, 1), 0, 1)
     if towards * (left - right)[-1] < 0:
         return middle, (1 - down) * steep
-    reach = np.clip(abs(left - right) / 2, SPAN + down * (LEAST_SPAN - SPAN), SPAN)
+    reach = np.clip(
+        abs(left - right) / 2, LEG_BLEND_SHARE + down * (MIN_LEG_BLEND_SHARE - LEG_BLEND_SHARE), LEG_BLEND_SHARE
+    )
     return down * np.clip((left + right) / 2, -1, 1), 1 / reach
 
 
@@ -96,7 +98,7 @@ def _towards(body: Layer, cloth: FreeCloth, left: NDArray[np.bool_], right: NDAr
     rows = slice(cloth.rings[0].row, cloth.rings[-1].row + 1)
     weights, across = body.front.weights[rows] * body.mask[rows, :, None], np.arange(body.mask.shape[1])
     columns = np.stack([weights[..., own].sum(2) for own in (left, right)])
-    begins = np.flatnonzero((columns.sum(2) > SOME).all(0))[: round(FADE * cloth.even)]
+    begins = np.flatnonzero((columns.sum(2) > MIN_LEG_PIXELS).all(0))[: round(FADE_LENGTH_FACTOR * cloth.even)]
     if not len(begins):
         return 1.0
     at = [(one * across).sum() / one.sum() for one in columns[:, begins]]

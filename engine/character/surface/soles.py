@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 
 from engine.geometry.surface import vertex_normals
 
-DOWN = -0.35
+MAX_SOLE_NORMAL_HEIGHT = -0.35
 """The upward part of the normal, at most, of what is an underside."""
-GROUND = 3.0
+GROUND_PERCENTILE = 3.0
 """Percent of a foot's vertices that may lie beneath the ground it is given: toes are round."""
-HIGHEST = 0.07
+MAX_SOLE_HEIGHT_METRES = 0.07
 """Metres above the ground from which on nothing is an underside: heels of shoes are not higher."""
-SHARES = (1.0, 0.75, 0.5, 0.25)
+TRIED_DROP_SHARES = (1.0, 0.75, 0.5, 0.25)
 """How far an underside goes down, if it would be seen further down."""
 
 
@@ -37,14 +37,14 @@ def with_soles(
     other places (n, 3).
     """
     moved = rest.copy()
-    under = hidden & (vertex_normals(rest, triangles)[:, 1] < DOWN)
+    under = hidden & (vertex_normals(rest, triangles)[:, 1] < MAX_SOLE_NORMAL_HEIGHT)
     for side in (0, 1):
         own = foot == side
         if not own.any():
             continue
-        ground = np.percentile(rest[own, 1], GROUND)
-        waiting = np.flatnonzero(own & under & (rest[:, 1] - ground < HIGHEST))
-        for share in SHARES:
+        ground = np.percentile(rest[own, 1], GROUND_PERCENTILE)
+        waiting = np.flatnonzero(own & under & (rest[:, 1] - ground < MAX_SOLE_HEIGHT_METRES))
+        for share in TRIED_DROP_SHARES:
             places = rest[waiting].copy()
             places[:, 1] += share * (ground - places[:, 1])
             free = covered(waiting, places)

@@ -20,15 +20,15 @@ from scipy.spatial import cKDTree
 from engine.body.rig import Rig
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.fit.template_maps import side_maps
-from engine.character.parts.labels import ARMS
+from engine.character.parts.labels import ARM_LABELS
 from engine.character.surface.part_surface import warp_part
 from engine.imaging.masks.mask_pieces import largest_piece
 
-FORESHORTENED = 0.5
+FORESHORTENED_LENGTH_SHARE = 0.5
 """Share of its length that a bone has in the picture, below which the limb is more deep than long."""
-RIM = 2
+OUTLINE_BAND_PIXELS = 2
 """Pixels of a limb at its outline from which no colours are taken."""
-SEEN = 0.02
+VISIBILITY_TOLERANCE_METRES = 0.02
 """Metres behind what is nearest at a pixel, within which a vertex is taken to be seen there."""
 
 
@@ -66,8 +66,8 @@ class SolidLimb:
 
 def solid_arms(template: PosedTemplate, rig: Rig) -> set[int]:
     """The arms (indices of `BODY_PARTS`) that no sheet can make."""
-    sides = zip(ARMS, ("Left", "Right"), strict=True)
-    return {arm for arm, side in sides if _shortest(template, rig, side) < FORESHORTENED}
+    sides = zip(ARM_LABELS, ("Left", "Right"), strict=True)
+    return {arm for arm, side in sides if _shortest(template, rig, side) < FORESHORTENED_LENGTH_SHARE}
 
 
 def _shortest(template: PosedTemplate, rig: Rig, side: str) -> float:
@@ -96,7 +96,7 @@ def solid_limb(
     front, back = (side.depth for side in sides)
     x, y = _pixels(vertices, own.shape)
     with np.errstate(invalid="ignore"):
-        near = vertices[:, 2] > front[y, x] - SEEN * template.pixels_per_metre
+        near = vertices[:, 2] > front[y, x] - VISIBILITY_TOLERANCE_METRES * template.pixels_per_metre
     forearm, hand = (dense[:, [part in name for name in rig.names]].sum(1) for part in ("ForeArm", "Hand"))
     seen = near & own[y, x]
     sure = seen & _inner(own)[y, x]
@@ -108,7 +108,9 @@ def solid_limb(
 
 def _inner(own: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """The pixels (h, w) surely of a limb: at its outline colours are mixed with what is behind. Of one too thin, all."""
-    inner = cv2.erode(own.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=RIM, borderValue=0) > 0
+    inner = (
+        cv2.erode(own.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=OUTLINE_BAND_PIXELS, borderValue=0) > 0
+    )
     return np.asarray(inner) if inner.any() else own
 
 

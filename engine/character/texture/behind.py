@@ -14,17 +14,17 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
-MEET = np.radians(34.0)
+SIDE_END_RADIANS = np.radians(34.0)
 """From the middle, where both sides end that are drawn together over it: beyond half of the way to the outline in the picture."""
-JOIN = np.radians(9.0)
+BACK_SEAM_RADIANS = np.radians(9.0)
 """On either side of the middle behind, where both are to be had and the cut runs."""
-FAR = 0.2
+LIGHT_WINDOW_METRES = 0.2
 """Metres of rows to each side over which the light is one."""
-UNUSUAL, LEAST = 3.0, 24.0
+MIN_DIFFERENCE_RATIO, MIN_DIFFERENCE_LEVELS = 3.0, 24.0
 """How many times as far as is usual, and how many sRGB levels at least, sides are apart where one has something of its own."""
-FEW = 0.5
+MIN_KNOWN_CELLS_SHARE = 0.5
 """Share of the cells that are usually known in a row, below which it is not told by those that are."""
-SOFT = 0.01
+SIDE_BLEND_METRES = 0.01
 """Metres over which what is seen of a side goes over into what the other says of it."""
 
 
@@ -41,18 +41,18 @@ def seen_through(
 
     Where nothing is known of any side, it is what is before.
     """
-    pace = (np.pi / 2 - MEET) / (np.pi / 2)
-    columns = int(np.searchsorted(angle, JOIN * pace - MEET))
+    pace = (np.pi / 2 - SIDE_END_RADIANS) / (np.pi / 2)
+    columns = int(np.searchsorted(angle, BACK_SEAM_RADIANS * pace - SIDE_END_RADIANS))
     left, right = seen[:, :columns].astype(np.float32), seen[:, ::-1][:, :columns].astype(np.float32)
     there = known[:, :columns], known[:, ::-1][:, :columns]
     if not (there[0] | there[1]).any():
         return np.asarray(seen, np.float32)
     aside = np.abs(np.sin(angle[:columns])).astype(np.float32)[None, :, None]
-    inner = slice(int(np.searchsorted(angle, -JOIN * pace - MEET)), columns)
+    inner = slice(int(np.searchsorted(angle, -BACK_SEAM_RADIANS * pace - SIDE_END_RADIANS)), columns)
     light = _light(left[:, inner], right[:, inner], (there[0] & there[1])[:, inner], aside[:, inner], step)[:, None]
     sides = _whole(left, right - light * aside, *there, step), _whole(right, left + light * aside, *there[::-1], step)
     sides = _agreed(sides[0], sides[1], light * aside, step)
-    reach = int(np.searchsorted(angle, JOIN))
+    reach = int(np.searchsorted(angle, BACK_SEAM_RADIANS))
     down = np.ascontiguousarray(np.broadcast_to(np.arange(len(seen), dtype=np.float32)[:, None], (len(seen), reach)))
     across = np.ascontiguousarray(np.broadcast_to(np.arange(reach, dtype=np.float32) * np.float32(pace), down.shape))
     nearer = (np.sin(np.pi / 2 - (angle[:reach] + np.pi / 2) * pace) + np.sin(angle[:reach])) / 2
@@ -70,13 +70,14 @@ def _light(
     aside: NDArray[np.float32],
     step: float,
 ) -> NDArray[np.float32]:
-    """By how much (A, 3) the right side (A, n, 3) is lighter than the left at the outline, over all that is `FAR` around, by what is known of `both`
+    """By how much (A, 3) the right side (A, n, 3) is lighter than the left at the outline, over all that is
+    `LIGHT_WINDOW_METRES` around, by what is known of `both`
     (A, n); in between it is as much of that as cells are `aside` (1, n, 1)."""
     rows = np.flatnonzero(both.any(1))
     if not len(rows):
         return np.zeros((len(left), 3), np.float32)
     apart = np.nanmedian(np.where(both[rows][..., None], (right[rows] - left[rows]) / aside, np.nan), 1)
-    size = 2 * round(FAR / step) + 1
+    size = 2 * round(LIGHT_WINDOW_METRES / step) + 1
     calm = median_filter(apart, (size, 1), mode="nearest")
     whole = np.stack([np.interp(np.arange(len(left)), rows, one) for one in calm.T], 1).astype(np.float32)
     soft = cv2.GaussianBlur(whole, (1, 0), 1, sigmaY=size / 4, borderType=cv2.BORDER_REPLICATE)
@@ -97,7 +98,7 @@ def _whole(
     either = known | of_other
     said = np.where(known[..., None], own, other)
     said = _in_its_row(said, either)
-    share = cv2.GaussianBlur(known.astype(np.float32), (0, 0), SOFT / step)
+    share = cv2.GaussianBlur(known.astype(np.float32), (0, 0), SIDE_BLEND_METRES / step)
     share = np.where(known, np.clip(2 * share - 1, 0, 1), 0)[..., None]
     behind = np.where(of_other[..., None], other, said)
     return np.asarray(share * own + (1 - share) * behind, np.float32)
@@ -112,7 +113,7 @@ def _in_its_row(colours: NDArray[np.float32], known: NDArray[np.bool_]) -> NDArr
     nearest = np.clip(np.where(nearer, before, after), 0, known.shape[1] - 1)
     whole = np.take_along_axis(colours, nearest[..., None], 1)
     count, rows = known.sum(1), np.arange(len(known))
-    told = np.flatnonzero(count >= max(1.0, FEW * float(np.median(count[count > 0]))))
+    told = np.flatnonzero(count >= max(1.0, MIN_KNOWN_CELLS_SHARE * float(np.median(count[count > 0]))))
     at = np.interp(rows, told, np.arange(len(told)))
     low = np.floor(at).astype(np.intp)
     share = (at - low).astype(np.float32)[:, None, None]
@@ -126,20 +127,22 @@ def _agreed(
     """Both sides (A, n, 3) without what one alone has, as a pocket, a bag or a strand of hair: where they differ more than is usual far
     around, both have what is the more like all of their rows."""
     other = right - light
-    apart = cv2.blur(np.linalg.norm(left - other, axis=-1).astype(np.float32), (1, 2 * round(SOFT / step) + 1))
-    size = 2 * round(FAR / step) + 1
+    apart = cv2.blur(
+        np.linalg.norm(left - other, axis=-1).astype(np.float32), (1, 2 * round(SIDE_BLEND_METRES / step) + 1)
+    )
+    size = 2 * round(LIGHT_WINDOW_METRES / step) + 1
     usual = median_filter(np.median(apart, 1), size, mode="nearest")[:, None]
-    contested = (apart > np.maximum(UNUSUAL * usual, LEAST)).astype(np.float32)
+    contested = (apart > np.maximum(MIN_DIFFERENCE_RATIO * usual, MIN_DIFFERENCE_LEVELS)).astype(np.float32)
     both = np.median(np.concatenate([left, other], 1), 1)
-    both = median_filter(both, (2 * round(FAR / 4 / step) + 1, 1), mode="nearest")[:, None]
-    soft = SOFT / step
+    both = median_filter(both, (2 * round(LIGHT_WINDOW_METRES / 4 / step) + 1, 1), mode="nearest")[:, None]
+    soft = SIDE_BLEND_METRES / step
     odd = [
         cv2.GaussianBlur(np.linalg.norm(one - both, axis=-1).astype(np.float32), (0, 0), soft) for one in (left, other)
     ]
     where = np.clip(2 * cv2.GaussianBlur(contested, (0, 0), soft), 0, 1)
     found = []
     for one, instead, more in ((left, other, odd[0] - odd[1]), (right, left + light, odd[1] - odd[0])):
-        share = (where * np.clip(more / LEAST + 0.5, 0, 1))[..., None]
+        share = (where * np.clip(more / MIN_DIFFERENCE_LEVELS + 0.5, 0, 1))[..., None]
         found.append(np.asarray((1 - share) * one + share * instead, np.float32))
     return found[0], found[1]
 

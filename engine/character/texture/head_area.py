@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.imaging.masks.mask_distance import distance_inside
 
-LEVEL = 0.04
+LEVEL_BAND_HALF_AXES = 0.04
 """How far above and below a level pixels are on it, in half axes of the face's oval."""
 
 
@@ -28,7 +28,7 @@ class Head:
 
     def width_at(self, up: float) -> float:
         """How wide the head is so far above the face's middle, in widths of the face's oval; 0 where it is not."""
-        row = self.across[self.mask & (np.abs(self.up - up) < LEVEL)]
+        row = self.across[self.mask & (np.abs(self.up - up) < LEVEL_BAND_HALF_AXES)]
         return float(np.ptp(row)) / 2 if len(row) else 0.0
 
 

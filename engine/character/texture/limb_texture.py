@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from engine.character.figure.face_region import within_oval
 from engine.character.parts.crossed_labels import Behind
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import LEGS, OTHER_SIDE
+from engine.character.parts.labels import LEG_LABELS, OTHER_SIDE
 from engine.character.texture.rings import Heights
 from engine.imaging.filling.inpaint import inpaint
 from engine.imaging.filling.nearest import continued_colours
@@ -26,16 +26,16 @@ from engine.imaging.masks.mask_pieces import bounding_box
 from engine.imaging.masks.usual_colours import usual_colours
 from engine.imaging.resample import enlarged_mask
 
-SOFT_EDGE = (0.5, 1.5)
+MIXED_EDGE_PIXELS = (0.5, 1.5)
 """Pixels of the grid within a limb's edge up to which its colours are mixed with what is behind, and from which on they are
 surely its own."""
-SLIVER = 5
+MAX_SLIVER_PIXELS = 5
 """Pixels of the grid up to which a limb that shows beside its label is the outline's roughness."""
-UP_AN_ARM = 0.07
+COLOUR_LOOKUP_SHARE = 0.07
 """How far from what is hidden of a limb its colours are looked up, as a share of the person's height."""
-MIDDLE, LOUD = 128, 60
+MID_GREY_LEVEL, MAX_DETAIL_LEVELS = 128, 60
 """The level on which what is fine about a limb is looked at; and the levels beyond which it is no more than that."""
-HARDLY = 0.25
+MIN_SEEN_ARM_SHARE = 0.25
 """Share of an arm that is seen, below which the other one tells more of what it wears."""
 
 
@@ -43,7 +43,9 @@ def own_of_limbs(labelled: NDArray[np.bool_], shown: NDArray[np.bool_]) -> NDArr
     """The pixels (h, w) whose colours are the limbs': those `labelled` so where their surface is `shown`, and what it shows
     beyond slivers elsewhere. The others are on the body, whatever they are called."""
     near = dilate_mask(shown, 1)
-    more = cv2.morphologyEx((shown & ~labelled).astype(np.uint8), cv2.MORPH_OPEN, np.ones((SLIVER, SLIVER), np.uint8))
+    more = cv2.morphologyEx(
+        (shown & ~labelled).astype(np.uint8), cv2.MORPH_OPEN, np.ones((MAX_SLIVER_PIXELS, MAX_SLIVER_PIXELS), np.uint8)
+    )
     return np.asarray((labelled & near) | (more > 0))
 
 
@@ -92,16 +94,18 @@ def paint_limbs(
     limbs, reach, sleeves = surfaces.shown, surfaces.reach, surfaces.sleeves
     made = seen
     if limbs.any():
-        legs = np.isin(labels.labels, LEGS)
+        legs = np.isin(labels.labels, LEG_LABELS)
         legs = enlarged_mask(distance_to(limbs & legs) < distance_to(limbs & ~legs), size)
         hole = enlarged_mask(reach & ~limbs, size)
         made = of_the_limbs(seen, around & own, hole, scale, legs, _laid(seen, surfaces, round_them))
-        near = enlarged_mask(dilate_mask(limbs | reach, SLIVER), size)  # what an unseen limb is like may be elsewhere
+        near = enlarged_mask(
+            dilate_mask(limbs | reach, MAX_SLIVER_PIXELS), size
+        )  # what an unseen limb is like may be elsewhere
         made = np.where(near[..., None], made, seen)
     for arm in sleeves:
         made = _like_the_other_sleeve(made, seen, labels, arm, sleeves, limbs, own)
     if (labels.hidden >= 0).any():
-        hands = dilate_mask(labels.hidden >= 0, SLIVER) & ~limbs
+        hands = dilate_mask(labels.hidden >= 0, MAX_SLIVER_PIXELS) & ~limbs
         made = _with_skin(made, seen, enlarged_mask(hands, size), face, own)
     return made
 
@@ -119,13 +123,13 @@ def of_the_limbs(
     shoulder, nor, where `legs` (h, w) are, on one of these. Where it is known what limbs are like all round, `rings` (h, w, 3), that is what they
     are like there, too, and patches say what is fine about it."""
     inside = distance_inside(own) / scale
-    deep = inside > SOFT_EDGE[1]
+    deep = inside > MIXED_EDGE_PIXELS[1]
     around = continued_colours(seen, deep if deep.any() else own)
-    made = np.where((inside > SOFT_EDGE[0])[..., None], seen, around)
+    made = np.where((inside > MIXED_EDGE_PIXELS[0])[..., None], seen, around)
     for which in (np.ones_like(own),) if legs is None else (legs, ~legs):
         mine, lost = own & which, hole & which
         if mine.any() and lost.any():
-            known = usual_colours(seen, mine & (distance_to(lost) < UP_AN_ARM * hole.shape[0]))
+            known = usual_colours(seen, mine & (distance_to(lost) < COLOUR_LOOKUP_SHARE * hole.shape[0]))
             made = filled(made, lost, known if known.any() else mine, rings)
     return made
 
@@ -139,11 +143,11 @@ def filled(
         return inpaint(rgb, hole, source)
     box = bounding_box(hole | source)
     like, lost = rings[box], hole[box]
-    fine = np.clip(MIDDLE + rgb[box].astype(np.float32) - like, 0, 255).astype(np.uint8)
-    kept = source[box] & (cv2.absdiff(fine, np.full_like(fine, MIDDLE)) < LOUD).all(-1)
-    fine = inpaint(fine, lost, kept) if kept.any() else np.full_like(fine, MIDDLE)
+    fine = np.clip(MID_GREY_LEVEL + rgb[box].astype(np.float32) - like, 0, 255).astype(np.uint8)
+    kept = source[box] & (cv2.absdiff(fine, np.full_like(fine, MID_GREY_LEVEL)) < MAX_DETAIL_LEVELS).all(-1)
+    fine = inpaint(fine, lost, kept) if kept.any() else np.full_like(fine, MID_GREY_LEVEL)
     out = rgb.copy()
-    made = like[lost] + fine[lost] - np.float32(MIDDLE) + np.float32(0.5)
+    made = like[lost] + fine[lost] - np.float32(MID_GREY_LEVEL) + np.float32(0.5)
     out[box][lost] = np.clip(made, 0, 255).astype(np.uint8)
     return out
 
@@ -157,7 +161,7 @@ def _laid(
         return None
     out = seen.astype(np.float32)
     for limb, whole in surfaces.whole.items():
-        near = enlarged_mask(dilate_mask(whole, SLIVER), size)
+        near = enlarged_mask(dilate_mask(whole, MAX_SLIVER_PIXELS), size)
         out = np.where(near[..., None], rings[limb], out)
     return out
 
@@ -175,7 +179,11 @@ def _like_the_other_sleeve(
     other one is, where none of the `limbs` (h, w) is seen."""
     other = OTHER_SIDE[arm]
     shown = {one: (labels.labels == one) & sleeve for one, sleeve in sleeves.items()}
-    if other not in sleeves or shown[arm].sum() > HARDLY * sleeves[arm].sum() or shown[other].sum() < shown[arm].sum():
+    if (
+        other not in sleeves
+        or shown[arm].sum() > MIN_SEEN_ARM_SHARE * sleeves[arm].sum()
+        or shown[other].sum() < shown[arm].sum()
+    ):
         return made
     size = (own.shape[1], own.shape[0])
     hole = enlarged_mask(sleeves[arm] & ~limbs, size)
@@ -193,7 +201,7 @@ def behind_another(
     """The `limbs` (h, w, 3) with that which is `behind` another in its own colours there, as they are elsewhere on it."""
     size = (own.shape[1], own.shape[0])
     mine = labels.labels == behind.limb
-    edge = dilate_mask(behind.area, SLIVER // 2)
+    edge = dilate_mask(behind.area, MAX_SLIVER_PIXELS // 2)
     worn = usual_colours(limbs, enlarged_mask(mine & ~edge, size) & own)
     whole = inpaint(limbs, enlarged_mask(behind.area | (mine & edge), size), worn)
     return _with_skin(whole, seen, enlarged_mask(behind.hand, size), face, own)

@@ -17,17 +17,17 @@ from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.fit.template_maps import side_maps
-from engine.character.parts.labels import ARMS, LEGS, OTHER_SIDE
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, OTHER_SIDE
 from engine.imaging.filling.nearest import nearest_in
 from engine.render.attributes import interpolate
 
-RING_M = 0.01
+RING_LENGTH_METRES = 0.01
 """Metres along a limb of a ring."""
-RINGS = 256
+MAX_RINGS = 256
 """As many as there are at most: none is further than two and a half metres."""
-ENOUGH = 0.15
+MIN_RING_SHARE = 0.15
 """How much of a ring must be seen, as a share of what is usual where the limb is seen, before it is told."""
-SOFT = 1.0
+RING_BLUR_RINGS = 1.0
 """Rings over which colours are averaged: a cuff is no softer than that."""
 
 
@@ -44,16 +44,16 @@ def limb_heights(template: PosedTemplate, rig: Rig, labels: NDArray[np.integer])
     """Those of arms and legs of a template on the grid of the `labels` (h, w)."""
     part_of = vertex_parts(rig)[template.triangles[:, 0]]
     found = {}
-    for limb in ARMS + LEGS:
+    for limb in ARM_LABELS + LEG_LABELS:
         triangles = template.triangles[part_of == limb]
         size = (labels.shape[0], labels.shape[1])
         seen = side_maps(template.vertices, triangles, size, "front")
         if not seen.mask.any():
             continue
-        axis = 0 if limb in ARMS else 1
+        axis = 0 if limb in ARM_LABELS else 1
         along = np.abs(interpolate(template.rest[:, axis : axis + 1], triangles, seen.raster)[..., 0])
         side = "Left" if BODY_PARTS[limb].startswith("left") else "Right"
-        wrist = abs(float(template.rest_joints[rig.index(f"{side}Hand"), 0])) if limb in ARMS else None
+        wrist = abs(float(template.rest_joints[rig.index(f"{side}Hand"), 0])) if limb in ARM_LABELS else None
         found[limb] = Heights(np.asarray(along[nearest_in(seen.mask)], np.float32), wrist)
     return found
 
@@ -93,19 +93,19 @@ def rings(
         one = along[limb]
         colours = _whole(told[limb], told.get(OTHER_SIDE[limb]), heights[limb].hand, skin)
         if colours is not None:
-            at = np.clip(one / RING_M, 0, len(colours) - 1).astype(np.float32)
+            at = np.clip(one / RING_LENGTH_METRES, 0, len(colours) - 1).astype(np.float32)
             found[limb] = np.asarray(cv2.remap(colours[:, None], np.zeros_like(at), at, cv2.INTER_LINEAR), np.float32)
     return found
 
 
 def _told(rgb: NDArray[np.uint8], own: NDArray[np.bool_], along: NDArray[np.float32]) -> NDArray[np.float32]:
     """The median colour of each ring (R, 3) of a limb's `own` pixels (H, W); NaN where hardly any is seen."""
-    out = np.full((RINGS, 3), np.nan, np.float32)
-    ring = np.clip(along[own] / RING_M, 0, RINGS - 1).astype(np.intp)
+    out = np.full((MAX_RINGS, 3), np.nan, np.float32)
+    ring = np.clip(along[own] / RING_LENGTH_METRES, 0, MAX_RINGS - 1).astype(np.intp)
     if not len(ring):
         return out
-    count = np.bincount(ring, minlength=RINGS)
-    least = ENOUGH * np.median(count[count > 0])
+    count = np.bincount(ring, minlength=MAX_RINGS)
+    least = MIN_RING_SHARE * np.median(count[count > 0])
     order = np.argsort(ring, kind="stable")
     colours, firsts = rgb[own][order], np.concatenate([[0], np.cumsum(count)])
     for one in np.flatnonzero((count > 0) & (count >= least)):
@@ -125,10 +125,10 @@ def _whole(
     there = np.isfinite(out[:, 0])
     if not there.any():
         return None
-    if hand is not None and skin is not None and not there[round(hand / RING_M) :].any():
-        out[round(hand / RING_M) :] = skin
+    if hand is not None and skin is not None and not there[round(hand / RING_LENGTH_METRES) :].any():
+        out[round(hand / RING_LENGTH_METRES) :] = skin
         there = np.isfinite(out[:, 0])
     rows = np.flatnonzero(there)
-    full = np.stack([np.interp(np.arange(RINGS), rows, one) for one in out[rows].T], 1).astype(np.float32)
-    soft = cv2.GaussianBlur(full, (1, 0), 1, sigmaY=SOFT, borderType=cv2.BORDER_REPLICATE)
+    full = np.stack([np.interp(np.arange(MAX_RINGS), rows, one) for one in out[rows].T], 1).astype(np.float32)
+    soft = cv2.GaussianBlur(full, (1, 0), 1, sigmaY=RING_BLUR_RINGS, borderType=cv2.BORDER_REPLICATE)
     return np.asarray(np.clip(soft, 0, 255), np.float32)

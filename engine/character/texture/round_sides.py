@@ -17,15 +17,15 @@ from scipy.ndimage import map_coordinates
 from engine.character.surface.sheets import ClosedMesh
 from engine.imaging.masks.mask_distance import dilate_mask
 
-THINNEST = 4.0
+MIN_HALF_WIDTH_PIXELS = 4.0
 """Pixels from the outline to the middle from which something is round."""
-SMOOTH = 1.5
+DISTANCE_SMOOTHING_PIXELS = 1.5
 """Pixels by which distances from the outline are smoothed: their gradients lead inward."""
-STEP, STEPS = 0.5, 120
+DESCENT_STEP_PIXELS, MAX_DESCENT_STEPS = 0.5, 120
 """How the way inward is followed, pixels."""
-RISING = 0.4
+MIN_DISTANCE_SLOPE = 0.4
 """How fast the distance must grow on the way, or it is at the middle."""
-FADE = 10.0
+BACK_BLEND_PIXELS = 10.0
 """Pixels over which the back's colours come to lie as they are on the rest of the body, if there is any; they begin to at half as many
 within."""
 
@@ -54,7 +54,7 @@ def with_round_sides(
     joined, copied = _with_copies(mesh, outermost)
     within, without = (cv2.distanceTransform(one.astype(np.uint8), cv2.DIST_L2, 5) for one in (whole, ~whole))
     depth = np.where(whole, within - 0.5, 0.5 - without)
-    share = np.clip(np.asarray(cv2.distanceTransform(1 - rest, cv2.DIST_L2, 5)) / FADE - 0.5, 0, 1)
+    share = np.clip(np.asarray(cv2.distanceTransform(1 - rest, cv2.DIST_L2, 5)) / BACK_BLEND_PIXELS - 0.5, 0, 1)
     y, x = _pixels(joined, where.shape)
     back = (joined.layer == body_layer) & ~joined.front & near[y, x]
     moved = np.flatnonzero(back & (joined.rim | ~copied))  # and not the seam
@@ -63,7 +63,7 @@ def with_round_sides(
     laid = _at_the_surfaces_pace(start, depth.astype(np.float32), seam_depth=1.0)
     way = share[y[moved], x[moved], None] * (laid - start)
     if upright is not None:
-        level = cv2.blur(upright.astype(np.float32), (round(FADE), round(FADE)))
+        level = cv2.blur(upright.astype(np.float32), (round(BACK_BLEND_PIXELS), round(BACK_BLEND_PIXELS)))
         way[:, 1] *= 1 - level[y[moved], x[moved]]
     places[moved] = start + way
     return replace(joined, places=places)
@@ -100,18 +100,18 @@ def _at_the_surfaces_pace(
     """Places (N, 2) for points (N, 2) of the back, of which the outermost pixels of a picture are stretched most: further
     inward, so that from the seam on the front, `seam_depth` within the outline, over the outline to the middle, the way on
     the picture is the same share of the way on the surface. `depth` (h, w): distances from the outline."""
-    soft = np.asarray(cv2.GaussianBlur(depth, (0, 0), SMOOTH), np.float32)
+    soft = np.asarray(cv2.GaussianBlur(depth, (0, 0), DISTANCE_SMOOTHING_PIXELS), np.float32)
     slope = [
         np.asarray(cv2.Sobel(soft, cv2.CV_32F, *axis, ksize=3, scale=1 / 8), np.float32) for axis in ((1, 0), (0, 1))
     ]
     way, reached = [start], [_sampled(soft, start)]
     going = np.ones(len(start), np.bool_)
-    for _ in range(STEPS):
+    for _ in range(MAX_DESCENT_STEPS):
         towards = np.stack([_sampled(one, way[-1]) for one in slope], 1)
         towards /= np.maximum(np.linalg.norm(towards, axis=1, keepdims=True), 1e-6)
-        ahead = way[-1] + STEP * towards
+        ahead = way[-1] + DESCENT_STEP_PIXELS * towards
         there = _sampled(soft, ahead)
-        going &= there - reached[-1] > RISING * STEP
+        going &= there - reached[-1] > MIN_DISTANCE_SLOPE * DESCENT_STEP_PIXELS
         if not going.any():
             break
         way.append(np.where(going[:, None], ahead, way[-1]))
@@ -127,7 +127,7 @@ def _at_the_surfaces_pace(
     low, high = depths[at, number], depths[after, number]
     share = np.clip((wanted - low) / np.maximum(high - low, 1e-6), 0, 1)[:, None]
     laid = places[at, number] + share * (places[after, number] - places[at, number])
-    return np.where((thick > THINNEST)[:, None], laid, start)
+    return np.where((thick > MIN_HALF_WIDTH_PIXELS)[:, None], laid, start)
 
 
 def _sampled(image: NDArray[np.float32], at: NDArray[np.float64]) -> NDArray[np.float64]:

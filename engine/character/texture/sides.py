@@ -14,13 +14,13 @@ from scipy.spatial import cKDTree
 
 from engine.character.surface.sheets import ClosedMesh
 
-FURTHEST = 8.0
+MAX_FOLD_PIXELS = 8.0
 """Pixels inward at which a fold ends, at most."""
-NARROWING = 0.5
+MIN_DISTANCE_SLOPE = 0.5
 """Of each step inward, what must be gained in distance from the border: the fold ends at the middle of a limb."""
-FOLDED = 0.6
+FOLD_SHARE = 0.6
 """The share of a fold that is taken: it costs the front its outermost pixels, and the rest of it is not missed at the side."""
-SOFT = 4
+FOLD_SMOOTHING_ROUNDS = 4
 """How often the folds' directions and lengths are smoothed along the border."""
 
 
@@ -38,7 +38,7 @@ def places_on_the_picture(mesh: ClosedMesh, barred: NDArray[np.bool_], body_laye
         where = barred if layer == body_layer else np.zeros_like(barred)
         folded[here] = _followed(start[here], inward[here], length[here], where)
     places = own.copy()
-    places[mesh.rim] = (start + FOLDED * (folded - start))[point[mesh.rim]]
+    places[mesh.rim] = (start + FOLD_SHARE * (folded - start))[point[mesh.rim]]
     elsewhere = np.isfinite(mesh.places[:, 0])
     places[elsewhere] = mesh.places[elsewhere]
     return places
@@ -72,11 +72,11 @@ def _folds(
     beside = csr_matrix((np.ones(len(along)), (point[along[:, 0]], point[along[:, 1]])), (count, count))
     beside.setdiag(1)
     share = 1 / np.maximum(np.asarray(beside.sum(1)).ravel(), 1)
-    for _ in range(SOFT):
+    for _ in range(FOLD_SMOOTHING_ROUNDS):
         inward, length = share[:, None] * (beside @ inward), share * (beside @ length)
     size = np.linalg.norm(inward, axis=1)
     inward /= np.maximum(size, 1e-9)[:, None]
-    return inward, np.where(size > 1e-6, np.minimum(length, FURTHEST), 0)
+    return inward, np.where(size > 1e-6, np.minimum(length, MAX_FOLD_PIXELS), 0)
 
 
 def _followed(
@@ -88,12 +88,12 @@ def _followed(
     reached = np.zeros(len(start))
     going = np.ones(len(start), np.bool_)
     before = np.zeros(len(start))
-    for step in range(1, int(FURTHEST) + 1):
+    for step in range(1, int(MAX_FOLD_PIXELS) + 1):
         far = np.minimum(step, length)
         ahead = start + far[:, None] * inward
         away = np.asarray(border.query(ahead)[0])
         x, y = np.clip(np.rint(ahead), 0, [barred.shape[1] - 1, barred.shape[0] - 1]).astype(int).T
-        going &= (away - before >= NARROWING * (far - reached)) & (far > reached) & ~barred[y, x]
+        going &= (away - before >= MIN_DISTANCE_SLOPE * (far - reached)) & (far > reached) & ~barred[y, x]
         reached[going], before[going] = far[going], away[going]
         if not going.any():
             break

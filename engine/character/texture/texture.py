@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from engine.body.parts import BODY_PARTS
 from engine.character.figure.face_region import within_oval
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import LEGS, complete_labels
+from engine.character.parts.labels import LEG_LABELS, complete_labels
 from engine.character.parts.limb_edges import soft_limbs
 from engine.character.surface.sheets import ClosedMesh
 from engine.character.texture.head_texture import back_of_the_head
@@ -34,31 +34,31 @@ from engine.imaging.resample import enlarged_mask
 
 BackTexture = Literal["see_through", "mirror", "inpaint"]
 
-SURE = 0.9
+OPAQUE_ALPHA = 0.9
 """Alpha from which a pixel's colour is the person's own; colours of the others are continued from these."""
-TRACE = 0.05
+MIN_VISIBLE_ALPHA = 0.05
 """Alpha from which a pixel's colour is not the background's alone."""
-THICK = 4.0
+MIN_HALF_WIDTH_PIXELS = 4.0
 """Pixels from the edge of a part to its middle, below which it has no middle of its own."""
-SIDES = 0.4
+SIDE_REACH_SHARE = 0.4
 """How far the sides of a part reach in, as a share of the way to its middle."""
-OFF = 8.0
+MAX_LEVEL_DIFFERENCE = 8.0
 """Levels by which front and back differ where they are not the same."""
 INNER_FACE = np.array([1, 1, 0.7, 0.7, 1], np.float32)
 """Factors of a face's oval within which it shows skin."""
-SEAM_FROM, SEAM_TO = 2.0, 8.0
+SEAM_START_PIXELS, SEAM_END_PIXELS = 2.0, 8.0
 """Pixels of the grid from the outline up to which the back is the front, and from which on it is itself."""
-HEAD_FROM, HEAD_TO = 1.8, 4.9
+HEAD_SEAM_START_PIXELS, HEAD_SEAM_END_PIXELS = 1.8, 4.9
 """The same for heads: the back's colours begin on the front, a pixel and a half within the outline, and hair where ears
 and temples end, which is about where the outline is."""
-EDGE = 1.5
+LIMB_EDGE_BAND_PIXELS = 1.5
 """Pixels of the grid within a limb's edge in which its colours are mixed with others."""
-NEARBY = 0.04
+LIMB_NEIGHBOURHOOD_SHARE = 0.04
 """How far from a limb the body is looked at for what it is made of behind it, as a share of the person's height: what is
 printed on a shirt's middle is not on its sides, too."""
-TALLEST, WIDEST = 2048, 4096
+MAX_TILE_HEIGHT_PIXELS, MAX_TEXTURE_WIDTH_PIXELS = 2048, 4096
 """Pixels of height of a tile, and of width of the whole texture, at most: what every graphics card takes."""
-TILES = 3
+TILE_COUNT = 3
 
 
 @dataclass(frozen=True)
@@ -110,8 +110,10 @@ def paint_tiles(
     rgb, alpha, to_grid, along = picture.rgb, picture.alpha, picture.to_grid, surfaces.along
     limbs = own_of_limbs(np.isin(labels.labels, labels.apart), surfaces.shown)
     shape = limbs.shape
-    tiles = TILES + (labels.behind is not None)
-    scale = min(1 / float(to_grid[0, 0]), TALLEST / shape[0], WIDEST // tiles / shape[1])
+    tiles = TILE_COUNT + (labels.behind is not None)
+    scale = min(
+        1 / float(to_grid[0, 0]), MAX_TILE_HEIGHT_PIXELS / shape[0], MAX_TEXTURE_WIDTH_PIXELS // tiles / shape[1]
+    )
     size = (round(shape[1] * scale), round(shape[0] * scale))
     matrix = to_grid * scale
     matrix[:, 2] += (scale - 1) / 2
@@ -121,15 +123,15 @@ def paint_tiles(
     flags = cv2.INTER_AREA if shrinks else cv2.INTER_CUBIC
     seen = np.asarray(cv2.warpAffine(rgb, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE), np.uint8)
     covered = np.asarray(cv2.warpAffine(alpha, matrix, size, flags=cv2.INTER_LINEAR))
-    own = covered > SURE
+    own = covered > OPAQUE_ALPHA
     bordered = seen
     around = soft_limbs(limbs, seen) > 0.5
     seen = continued_colours(seen, own)
     oval = None if face is None else face * np.array([*[scale] * 4, 1])
-    deep = own & (distance_inside(around | ~own) > EDGE * scale) | own & ~around
+    deep = own & (distance_inside(around | ~own) > LIMB_EDGE_BAND_PIXELS * scale) | own & ~around
     skin = None if oval is None else np.median(seen[within_oval(oval, own.shape) & own], axis=0)
     wanted = {int(limb) for limb in labels.apart}
-    wanted |= set(LEGS) if wanted & set(LEGS) else set()
+    wanted |= set(LEG_LABELS) if wanted & set(LEG_LABELS) else set()
     round_them = rings(seen, labels.labels, deep, surfaces.heights, skin, wanted)
     body = _behind_the_limbs(seen, labels, around, own, oval, round_them) if limbs.any() else seen
     if along is not None:
@@ -138,7 +140,7 @@ def paint_tiles(
     head = enlarged_mask(labels.labels == BODY_PARTS.index("head"), size) & own
     beside = body
     if oval is not None and turned is not None and head.any():
-        behind, beside = back_of_the_head(behind, bordered, covered > TRACE, own, head, oval, turned, scale)
+        behind, beside = back_of_the_head(behind, bordered, covered > MIN_VISIBLE_ALPHA, own, head, oval, turned, scale)
     apart = paint_limbs(seen, own, around, labels, replace(surfaces, shown=limbs), oval, scale, round_them)
     hidden = None
     if labels.behind is not None:
@@ -158,7 +160,7 @@ def atlas(tiles: Tiles, mesh: ClosedMesh, body_layer: int) -> tuple[NDArray[np.u
     if limbs_apart and tiles.behind is not None:
         tile[mesh.limb == tiles.behind[0]] = 1
     height, width = tiles.body.shape[:2]
-    apart = np.abs(cv2.subtract(tiles.body, tiles.back, dtype=cv2.CV_16S)).max(-1) > OFF
+    apart = np.abs(cv2.subtract(tiles.body, tiles.back, dtype=cv2.CV_16S)).max(-1) > MAX_LEVEL_DIFFERENCE
     grid = (round(width / tiles.scale), round(height / tiles.scale))
     barred = cv2.resize((apart | tiles.head).astype(np.float32), grid, interpolation=cv2.INTER_AREA) > 0.25
     place = ((places_on_the_picture(mesh, barred, body_layer) + 0.5) * tiles.scale + tiles.shift) / [width, height]
@@ -182,16 +184,16 @@ def _behind_the_limbs(
     head = enlarged_mask(beneath == BODY_PARTS.index("head"), size)
     away = distance_to(limbs) / size[1]
     body = continued_colours(seen, own & ~limbs)
-    shown = own & ~limbs & (away < NEARBY)
+    shown = own & ~limbs & (away < LIMB_NEIGHBOURHOOD_SHARE)
     if face is not None:
         shown &= ~(head & within_oval(face, shown.shape))
-    leg = enlarged_mask(np.isin(beneath, LEGS) & bool(np.isin(labels.apart, LEGS).any()), size)
+    leg = enlarged_mask(np.isin(beneath, LEG_LABELS) & bool(np.isin(labels.apart, LEG_LABELS).any()), size)
     hidden = limbs & own
     if labels.cloth is not None and labels.cloth.legs is not None:
         hidden &= ~enlarged_mask(labels.cloth.legs >= 0, size)  # nothing is behind what comes out from under a hem
     for part in (head, ~head & ~leg):
         body = inpaint(body, hidden & part, usual_colours(seen, shown & part))
-    for one in LEGS:
+    for one in LEG_LABELS:
         part = leg & enlarged_mask(beneath == one, size)
         body = filled(body, hidden & part, usual_colours(seen, shown & part), round_them.get(one))
     return continued_colours(body, own)
@@ -206,7 +208,10 @@ def joined_at_the_outline(
 ) -> NDArray[np.uint8]:
     """The back (h, w, 3) with the front's colours at the outline of `own` (h, w), and from there inward its own gradients (the
     paper's Poisson-blended seam); on the `head` (h, w) sooner. `scale`: pixels for each of the grid's."""
-    begin, end = np.where(head, HEAD_FROM, SEAM_FROM), np.where(head, HEAD_TO, SEAM_TO)
+    begin, end = (
+        np.where(head, HEAD_SEAM_START_PIXELS, SEAM_START_PIXELS),
+        np.where(head, HEAD_SEAM_END_PIXELS, SEAM_END_PIXELS),
+    )
     depth = distance_inside(own)
     band = (depth > begin * scale) & (depth < end * scale)
     held = np.where((depth <= begin * scale)[..., None], front, back).astype(np.float32)
@@ -235,7 +240,7 @@ def _behind(
     if surfaces.along is not None:
         within &= ~(surfaces.along & limbs)
     shown = labels.labels == torso
-    others = (labels.labels >= 0) & ~shown & ~np.isin(labels.labels, LEGS)
+    others = (labels.labels >= 0) & ~shown & ~np.isin(labels.labels, LEG_LABELS)
     masks = within & (beneath == torso), shown, others, labels.labels == head
     trunk, shown, others, above = (enlarged_mask(one, size) & own for one in masks)
     return with_trunk_back(rgb, trunk, shown, others, above, scale)
@@ -252,8 +257,8 @@ def _from_the_sides(
             continue  # its middle is the face
         region = enlarged_mask(labels.labels == part, size) & own
         depth = distance_inside(region)
-        if (thick := float(depth.max())) < THICK:
+        if (thick := float(depth.max())) < MIN_HALF_WIDTH_PIXELS:
             continue
-        middle = depth > SIDES * thick
+        middle = depth > SIDE_REACH_SHARE * thick
         out = inpaint(out, middle, region & ~middle)
     return out

@@ -13,14 +13,14 @@ from engine.imaging.masks.mask_distance import dilate_mask
 
 HEIGHT_M = 1.7
 """Metres that somebody whole is high, about."""
-EVEN = 4.0
+OUTLINE_SMOOTHING_PIXELS = 4.0
 """Pixels of the grid along the trunk over which its outline is smoothed."""
-BESIDE = 4.0
+NEIGHBOUR_MARGIN_PIXELS = 4.0
 """Pixels of the grid around others in which colours are mixed with its, or in its shadow."""
-SHOULDERS, CHEST_M = 0.85, 0.3
+SHOULDER_WIDTH_SHARE, CHEST_HEIGHT_METRES = 0.85, 0.3
 """Share of the greatest width in the uppermost metres of a trunk from which on it is no neck, and its back has no neckline: above, it is as
 it is below."""
-COLUMNS = 1.6
+COLUMNS_PER_PIXEL = 1.6
 """Columns of a row for each pixel of the widest: as many as half a circle has for its diameter."""
 
 
@@ -84,15 +84,15 @@ def with_trunk_back(
     head : (H, W) where that is.
     scale : pixels for each of the grid's.
     """
-    clean = shown & ~dilate_mask(others, round(BESIDE * scale))
+    clean = shown & ~dilate_mask(others, round(NEIGHBOUR_MARGIN_PIXELS * scale))
     if not clean.any():
         return rgb
     axis = Axis.of(trunk, head)
     y, x = np.nonzero(trunk)
     along, aside = axis(x, y)
     rows = int(along.max()) + 1
-    left, right = axis.outline(clean, rows, EVEN * scale)
-    columns = max(16, round(COLUMNS * float((right - left).max())))
+    left, right = axis.outline(clean, rows, OUTLINE_SMOOTHING_PIXELS * scale)
+    columns = max(16, round(COLUMNS_PER_PIXEL * float((right - left).max())))
     angle = (((np.arange(columns) + 0.5) / columns - 0.5) * np.pi).astype(np.float32)
     middle, half = (left + right) / 2, np.maximum(right - left, 1) / 2
     where = axis.pixels(
@@ -101,12 +101,12 @@ def with_trunk_back(
     seen = np.asarray(cv2.remap(rgb, *where, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32)
     known = np.asarray(cv2.remap(clean.astype(np.uint8), *where, cv2.INTER_NEAREST) > 0)
     step = HEIGHT_M / rgb.shape[0]
-    chest = half[: max(1, round(CHEST_M / step))]
-    yoke = int(np.argmax(chest >= SHOULDERS * chest.max()))
+    chest = half[: max(1, round(CHEST_HEIGHT_METRES / step))]
+    yoke = int(np.argmax(chest >= SHOULDER_WIDTH_SHARE * chest.max()))
     source = np.arange(rows)
     source[:yoke] = np.minimum(2 * yoke - source[:yoke], rows - 1)
     behind = seen_through(seen[source], known[source], angle, step)
-    left, right = axis.outline(trunk, rows, EVEN * scale)
+    left, right = axis.outline(trunk, rows, OUTLINE_SMOOTHING_PIXELS * scale)
     left, right = (np.interp(along, np.arange(rows), one) for one in (left, right))
     place = np.clip(2 * (aside - left) / np.maximum(right - left, 1) - 1, -1, 1)
     column = (np.arcsin(place) / np.pi + 0.5) * columns - 0.5

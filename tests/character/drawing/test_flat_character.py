@@ -10,7 +10,7 @@ import pytest
 
 from engine.body.parts import BODY_PARTS
 from engine.character.drawing.flat_character import bind_drawing, close_drawing, label_drawing
-from engine.character.drawing.flat_pose import HEIGHT, fit_drawing, flat_pose
+from engine.character.drawing.flat_pose import DRAWING_HEIGHT_METRES, fit_drawing, flat_pose
 from engine.character.figure.figure import Choice, Figure, find_figure
 from engine.character.figure.silhouette import Silhouette, cut_out
 from engine.character.fit.template_fit import load_human
@@ -65,7 +65,7 @@ def test_as_pictured_it_lies_in_the_pictures_plane_and_in_t_pose_its_limbs_are_s
             np.testing.assert_allclose(bone / np.linalg.norm(bone), [0, -1, 0], atol=1e-3)
     posed = pose(character, character.pictured)
     assert np.ptp(posed[:, 2]) < 0.06  # a cut-out, not a body
-    assert abs(np.ptp(posed[:, 1]) - HEIGHT) < 0.05
+    assert abs(np.ptp(posed[:, 1]) - DRAWING_HEIGHT_METRES) < 0.05
     assert character.mesh.vertices[:, 1].min() == pytest.approx(0, abs=1e-5)
 
 

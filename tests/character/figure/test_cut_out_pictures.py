@@ -12,7 +12,7 @@ import pytest
 from engine.character.figure.figure import Choice, Figure, find_figure
 from engine.character.figure.silhouette import Silhouette, cut_out
 from engine.character.figure.strokes import read_mask
-from engine.character.sample import FLOOR, WALL, sample_picture
+from engine.character.sample import FLOOR_COLOUR, WALL_COLOUR, sample_picture
 from engine.character.stages import fill_background
 from engine.media.image import write_image
 from engine.media.limits import Limits
@@ -22,7 +22,7 @@ Found = tuple[Figure, Silhouette]
 
 def nobody(rgb: np.ndarray) -> np.ndarray:
     """Where the sample picture shows wall and floor (h, w)."""
-    apart = np.min([np.abs(rgb.astype(int) - colour).sum(-1) for colour in (WALL, FLOOR)], axis=0)
+    apart = np.min([np.abs(rgb.astype(int) - colour).sum(-1) for colour in (WALL_COLOUR, FLOOR_COLOUR)], axis=0)
     return cv2.morphologyEx((apart < 3).astype(np.uint8), cv2.MORPH_OPEN, np.ones((3, 3))) > 0
 
 
@@ -73,7 +73,7 @@ def test_a_hole_cut_into_a_picture_stays_one(tmp_path: Path) -> None:
     silhouette = cut_out(figure, tmp_path / "mask.png", (), Limits(), None, None, warn)
     background = fill_background(figure, (silhouette,))
     assert magenta(background.rgb) == 0 and background.rgb[:70, :70].min() >= 250
-    assert not background.empty and np.abs(background.rgb[200, 20].astype(int) - WALL).max() < 4
+    assert not background.empty and np.abs(background.rgb[200, 20].astype(int) - WALL_COLOUR).max() < 4
 
 
 def test_a_mask_may_be_the_alpha_of_a_picture(tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from engine.character.figure.silhouette import Silhouette, cut_out
 from engine.character.figure.strokes import LABEL_COLOURS, painted, read_labels
 from engine.character.fit.template_fit import FittedBody
 from engine.character.options import MaskStroke
-from engine.character.sample import FLOOR, WALL, sample_picture
+from engine.character.sample import FLOOR_COLOUR, WALL_COLOUR, sample_picture
 from engine.character.stages import build_mesh, fit_template, label
 from engine.errors import InputError
 from engine.media.image import write_image
@@ -32,7 +32,7 @@ def quiet(code: str, message: str) -> None:
 
 def person_in(rgb: np.ndarray) -> np.ndarray:
     """Where the sample picture (H, W, 3) shows neither wall nor floor, (H, W)."""
-    return np.logical_and(*[(rgb != colour).any(-1) for colour in (WALL, FLOOR)])
+    return np.logical_and(*[(rgb != colour).any(-1) for colour in (WALL_COLOUR, FLOOR_COLOUR)])
 
 
 def written(path: Path, mask: np.ndarray) -> Path:

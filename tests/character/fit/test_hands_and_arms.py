@@ -7,8 +7,13 @@ import pytest
 
 from engine.body.parts import BODY_PARTS
 from engine.character.figure.figure import Figure
-from engine.character.figure.silhouette import ARM_AND_HAND, FOREARM, NEAR, seen_limbs
-from engine.character.fit.template_fit import BEFORE, arms_before_the_trunk
+from engine.character.figure.silhouette import (
+    FOREARM_WIDTH_SHARE,
+    HAND_REACH_SHARE,
+    MAX_HAND_DISTANCE_SHARE,
+    seen_limbs,
+)
+from engine.character.fit.template_fit import ARM_FORWARD_METRES, arms_before_the_trunk
 from engine.character.stages import hand_labels
 from engine.perception.body import BODY_LANDMARKS
 from engine.perception.person import DOUBTFUL_BELIEF, LIKELY_BELIEF
@@ -49,17 +54,17 @@ def test_around_a_hand_colours_are_asked() -> None:
     seed = seen_limbs(figure(HAND, 0.95))
     sure, doubtful = seed == np.float32(LIKELY_BELIEF), seed == np.float32(DOUBTFUL_BELIEF)
     assert (sure | doubtful | (seed == 0)).all()
-    reach = max(1, round(NEAR * 90))  # from the shoulders to the fingers
+    reach = max(1, round(HAND_REACH_SHARE * 90))  # from the shoulders to the fingers
     rows, columns = np.nonzero(sure)
     assert doubtful[rows.max() + reach, columns].any() and not doubtful[rows.max() + reach + 1].any()
 
 
 def test_a_hand_that_is_not_seen_closely_may_be_as_far_from_the_elbow_as_an_arm_is_long() -> None:
     places = {"LeftElbow": (120.0, 80.0), "LeftWrist": (128.0, 80.0)}
-    end = 120 + ARM_AND_HAND * 70  # from the shoulders to the hips
+    end = 120 + MAX_HAND_DISTANCE_SHARE * 70  # from the shoulders to the hips
     doubtful = seen_limbs(figure(places, 0.95))[80] == np.float32(DOUBTFUL_BELIEF)
     assert doubtful[135 : int(end)].all()
-    assert not doubtful[int(end) + 2 + round((NEAR + FOREARM) * 70) :].any()
+    assert not doubtful[int(end) + 2 + round((HAND_REACH_SHARE + FOREARM_WIDTH_SHARE) * 70) :].any()
 
 
 def test_a_forearm_between_joints_that_are_seen_is_the_persons() -> None:
@@ -83,7 +88,7 @@ def test_a_hand_that_is_seen_is_the_arms_and_the_other_says_nothing() -> None:
 
 @pytest.mark.parametrize(
     ("place", "confidence", "expected"),
-    [((100, 90), 0.9, BEFORE), ((150, 90), 0.9, -0.1), ((100, 90), 0.3, -0.1)],
+    [((100, 90), 0.9, ARM_FORWARD_METRES), ((150, 90), 0.9, -0.1), ((100, 90), 0.3, -0.1)],
     ids=["before the trunk", "beside it", "hidden"],
 )
 def test_an_arm_seen_before_the_trunk_is_before_it(place: tuple[int, int], confidence: float, expected: float) -> None:

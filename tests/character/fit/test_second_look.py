@@ -11,8 +11,13 @@ import pytest
 from engine.body.fitting.observation import DIRECTED_LIMBS
 from engine.character.figure.figure import Choice, Figure, find_figure
 from engine.character.figure.silhouette import Silhouette, cut_out
-from engine.character.fit.second_look import COMPARED, LOOKS_APART, MIRRORED, look_again
-from engine.character.fit.template_fit import FOREARMS_NEAR, fit_best, forearms_back
+from engine.character.fit.second_look import (
+    COMPARED_LANDMARKS,
+    MAX_JOINT_DISAGREEMENT_SHARE,
+    MIRRORED_LANDMARKS,
+    look_again,
+)
+from engine.character.fit.template_fit import FOREARM_DEPTH_BIAS, fit_best, forearms_back
 from engine.character.sample import sample_picture
 from engine.media.image import write_image
 from engine.media.limits import Limits
@@ -34,16 +39,16 @@ def height(silhouette: Silhouette) -> float:
 
 
 def test_a_mirror_seen_in_a_mirror_is_what_it_was() -> None:
-    np.testing.assert_array_equal(MIRRORED[MIRRORED], np.arange(len(BODY_LANDMARKS)))
-    assert BODY_LANDMARKS[MIRRORED[BODY_LANDMARKS.index("LeftKnee")]] == "RightKnee"
+    np.testing.assert_array_equal(MIRRORED_LANDMARKS[MIRRORED_LANDMARKS], np.arange(len(BODY_LANDMARKS)))
+    assert BODY_LANDMARKS[MIRRORED_LANDMARKS[BODY_LANDMARKS.index("LeftKnee")]] == "RightKnee"
 
 
 def test_one_who_is_seen_well_is_seen_alike_without_surroundings(seen: Seen) -> None:
     figure, silhouette = seen
     looks = look_again(figure, silhouette.alpha)
     assert len(looks) == 1
-    away = np.linalg.norm(looks[0].points - figure.points, axis=1)[list(COMPARED)]
-    assert (away < LOOKS_APART * height(silhouette)).all()
+    away = np.linalg.norm(looks[0].points - figure.points, axis=1)[list(COMPARED_LANDMARKS)]
+    assert (away < MAX_JOINT_DISAGREEMENT_SHARE * height(silhouette)).all()
 
 
 def test_one_who_was_seen_wrongly_is_fitted_as_they_are_seen_cut_out(seen: Seen) -> None:
@@ -73,7 +78,7 @@ def test_joints_placed_by_hand_stay_in_every_look(seen: Seen) -> None:
 def test_forearms_hang_back_and_those_that_point_at_the_viewer_stay() -> None:
     down = np.tile([0.0, -1.0, 0.0], (len(DIRECTED_LIMBS), 1))
     near = down.copy()
-    near[[1, 3]] = np.array([0, -1, FOREARMS_NEAR]) / np.hypot(1, FOREARMS_NEAR)
+    near[[1, 3]] = np.array([0, -1, FOREARM_DEPTH_BIAS]) / np.hypot(1, FOREARM_DEPTH_BIAS)
     found = forearms_back(near)
     np.testing.assert_array_equal(found[[0, 2, 4, 5, 6, 7]], down[[0, 2, 4, 5, 6, 7]])
     assert (np.abs(found[[1, 3], 2]) < 0.02).all()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.body.fitting.observation import DIRECTED_LIMBS
-from engine.character.fit.template_fit import FLATTENED, legs_apart
+from engine.character.fit.template_fit import LEG_DEPTH_GAIN, legs_apart
 
 FRONT = np.array([0.0, 0, 1])
 
@@ -22,7 +22,7 @@ def test_a_stride_that_is_surely_seen_grows_and_what_both_legs_share_stays() -> 
     found = legs_apart(seen, FRONT)
     np.testing.assert_allclose((found[4:6] + found[6:]) / 2, (seen[4:6] + seen[6:]) / 2, atol=1e-12)
     grown = (found[4:6] - found[6:])[:, 2] / (seen[4:6] - seen[6:])[:, 2]
-    assert (grown > 0.95 * FLATTENED).all() and (grown < FLATTENED).all()
+    assert (grown > 0.95 * LEG_DEPTH_GAIN).all() and (grown < LEG_DEPTH_GAIN).all()
     np.testing.assert_array_equal(found[:4], seen[:4])
 
 

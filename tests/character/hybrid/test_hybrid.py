@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from engine.character.figure.figure import Figure
-from engine.character.figure.silhouette import HEIGHT, Silhouette
+from engine.character.figure.silhouette import GRID_HEIGHT_PIXELS, Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
 from engine.character.hybrid.hybrid import Hybrid, limbs_alone, make_hybrid
 from engine.character.hybrid.limbs import cut_off, limbs_of
 from engine.character.hybrid.two_surfaces import together
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARMS, LEGS
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
 from engine.character.rig.measures import pose
 from engine.character.rig.rigging import Character, bind
 from engine.character.rig.shell_binding import bind_shell
@@ -30,7 +30,7 @@ from engine.render.rasteriser import rasterise
 from tests.character.fit.test_head_and_legs import figure_with
 from tests.character.shell.test_displacement import arms_down
 
-SIZE = (HEIGHT + 80, 420)
+SIZE = (GRID_HEIGHT_PIXELS + 80, 420)
 PIXELS_PER_METRE = 150.0
 """Of what is drawn to be compared."""
 AROUND = 0.12
@@ -38,10 +38,10 @@ AROUND = 0.12
 
 
 def figure_and_outline() -> tuple[Figure, FittedBody, Silhouette, Labels]:
-    """The template with its arms down, `HEIGHT` pixels high, in a green picture."""
+    """The template with its arms down, `GRID_HEIGHT_PIXELS` pixels high, in a green picture."""
     fitted, mesh = arms_down(), template_mesh()
     seen = pose_template(fitted, fitted.picture_camera(), load_human()).vertices[mesh.ids]
-    scale = HEIGHT / np.ptp(seen[:, 1])
+    scale = GRID_HEIGHT_PIXELS / np.ptp(seen[:, 1])
     middle = (seen.min(0) + seen.max(0)) / 2
     to_grid = np.array([[scale, 0, SIZE[1] / 2 - scale * middle[0]], [0, scale, SIZE[0] / 2 - scale * middle[1]]])
     places = seen * scale + [to_grid[0, 2], to_grid[1, 2], 0]
@@ -128,7 +128,7 @@ def test_beyond_the_edge_of_the_picture_nothing_is_made_up(made: tuple[Hybrid, C
 def test_limbs_are_the_shells_and_the_trunk_has_none(made: tuple[Hybrid, Character, Character]) -> None:
     hybrid = made[0]
     part, shown = hybrid.shell.mesh.parts, hybrid.limbs.limb >= 0
-    assert shown[part[:, [*ARMS, *LEGS]].max(1) > 0.9].all()
+    assert shown[part[:, [*ARM_LABELS, *LEG_LABELS]].max(1) > 0.9].all()
     seen = hybrid.trunk.pixels(np.arange(len(hybrid.trunk.vertices)), hybrid.labels.labels.shape)
     far = cv2.distanceTransform((~np.isin(hybrid.labels.labels, [0, 1])).astype(np.uint8), cv2.DIST_L2, 5)
     assert far[seen].max() < 5, "but for what goes on behind them"

@@ -21,7 +21,7 @@ from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.options import CharacterOptions, LabelStroke
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARMS, BODY_PARTS
+from engine.character.parts.labels import ARM_LABELS, BODY_PARTS
 from engine.character.parts.pockets import parted, with_hand_parted
 from engine.character.parts.unfound_hands import UnfoundHand, unfound_hands
 from engine.character.pipeline import cut_all_out, find_figures, reconstruct
@@ -64,11 +64,11 @@ def test_hands_are_looked_for_at_their_hips() -> None:
     def arms(seen: Figure) -> tuple[int, ...]:
         return tuple(hand.arm for hand in unfound_hands(seen, seen.rgb, ON_GRID))
 
-    assert arms(figure({})) == ARMS
-    assert arms(figure({}, sure=0.95)) == ARMS, "it may be too small to be known for a hand"
-    assert arms(figure({}, left_hand=True)) == ARMS[1:]
-    assert arms(figure({"LeftWrist": (90, 50)})) == ARMS[1:], "raised"
-    assert arms(figure({"LeftWrist": (118, 88)})) == ARMS[1:], "far from the hip"
+    assert arms(figure({})) == ARM_LABELS
+    assert arms(figure({}, sure=0.95)) == ARM_LABELS, "it may be too small to be known for a hand"
+    assert arms(figure({}, left_hand=True)) == ARM_LABELS[1:]
+    assert arms(figure({"LeftWrist": (90, 50)})) == ARM_LABELS[1:], "raised"
+    assert arms(figure({"LeftWrist": (118, 88)})) == ARM_LABELS[1:], "far from the hip"
     (left, _) = unfound_hands(figure({}), figure({}).rgb, ON_GRID)
     np.testing.assert_array_equal(left.wrist, [85, 88])
     np.testing.assert_array_equal(left.knuckles, [85, 100])
@@ -80,7 +80,7 @@ def test_and_before_the_belly_if_nobody_sees_them() -> None:
     left, right = unfound_hands(figure(before), figure(before).rgb, ON_GRID)
     assert left.before and not right.before
     sure = figure(before, sure=0.95)
-    assert [hand.arm for hand in unfound_hands(sure, sure.rgb, ON_GRID)] == [ARMS[1]]
+    assert [hand.arm for hand in unfound_hands(sure, sure.rgb, ON_GRID)] == [ARM_LABELS[1]]
     joined = figure({"LeftWrist": (62, 88), "RightWrist": (57, 88)})
     assert unfound_hands(joined, joined.rgb, ON_GRID) == (), "one may hide the other"
 
@@ -246,7 +246,7 @@ def test_both_hands_come_out_of_pockets(
     photo = tmp_path / "photo.png"
     cv2.imwrite(str(photo), rgb[..., ::-1])
     woken = wake(photo, {"triangles": 20_000})
-    assert set(np.unique(woken.labels.hidden)) == {-1, *ARMS}
+    assert set(np.unique(woken.labels.hidden)) == {-1, *ARM_LABELS}
     for side in ("Left", "Right"):
         comes_out(woken.character, side)
 

@@ -6,9 +6,9 @@ import cv2
 import numpy as np
 
 from engine.character.surface.depth_order import (
-    BENEATH,
-    FOREARM,
-    THIN,
+    FOREARM_BEND_PIXELS,
+    INSET_PIXELS,
+    MIN_DEPTH_SHARE,
     body_behind,
     body_within,
     hand_beneath,
@@ -45,8 +45,10 @@ def test_what_a_limb_shares_with_the_body_lies_beneath_its_surface() -> None:
     arm, own = slab(rectangle((20, 30), (40, 100)), 14.0, -12.0), rectangle((20, 30), (60, 100))
     sunk = overlap_beneath(arm, body, own)
     deep = shared & inner(body.mask)
-    assert np.allclose(sunk.front.depth[deep], 10 - BENEATH) and np.allclose(sunk.back.depth[deep], BENEATH - 10)
-    assert (sunk.front.depth[shared & ~deep] <= 0 - BENEATH).all(), (
+    assert np.allclose(sunk.front.depth[deep], 10 - INSET_PIXELS) and np.allclose(
+        sunk.back.depth[deep], INSET_PIXELS - 10
+    )
+    assert (sunk.front.depth[shared & ~deep] <= 0 - INSET_PIXELS).all(), (
         "at its border the body is no higher than its middle"
     )
     assert (sunk.front.depth[shared] > sunk.back.depth[shared]).all()
@@ -67,11 +69,11 @@ def test_an_arm_bends_to_the_pocket_that_its_hand_is_in() -> None:
     body, hidden = slab(rectangle((5, 55), (5, 115)), 10.0, -10.0), rectangle((20, 30), (15, 30))
     arm = slab(rectangle((20, 30), (15, 110)), 16.0, 12.0)
     bent = hand_beneath(arm, body, hidden)
-    assert np.allclose(bent.front.depth[hidden], 10 - BENEATH)
+    assert np.allclose(bent.front.depth[hidden], 10 - INSET_PIXELS)
     assert np.allclose((bent.front.depth - bent.back.depth)[arm.mask], 4), "as thick as it was"
-    along = bent.front.depth[25, 29 : 30 + int(FOREARM)]
+    along = bent.front.depth[25, 29 : 30 + int(FOREARM_BEND_PIXELS)]
     assert (np.diff(along) >= 0).all() and np.diff(along).max() < 0.25
-    np.testing.assert_array_equal(bent.front.depth[25, 30 + int(FOREARM) : 110], 16)
+    np.testing.assert_array_equal(bent.front.depth[25, 30 + int(FOREARM_BEND_PIXELS) : 110], 16)
     assert hand_beneath(arm, body, np.zeros_like(hidden)) is arm
 
 
@@ -80,7 +82,7 @@ def test_of_two_arms_that_cross_the_one_behind_is_beneath_the_other_where_that_h
     arm = slab(rectangle((18, 32), (40, 110)), 14.0, 8.0)
     moved = limb_behind(arm, before, hidden)
     deep = hidden & inner(before.mask)
-    assert (moved.front.depth[deep] <= 12 - BENEATH + 1e-5).all()
+    assert (moved.front.depth[deep] <= 12 - INSET_PIXELS + 1e-5).all()
     assert np.allclose((moved.front.depth - moved.back.depth)[arm.mask], 6), "as thick as it was"
     assert np.allclose(moved.front.depth[25, 100:110], 14), "far from it nothing moves"
     assert np.abs(np.diff(moved.front.depth[25, 62:110])).max() < 1, "it bends"
@@ -90,7 +92,7 @@ def test_where_no_body_is_behind_an_arm_reaches_around_the_hand_that_it_hides() 
     before, hidden = slab(rectangle((20, 40), (5, 80)), 12.0, 4.0), rectangle((25, 35), (40, 60))
     hand, body = slab(hidden, 2.0, -3.0), slab(rectangle((10, 50), (50, 110)), 6.0, -10.0)
     around = limb_around(before, hand, body, hidden)
-    assert (around.back.depth[hidden & ~body.mask] <= -3 - BENEATH + 1e-5).all()
+    assert (around.back.depth[hidden & ~body.mask] <= -3 - INSET_PIXELS + 1e-5).all()
     np.testing.assert_array_equal(around.front.depth, before.front.depth)
     assert np.allclose(around.back.depth[30, 5:12], 4, atol=0.05), "far from it it is as thick as it was"
     behind_the_body = limb_around(before, hand, slab(rectangle((10, 50), (5, 110)), 6.0, -10.0), hidden)
@@ -111,16 +113,18 @@ def test_what_an_arm_hides_lies_behind_it() -> None:
     seen = rectangle((20, 30), (40, 60))  # of the rest the body hides the arm
     body = body_behind(slab(mask, 10.0, -10.0), arm, seen)
     deep = seen & inner(arm_mask)
-    assert np.allclose(body.front.depth[deep], 6 - BENEATH)
-    assert np.allclose(body.front.depth[seen & ~deep], 4 - BENEATH), (
+    assert np.allclose(body.front.depth[deep], 6 - INSET_PIXELS)
+    assert np.allclose(body.front.depth[seen & ~deep], 4 - INSET_PIXELS), (
         "at its border the arm is no higher than its middle"
     )
     assert np.allclose(body.front.depth[mask & ~seen], 10), "nothing else moves"
     assert np.allclose(body.back.depth[mask], -10)
     lower = body_behind(slab(mask, 10.0, -10.0), slab(arm_mask, -30.0, -40.0), seen)
-    assert np.allclose(lower.front.depth[seen], 20 * THIN - 10), "the body keeps some of its depth"
+    assert np.allclose(lower.front.depth[seen], 20 * MIN_DEPTH_SHARE - 10), "the body keeps some of its depth"
     raised = limb_before(slab(arm_mask, -10.0, -14.0), lower, seen)
-    assert (raised.front.depth[seen] >= 20 * THIN - 10 + BENEATH).all(), "and what is seen is before what is not"
+    assert (raised.front.depth[seen] >= 20 * MIN_DEPTH_SHARE - 10 + INSET_PIXELS).all(), (
+        "and what is seen is before what is not"
+    )
     assert np.allclose((raised.front.depth - raised.back.depth)[arm_mask], 4)
     far = slab(arm_mask, -30.0, -40.0)
     np.testing.assert_array_equal(limb_before(far, lower, seen).front.depth[arm_mask], far.front.depth[arm_mask])
@@ -142,7 +146,9 @@ def test_where_both_have_the_hip_the_body_is_within_the_leg() -> None:
     leg = slab(rectangle((20, 30), (40, 110)), 6.0, -6.0)
     body = body_within(body_behind(slab(mask, 10.0, -10.0), leg, shared), leg, shared)
     deep = shared & inner(leg.mask)
-    assert np.allclose(body.front.depth[deep], 6 - BENEATH) and np.allclose(body.back.depth[deep], BENEATH - 6)
+    assert np.allclose(body.front.depth[deep], 6 - INSET_PIXELS) and np.allclose(
+        body.back.depth[deep], INSET_PIXELS - 6
+    )
     assert np.allclose(body.back.depth[mask & ~shared], -10), "nothing else moves"
     thin = body_within(body, slab(leg.mask, 30.0, 20.0), shared)
     assert (thin.back.depth < thin.front.depth)[mask].all(), "it keeps a front and a back"

@@ -11,11 +11,11 @@ import trimesh
 
 from engine.body.parts import BODY_PARTS
 from engine.character.fit.template_fit import load_human
-from engine.character.parts.free_cloth import ROUND, FreeCloth, free_cloth
+from engine.character.parts.free_cloth import CLOTH_DEPTH_RATIO, FreeCloth, free_cloth
 from engine.character.surface.drape import drape
 from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheets import Layer
-from engine.character.surface.skirt_weights import LEAST_SPAN, moved_by_both
+from engine.character.surface.skirt_weights import MIN_LEG_BLEND_SHARE, moved_by_both
 from engine.character.surface.soles import with_soles
 
 HEIGHT, WIDTH, MIDDLE = 200, 120, 60
@@ -110,7 +110,7 @@ def test_a_skirt_is_as_round_as_hips() -> None:
     thick = draped.front.depth - draped.back.depth
     for row in (HEM - 20, HEM - 8):
         width = mask[row].sum()
-        assert thick[row, MIDDLE] == pytest.approx(ROUND * width, rel=0.08)
+        assert thick[row, MIDDLE] == pytest.approx(CLOTH_DEPTH_RATIO * width, rel=0.08)
         edge = np.flatnonzero(mask[row])[0]
         assert thick[row, edge] < 2, "front and back meet at the outline"
     assert (np.diff(thick[WAIST:HEM, MIDDLE]) > -0.1).all(), "it hangs: downwards it gets no thinner"
@@ -143,7 +143,7 @@ def test_a_skirt_goes_over_from_leg_to_leg() -> None:
     row = left[HEM - 5][mask[HEM - 5]]
     step = np.diff(row)
     assert row[0] == 0 and row[-1] == 1 and (step > -1e-6).all(), "the ends go with one leg each"
-    assert step.max() < 1.2 / (LEAST_SPAN * len(row)), "and between them nothing jumps"
+    assert step.max() < 1.2 / (MIN_LEG_BLEND_SHARE * len(row)), "and between them nothing jumps"
     assert row[len(row) // 2 - 1 : len(row) // 2 + 1].mean() == pytest.approx(0.5, abs=0.01)
     low = HEM + 30
     np.testing.assert_array_equal(left[low], before.front.weights[low, :, RIG.index("LeftUpLeg")])

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from engine.body.parts import BODY_PARTS
-from engine.character.parts.labels import ARMS, LEGS
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
 from engine.character.texture.limb_texture import filled
 from engine.character.texture.rings import Heights, rings
 
 HIGH, WIDE = 200, 120
 SKIN, TROUSERS, SHOE, SHADE = (220, 170, 140), (40, 60, 110), (20, 20, 20), (255, 255, 255)
-LEFT, RIGHT = LEGS
+LEFT, RIGHT = LEG_LABELS
 Y, X = np.indices((HIGH, WIDE))
 DOWN = ((HIGH - Y) * 0.005).astype(np.float32)
 HEIGHTS = {LEFT: Heights(DOWN, None), RIGHT: Heights(DOWN, None)}
@@ -61,14 +61,14 @@ def test_a_limb_in_the_shade_stays_in_it() -> None:
 @pytest.mark.parametrize("gloves", [True, False])
 def test_hands_that_are_not_seen_are_the_face_s_colour_unless_the_other_wears_a_glove(gloves: bool) -> None:
     labels = np.full((HIGH, WIDE), -1, np.int8)
-    labels[: 200 if gloves else 150, 20:50] = ARMS[0]
-    labels[:100, 70:100] = ARMS[1]
+    labels[: 200 if gloves else 150, 20:50] = ARM_LABELS[0]
+    labels[:100, 70:100] = ARM_LABELS[1]
     rgb = np.full((HIGH, WIDE, 3), TROUSERS, np.uint8)
     rgb[150:, 20:50] = SHOE
     along = (Y * 0.005).astype(np.float32)
-    found = rings(rgb, labels, labels >= 0, dict.fromkeys(ARMS, Heights(along, 0.75)), FACE)
-    assert np.abs(found[ARMS[1]][156:] - (SHOE if gloves else SKIN)).max() < 4
-    assert np.abs(found[ARMS[1]][:144] - TROUSERS).max() < 4
+    found = rings(rgb, labels, labels >= 0, dict.fromkeys(ARM_LABELS, Heights(along, 0.75)), FACE)
+    assert np.abs(found[ARM_LABELS[1]][156:] - (SHOE if gloves else SKIN)).max() < 4
+    assert np.abs(found[ARM_LABELS[1]][:144] - TROUSERS).max() < 4
 
 
 def test_of_whom_no_limb_is_seen_no_ring_is_told() -> None:

@@ -11,7 +11,7 @@ from engine.character.parts.label_map import Labels
 from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheets import Layer, close
 from engine.character.texture.limb_texture import LimbSurfaces, of_the_limbs, paint_limbs
-from engine.character.texture.sides import FOLDED, FURTHEST, places_on_the_picture
+from engine.character.texture.sides import FOLD_SHARE, MAX_FOLD_PIXELS, places_on_the_picture
 from engine.character.texture.texture import PictureOnGrid, joined_at_the_outline, paint_tiles
 
 SAME = np.array([[1.0, 0, 0], [0, 1, 0]])
@@ -167,7 +167,7 @@ def test_the_side_of_a_cylinder_takes_colours_nearly_at_the_pace_of_its_surface(
     np.testing.assert_array_equal(places[~mesh.rim], mesh.vertices[~mesh.rim, :2])
     middle = mesh.rim & (np.abs(mesh.vertices[:, 1] - 31.5) < 10)
     inward = np.abs(mesh.vertices[middle, 0] - 31.5) - np.abs(places[middle, 0] - 31.5)
-    assert ((inward > 3 * FOLDED) & (inward <= FURTHEST * FOLDED)).all()
+    assert ((inward > 3 * FOLD_SHARE) & (inward <= MAX_FOLD_PIXELS * FOLD_SHARE)).all()
     edges = np.concatenate([mesh.triangles[:, [a, b]] for a, b in ((0, 1), (1, 2), (2, 0))])
     level = np.abs(np.ptp(mesh.vertices[edges, 1], axis=1)) < 0.1
     steep = edges[level & (mesh.rim[edges].sum(1) == 1) & (np.abs(mesh.vertices[edges[:, 0], 1] - 31.5) < 10)]

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from engine.body.parts import BODY_PARTS
 from engine.character.figure.silhouette import Silhouette
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARMS
+from engine.character.parts.labels import ARM_LABELS
 from engine.character.shell.shell import Shell
 from engine.compiled import njit
 from engine.geometry.surface import vertex_normals
@@ -24,29 +24,29 @@ from engine.imaging.filling.nearest import nearest_colours, nearest_values
 from engine.imaging.masks.mask_distance import distance_inside, distance_to
 from engine.render.rasteriser import depth_map
 
-FINER = 3
+DEPTH_BUFFER_SCALE = 3
 """Pixels of the depth buffer for each of the grid's."""
-BEHIND, JUMP = 3.0, 16.0
+DEPTH_TOLERANCE_PIXELS, DEPTH_JUMP_PIXELS = 3.0, 16.0
 """Pixels of the grid by which a point may be behind what is nearest at its place, and behind what is nearest around it."""
-FACES, SURE_FACES = 0.08, 0.22
+MIN_SHOWN_COSINE, MIN_SOURCE_COSINE = 0.08, 0.22
 """Cosine to the viewer from which on a point is shown, and is a source."""
-WITHIN, SURE_WITHIN = 1.3, 2.2
+MIN_OUTLINE_DISTANCE_PIXELS, SOURCE_OUTLINE_DISTANCE_PIXELS = 1.3, 2.2
 """Pixels of the grid from the outline of the mask."""
-BESIDE_ARM, SURE_BESIDE_ARM, LEG_BESIDE_ARM = 2.0, 4.0, 7.0
+ARM_MARGIN_PIXELS, ARM_SOURCE_MARGIN_PIXELS, ARM_OVER_LEG_MARGIN_PIXELS = 2.0, 4.0, 7.0
 """Pixels of the grid from an arm that passes before; a hand's shadow lies on the thigh."""
-OWN = 0.9
+OPAQUE_ALPHA = 0.9
 """Alpha from which a pixel's colour is the person's own."""
-RIM_PIXELS, WALL_PIXELS = 8.0, 3.0
+INNER_RIM_PIXELS, OUTER_WALL_PIXELS = 8.0, 3.0
 """Pixels of the grid from the outline inward in which there may be wall, and outward from which on there surely is."""
-LIKE, UNLIKE = 0.5, 15.0
+WALL_COLOUR_RATIO, MIN_WALL_COLOUR_DISTANCE = 0.5, 15.0
 """How much nearer to the wall's colour than to the person's that of a wall is; CIE Lab distance from which both can be told apart."""
-AGREES = 0.1
+MIN_LABEL_WEIGHT_SHARE = 0.1
 """Share of the parts that may show a label, in what moves a point, from which on the label agrees with it."""
 
-MAY_SHOW = np.eye(len(BODY_PARTS), dtype=np.float32)
+ALLOWED_LABELS = np.eye(len(BODY_PARTS), dtype=np.float32)
 """Which labels (columns) a part (rows) may have: its own; cloth hangs from the trunk over legs and neck, and hair from the head."""
 for _part, _labels in {"head": ("torso",), "torso": ("head", "left_leg", "right_leg"), "left_leg": ("torso",), "right_leg": ("torso",)}.items():  # fmt: skip
-    MAY_SHOW[BODY_PARTS.index(_part), [BODY_PARTS.index(label) for label in _labels]] = 1
+    ALLOWED_LABELS[BODY_PARTS.index(_part), [BODY_PARTS.index(label) for label in _labels]] = 1
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ class Witness:
                 self.nearest,
                 self.clean,
                 self.to_picture,
-                MAY_SHOW,
+                ALLOWED_LABELS,
             )
         )
         shape = attributes.shape[:-1]
@@ -113,19 +113,23 @@ def witness(
     normals = vertex_normals(shell.pictured, shell.mesh.triangles)
     towards = -normals[:, 2:]  # y is down, so that the triangles turn the other way
     height, width = silhouette.mask.shape
-    screen = (shell.pictured + 0.5) * FINER - 0.5
+    screen = (shell.pictured + 0.5) * DEPTH_BUFFER_SCALE - 0.5
     screen[:, 2] = -shell.pictured[:, 2]
-    depth = depth_map(screen, shell.mesh.triangles if hides is None else hides, (height * FINER, width * FINER))
+    depth = depth_map(
+        screen,
+        shell.mesh.triangles if hides is None else hides,
+        (height * DEPTH_BUFFER_SCALE, width * DEPTH_BUFFER_SCALE),
+    )
     near = np.where(np.isfinite(depth), -depth, -1e4).astype(np.float32)
     around = [np.asarray(cv2.dilate(near, np.ones((size, size), np.uint8)), np.float32) for size in (3, 15)]
     inverse = cv2.invertAffineTransform(silhouette.to_grid)
-    own = silhouette.alpha > OWN
+    own = silhouette.alpha > OPAQUE_ALPHA
     return Witness(
         np.concatenate([shell.pictured, towards, shell.mesh.parts], 1).astype(np.float32),
         np.stack([_labels_around(labels.labels, size) for size in (3, 5)]),
         distance_inside(silhouette.mask),
         _walls(silhouette, labels.labels),
-        np.stack([distance_to(labels.labels == arm) for arm in ARMS]),
+        np.stack([distance_to(labels.labels == arm) for arm in ARM_LABELS]),
         np.stack([near, *around]),
         nearest_colours(rgb, own) if own.any() else rgb,
         np.asarray(inverse, np.float64),
@@ -136,15 +140,15 @@ def _walls(silhouette: Silhouette, labels: NDArray[np.integer]) -> NDArray[np.bo
     """The pixels (h, w) near the outline of head and trunk that are like what is beyond it and unlike what is within: where
     the mask takes in some of the wall, between strands of hair above all. Limbs are too thin to have a within."""
     depth, away = distance_inside(silhouette.mask), distance_to(silhouette.mask)
-    within, beyond = depth > RIM_PIXELS, (away > WALL_PIXELS) & (away < 3 * RIM_PIXELS)
+    within, beyond = depth > INNER_RIM_PIXELS, (away > OUTER_WALL_PIXELS) & (away < 3 * INNER_RIM_PIXELS)
     if not within.any() or not beyond.any():
         return np.zeros_like(silhouette.mask)
     lab = cv2.cvtColor(cv2.GaussianBlur(silhouette.rgb, (0, 0), 1).astype(np.float32) / 255, cv2.COLOR_RGB2LAB)
     person, wall = (nearest_values(cv2.blur(lab, (5, 5)), where) for where in (within, beyond))
     like_wall, like_person = (np.linalg.norm(lab - one, axis=-1) for one in (wall, person))
-    apart = np.linalg.norm(wall - person, axis=-1) > UNLIKE
+    apart = np.linalg.norm(wall - person, axis=-1) > MIN_WALL_COLOUR_DISTANCE
     big = np.isin(labels, (BODY_PARTS.index("head"), BODY_PARTS.index("torso")))
-    return np.asarray(big & (depth <= RIM_PIXELS) & apart & (like_wall < LIKE * like_person))
+    return np.asarray(big & (depth <= INNER_RIM_PIXELS) & apart & (like_wall < WALL_COLOUR_RATIO * like_person))
 
 
 def _labels_around(labels: NDArray[np.integer], size: int) -> NDArray[np.uint8]:
@@ -174,12 +178,15 @@ def _judged(
     for i in prange(count):
         x, y, z, towards = points[i, 0], points[i, 1], points[i, 2], points[i, 3]
         column, row = int(np.floor(x + 0.5)), int(np.floor(y + 0.5))
-        if towards <= FACES or column < 2 or row < 2 or column >= width - 2 or row >= height - 2:
+        if towards <= MIN_SHOWN_COSINE or column < 2 or row < 2 or column >= width - 2 or row >= height - 2:
             continue
-        if inside[row, column] <= WITHIN:
+        if inside[row, column] <= MIN_OUTLINE_DISTANCE_PIXELS:
             continue
-        fine_column, fine_row = int((x + 0.5) * FINER), int((y + 0.5) * FINER)
-        if nearest[0, fine_row, fine_column] - z > BEHIND or nearest[1, fine_row, fine_column] - z > JUMP:
+        fine_column, fine_row = int((x + 0.5) * DEPTH_BUFFER_SCALE), int((y + 0.5) * DEPTH_BUFFER_SCALE)
+        if (
+            nearest[0, fine_row, fine_column] - z > DEPTH_TOLERANCE_PIXELS
+            or nearest[1, fine_row, fine_column] - z > DEPTH_JUMP_PIXELS
+        ):
             continue
         agrees, surely = True, points[i, 4] >= points[i, 5] or not labels[1, row, column] & 1  # hair before a shoulder
         for label in range(may_show.shape[1]):
@@ -188,15 +195,15 @@ def _judged(
             likely = np.float32(0)
             for part in range(may_show.shape[0]):
                 likely += points[i, 4 + part] * may_show[part, label]
-            if likely <= AGREES:
+            if likely <= MIN_LABEL_WEIGHT_SHARE:
                 surely = False
                 agrees &= not labels[0, row, column] >> label & 1
         leg = points[i, 8] + points[i, 9]
         for k in range(2):
             if points[i, 6 + k] < 0.05:
                 away = from_arms[k, row, column]
-                agrees &= away >= BESIDE_ARM
-                surely &= away >= (LEG_BESIDE_ARM if leg > 0.02 else SURE_BESIDE_ARM)
+                agrees &= away >= ARM_MARGIN_PIXELS
+                surely &= away >= (ARM_OVER_LEG_MARGIN_PIXELS if leg > 0.02 else ARM_SOURCE_MARGIN_PIXELS)
         if not agrees:
             continue
         u = min(max(to_picture[0, 0] * x + to_picture[0, 2], 0.0), columns - 1.0)
@@ -208,12 +215,12 @@ def _judged(
             upper = clean[top, left, k] * (1 - fu) + clean[top, right, k] * fu
             lower = clean[bottom, left, k] * (1 - fu) + clean[bottom, right, k] * fu
             colours[i, k] = upper * (1 - fv) + lower * fv
-        shown[i] = min((towards - FACES) / (SURE_FACES - FACES), 1.0)
+        shown[i] = min((towards - MIN_SHOWN_COSINE) / (MIN_SOURCE_COSINE - MIN_SHOWN_COSINE), 1.0)
         source[i] = (
             surely
             and not wall[row, column]
-            and towards > SURE_FACES
-            and inside[row, column] > SURE_WITHIN
-            and nearest[2, fine_row, fine_column] - z <= JUMP
+            and towards > MIN_SOURCE_COSINE
+            and inside[row, column] > SOURCE_OUTLINE_DISTANCE_PIXELS
+            and nearest[2, fine_row, fine_column] - z <= DEPTH_JUMP_PIXELS
         )
     return colours, shown, source

@@ -14,7 +14,7 @@ from engine.character.parts.label_map import Labels
 from engine.character.shell.colours.evidence import witness
 from engine.character.shell.colours.head_back import head_round
 from engine.character.shell.colours.round import BackTexture, coloured_round, with_the_other
-from engine.character.shell.colours.unrolled import ANGLES, unrolled_parts
+from engine.character.shell.colours.unrolled import COLUMNS, unrolled_parts
 from engine.character.shell.shell import Shell
 from engine.character.shell.template_mesh import template_mesh
 from engine.compiled import njit
@@ -23,33 +23,34 @@ from engine.imaging.masks.mask_distance import dilate_mask
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import Raster, rasterise
 
-SIZE = 2048
+TEXTURE_SIZE_TEXELS = 2048
 """Texels of the texture's sides."""
-SOFT = 6
+FILL_BLEND_TEXELS = 6
 """Texels over which what is shown goes over into what is filled in."""
-GUTTER = 16
+GUTTER_TEXELS = 16
 """Texels beside the chart that have the colours of the chart."""
-SAMPLED = 97
+MEAN_SAMPLING_STEP = 97
 """One texel of so many is looked at for the mean of all."""
-UNSURE = 0.02
+UNKNOWN_ROW_WEIGHT = 0.02
 """How much a part counts, where two meet, whose row has nothing to say."""
-OTHER = {
+OPPOSITE_LIMB = {
     f"{one}_{limb}": f"{two}_{limb}"
     for one, two in (("left", "right"), ("right", "left"))
     for limb in ("arm", "leg", "foot")
 }
 """Which limb is the other side's."""
-STRIP = 256
+STRIP_ROWS = 256
 """Rows of the texture that are judged at once."""
 
 
 @cache
 def texels() -> Raster:
-    """What of the template each texel shows, (`SIZE`, `SIZE`), once for the process; texels beside its chart show nothing."""
+    """What of the template each texel shows, (`TEXTURE_SIZE_TEXELS`, `TEXTURE_SIZE_TEXELS`), once for the process;
+    texels beside its chart show nothing."""
     mesh = template_mesh()
     flat = np.zeros((len(mesh.uv), 3), np.float32)
-    flat[:, :2] = mesh.uv * SIZE - 0.5
-    return rasterise(flat, mesh.uv_triangles, (SIZE, SIZE))
+    flat[:, :2] = mesh.uv * TEXTURE_SIZE_TEXELS - 0.5
+    return rasterise(flat, mesh.uv_triangles, (TEXTURE_SIZE_TEXELS, TEXTURE_SIZE_TEXELS))
 
 
 def paint_shell(
@@ -60,7 +61,7 @@ def paint_shell(
     back: BackTexture = "see_through",
     hides: NDArray[np.int32] | None = None,
 ) -> NDArray[np.uint8]:
-    """The texture (`SIZE`, `SIZE`, 3) of a shell, in the template's own chart.
+    """The texture (`TEXTURE_SIZE_TEXELS`, `TEXTURE_SIZE_TEXELS`, 3) of a shell, in the template's own chart.
 
     Parameters
     ----------
@@ -83,18 +84,18 @@ def paint_shell(
         if part.name == "head":
             around, known = head_round(*own), np.ones(len(own[0]), np.float32)
         else:
-            if part.name in OTHER:
-                own = with_the_other(own, evidence[OTHER[part.name]])
-            around, known = coloured_round(*own, back, part.yoke, part.name in OTHER)
+            if part.name in OPPOSITE_LIMB:
+                own = with_the_other(own, evidence[OPPOSITE_LIMB[part.name]])
+            around, known = coloured_round(*own, back, part.yoke, part.name in OPPOSITE_LIMB)
         rows.append(around)
         sure.append(known)
     firsts = np.cumsum([0, *(len(each) for each in rows)])
     places = np.stack([np.stack([part.share, part.along, part.angle], 1) for part in unrolled_parts()], 1)
     raster = texels()
-    shown = np.empty((SIZE, SIZE), np.float32)
-    painted = np.empty((SIZE, SIZE, 3), np.float32)
-    for first in range(0, SIZE, STRIP):
-        strip = slice(first, first + STRIP)
+    shown = np.empty((TEXTURE_SIZE_TEXELS, TEXTURE_SIZE_TEXELS), np.float32)
+    painted = np.empty((TEXTURE_SIZE_TEXELS, TEXTURE_SIZE_TEXELS, 3), np.float32)
+    for first in range(0, TEXTURE_SIZE_TEXELS, STRIP_ROWS):
+        strip = slice(first, first + STRIP_ROWS)
         part_of_it = Raster(raster.triangle[strip], raster.barycentrics[strip], raster.depth[strip])
         seen = told.of(interpolate(told.attributes, triangles, part_of_it))
         shown[strip], painted[strip] = seen.shown, seen.colours
@@ -109,14 +110,14 @@ def paint_shell(
 def _softened(shown: NDArray[np.float32]) -> NDArray[np.float32]:
     """How far texels show the picture, (S, S), falling softly to nothing at the border of what is shown."""
     within = cv2.distanceTransform((shown > 0).astype(np.uint8), cv2.DIST_L2, 3)
-    return np.asarray(np.minimum(shown, np.clip(within / SOFT, 0, 1)), np.float32)
+    return np.asarray(np.minimum(shown, np.clip(within / FILL_BLEND_TEXELS, 0, 1)), np.float32)
 
 
 @cache
 def _gutter() -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
     """Rows and columns of the texels beside the chart, and of those on it that are nearest to them."""
     on = texels().triangle >= 0
-    y, x = np.nonzero(~on & dilate_mask(on, GUTTER))
+    y, x = np.nonzero(~on & dilate_mask(on, GUTTER_TEXELS))
     rows, columns = nearest_in(on)
     return y, x, rows[y, x], columns[y, x]
 
@@ -124,7 +125,7 @@ def _gutter() -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp], NDA
 def _beyond_the_chart(texture: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """The texture with its chart's colours beside it, so that none other is mixed into them when it is seen from far away."""
     on = texels().triangle >= 0
-    texture[~on] = texture[on][::SAMPLED].mean(0)
+    texture[~on] = texture[on][::MEAN_SAMPLING_STEP].mean(0)
     y, x, rows, columns = _gutter()
     texture[y, x] = texture[rows, columns]
     return texture
@@ -142,7 +143,7 @@ def _filled(
     sure: np.ndarray,
     firsts: np.ndarray,
 ) -> None:
-    """Mix into `painted` (S, S, 3) what the parts' `rows` (R, `ANGLES`, 3) say, where it is not `shown` (S, S). `places`
+    """Mix into `painted` (S, S, 3) what the parts' `rows` (R, `COLUMNS`, 3) say, where it is not `shown` (S, S). `places`
     (V, P, 3): of each vertex on each part its share, row and angle; `sure` (R,); `firsts` (P + 1,): where each part's rows begin."""
     turn = 2 * np.pi
     for y in prange(painted.shape[0]):
@@ -161,15 +162,15 @@ def _filled(
                 first = places[a, part, 2]
                 second = first + (places[b, part, 2] - first + np.pi) % turn - np.pi
                 third = first + (places[c, part, 2] - first + np.pi) % turn - np.pi
-                column = ((wa * first + wb * second + wc * third) / turn + 0.5) * ANGLES - 0.5
+                column = ((wa * first + wb * second + wc * third) / turn + 0.5) * COLUMNS - 0.5
                 last = firsts[part + 1] - firsts[part] - 1
                 row = min(max(along - 0.5, 0.0), np.float64(last))
                 top, left = int(row), int(np.floor(column))
                 fv, fu = np.float32(row - top), np.float32(column - left)
                 bottom = firsts[part] + min(top + 1, last)
                 top += firsts[part]
-                right, left = (left + 1) % ANGLES, left % ANGLES
-                share *= np.float32(UNSURE) + (1 - fv) * sure[top] + fv * sure[bottom]
+                right, left = (left + 1) % COLUMNS, left % COLUMNS
+                share *= np.float32(UNKNOWN_ROW_WEIGHT) + (1 - fv) * sure[top] + fv * sure[bottom]
                 upper, lower = share * (1 - fv), share * fv
                 total += share
                 red += upper * ((1 - fu) * rows[top, left, 0] + fu * rows[top, right, 0])

@@ -17,50 +17,50 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
-from engine.character.shell.colours.unrolled import ANGLES, STEP
+from engine.character.shell.colours.unrolled import COLUMNS, ROW_METRES
 from engine.imaging.filling.pull_push import pull_push
 
 BackTexture = Literal["see_through", "mirror", "inpaint"]
 
-ROW = 0.005
+ROW_SMOOTHING_METRES = 0.005
 """Metres along a part over which its sides are averaged: a hem is no softer than that."""
-KIND = 0.05
+VARIATION_WINDOW_METRES = 0.05
 """Metres along a part over which it is judged how much its sides vary."""
-ASIDE = 0.5
+SIDE_START_HALF_WIDTHS = 0.5
 """How far aside a part's sides begin for that, in half widths."""
-ALIKE = 8.0
+MAX_SAME_COLOUR_DISTANCE = 8.0
 """CIE Lab distance within which colours are of one kind wherever sides are plain."""
-HUES = np.array([0.7, 1.2, 1.2], np.float32)
+LAB_WEIGHTS = np.array([0.7, 1.2, 1.2], np.float32)
 """How much lightness counts in it, and hues: cloth is lighter where light falls on it."""
-VARIES = 2.5
+MAX_COLOUR_DEVIATIONS = 2.5
 """How many of its sides' deviations a colour may be off the model."""
-MIXED = 0.35
+MIN_KIND_SHARE = 0.35
 """Share of the kind in what is around a cell, below which it is not; of twice as much, it is."""
-EDGE = 0.008
+MIXED_EDGE_METRES = 0.008
 """Metres around what is not of the kind, in which colours are mixed."""
-JOINED = 0.04
+FILL_BLEND_METRES = 0.04
 """Metres over which what is filled in comes to be as it is made, from where it meets what is seen."""
-ENOUGH = 6.0
+MIN_ROW_CELLS = 6.0
 """Cells, as well seen as can be, from which on a row's side is known; with fewer, the nearest row that is says the rest."""
-UNLIKE = 40.0
+ROBUST_SCALE_LEVELS = 40.0
 """sRGB levels from the mean of a side beyond which a colour counts little in it."""
 ROBUST_ROUNDS = 3
 """Times by which a side's mean is freed from what is unlike it."""
-ACROSS = 0.15
+TRUNK_CROSSING_METRES = 0.15
 """Metres along the trunk that are as far as its other side; rows of limbs are rings."""
-CROSSING = 0.03
+OTHER_SIDE_WEIGHT = 0.03
 """How much the other side of a row counts where this one is seen."""
-BEST = 0.8
+BEST_SEEN_HALF_WIDTHS = 0.8
 """How far aside the sides are seen best, in half widths: the maximum of cos x sin^2 x."""
 
-ANGLE = ((np.arange(ANGLES) + 0.5) / ANGLES * 2 * np.pi - np.pi).astype(np.float32)
-SIDEWAYS = np.sin(ANGLE)
+COLUMN_RADIANS = ((np.arange(COLUMNS) + 0.5) / COLUMNS * 2 * np.pi - np.pi).astype(np.float32)
+COLUMN_SINES = np.sin(COLUMN_RADIANS)
 
 
 @dataclass(frozen=True)
 class RowModel:
-    """What the sides of each row say of it: `colours` (A, `ANGLES`, 3), and how far from that they are themselves, `spread`
-    (A, `ANGLES`), CIE Lab; and how `sure` (A,) each row is of itself, 0 where only further ones say it."""
+    """What the sides of each row say of it: `colours` (A, `COLUMNS`, 3), and how far from that they are themselves, `spread`
+    (A, `COLUMNS`), CIE Lab; and how `sure` (A,) each row is of itself, 0 where only further ones say it."""
 
     colours: NDArray[np.float32]
     spread: NDArray[np.float32]
@@ -75,11 +75,11 @@ def coloured_round(
     yoke: int | None = None,
     ring: bool = False,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """The colours (A, `ANGLES`, 3) of an unrolled part, sRGB levels: those of its `source` (A, `ANGLES`), and continued round it;
-    and how sure (A,) each row is of them, from 0 to 1.
+    """The colours (A, `COLUMNS`, 3) of an unrolled part, sRGB levels: those of its `source` (A, `COLUMNS`), and
+    continued round it; and how sure (A,) each row is of them, from 0 to 1.
 
-    `facing` (A, `ANGLES`): cosine to the viewer of each cell, negative behind. From the row `yoke` upwards a front has a neckline
-    and no back has one: there the rows below are mirrored. A `ring`, as a limb is, is told by all that is seen
+    `facing` (A, `COLUMNS`): cosine to the viewer of each cell, negative behind. From the row `yoke` upwards a front has
+    a neckline and no back has one: there the rows below are mirrored. A `ring`, as a limb is, is told by all that is seen
     of a row, and not by its sides alone. Where nothing is a source, nothing changes.
     """
     if not source.any():
@@ -87,14 +87,14 @@ def coloured_round(
     turns = row_middles(facing)
     seen, known, near = (turned_rows(each, -turns) for each in (colours, source, facing))
     weight = (
-        known.astype(np.float32) if ring else known * np.maximum(near, 0) * SIDEWAYS**2
+        known.astype(np.float32) if ring else known * np.maximum(near, 0) * COLUMN_SINES**2
     )  # sides, as far as they are well seen
-    model = row_model(seen, weight, 0.0 if ring else ACROSS)
+    model = row_model(seen, weight, 0.0 if ring else TRUNK_CROSSING_METRES)
     kind = _of_the_kind(seen, model, known)
     through = {"mirror": known.astype(np.float32), "inpaint": 0 * kind, "see_through": kind}[back]
     rows, partner = (
         np.arange(len(seen)),
-        (ANGLES // 2 - 1 - np.arange(ANGLES)) % ANGLES,
+        (COLUMNS // 2 - 1 - np.arange(COLUMNS)) % COLUMNS,
     )  # as far aside, on the other half
     if yoke is not None and back == "see_through":
         rows = np.where(rows > yoke, np.maximum(2 * yoke - rows, 0), rows)
@@ -106,11 +106,11 @@ def coloured_round(
 def with_the_other(
     own: tuple[NDArray, NDArray, NDArray], other: tuple[NDArray, NDArray, NDArray]
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """Colours (A, `ANGLES`, 3), source and facing (A, `ANGLES`) of an unrolled limb, with those of the other side's limb in rows of which
-    hardly anything is seen: both are dressed alike."""
+    """Colours (A, `COLUMNS`, 3), source and facing (A, `COLUMNS`) of an unrolled limb, with those of the other side's
+    limb in rows of which hardly anything is seen: both are dressed alike."""
     count = min(len(own[0]), len(other[0]))
-    few = own[1].sum(1) < ENOUGH
-    few[:count] &= other[1][:count].sum(1) >= ENOUGH
+    few = own[1].sum(1) < MIN_ROW_CELLS
+    few[:count] &= other[1][:count].sum(1) >= MIN_ROW_CELLS
     few[count:] = False
     found = []
     for one, instead in zip(own, other, strict=True):
@@ -122,28 +122,30 @@ def with_the_other(
 
 def row_middles(facing: NDArray[np.floating]) -> NDArray[np.intp]:
     """By how many columns (A,) from the middle one the place is away at which each row faces the viewer, smoothly along the part."""
-    towards = np.maximum(facing, 0) @ np.stack([np.cos(ANGLE), SIDEWAYS], 1)
-    smooth = _blurred(towards.astype(np.float32), KIND)
-    return np.rint(np.arctan2(smooth[:, 1], smooth[:, 0]) / (2 * np.pi) * ANGLES).astype(np.intp)
+    towards = np.maximum(facing, 0) @ np.stack([np.cos(COLUMN_RADIANS), COLUMN_SINES], 1)
+    smooth = _blurred(towards.astype(np.float32), VARIATION_WINDOW_METRES)
+    return np.rint(np.arctan2(smooth[:, 1], smooth[:, 0]) / (2 * np.pi) * COLUMNS).astype(np.intp)
 
 
 def turned_rows(values: NDArray, by: NDArray[np.intp]) -> NDArray:
-    """Rows (A, `ANGLES`, ...) each turned by so many columns (A,)."""
-    columns = (np.arange(ANGLES)[None] - by[:, None]) % ANGLES
+    """Rows (A, `COLUMNS`, ...) each turned by so many columns (A,)."""
+    columns = (np.arange(COLUMNS)[None] - by[:, None]) % COLUMNS
     return values[np.arange(len(values))[:, None], columns]
 
 
-def row_model(seen: NDArray[np.floating], weight: NDArray[np.floating], across: float = ACROSS) -> RowModel:
-    """What is `seen` (A, `ANGLES`, 3) of the sides of each row, the middle column facing the viewer; `weight` (A, `ANGLES`): how
-    well; `across`: metres along the part that are as far as the other side."""
-    sides = [_side(seen, weight * (side * SIDEWAYS > 0)) for side in (-1, 1)]
+def row_model(
+    seen: NDArray[np.floating], weight: NDArray[np.floating], across: float = TRUNK_CROSSING_METRES
+) -> RowModel:
+    """What is `seen` (A, `COLUMNS`, 3) of the sides of each row, the middle column facing the viewer; `weight` (A,
+    `COLUMNS`): how well; `across`: metres along the part that are as far as the other side."""
+    sides = [_side(seen, weight * (side * COLUMN_SINES > 0)) for side in (-1, 1)]
     values, counts = (np.stack(each, 1) for each in zip(*sides, strict=True))  # (A, 2, 3 + 1), (A, 2)
-    known, other = counts[..., None], CROSSING * counts[:, ::-1, None]
+    known, other = counts[..., None], OTHER_SIDE_WEIGHT * counts[:, ::-1, None]
     values = (known * values + other * values[:, ::-1]) / np.maximum(known + other, 1e-6)
     values = _on_both_sides(_nearest_rows(values, (known + other)[..., 0], across))
-    share = (np.clip(SIDEWAYS / BEST, -1, 1) * 0.5 + 0.5)[None, :, None]
+    share = (np.clip(COLUMN_SINES / BEST_SEEN_HALF_WIDTHS, -1, 1) * 0.5 + 0.5)[None, :, None]
     between = np.asarray((1 - share) * values[:, :1] + share * values[:, 1:], np.float32)
-    sure = np.clip(counts.max(1) / ENOUGH, 0, 1).astype(np.float32)
+    sure = np.clip(counts.max(1) / MIN_ROW_CELLS, 0, 1).astype(np.float32)
     return RowModel(between[..., :3], np.sqrt(np.maximum(between[..., 3], 0)), sure)
 
 
@@ -151,25 +153,27 @@ def _side(seen: NDArray[np.floating], weight: NDArray[np.floating]) -> tuple[NDA
     """One side's colour in each row and the square of what it varies by (A, 4), and how many cells say so (A,). What is unlike
     the others counts little."""
     told = weight.any(0)
-    seen, weight, aside = seen[:, told], weight[:, told], np.abs(SIDEWAYS[told])
+    seen, weight, aside = seen[:, told], weight[:, told], np.abs(COLUMN_SINES[told])
     trust = np.asarray(weight, np.float64)
     mean = np.zeros((len(seen), 3))
     for _ in range(ROBUST_ROUNDS):
-        count = _blurred(trust.sum(1), ROW)
-        mean[:] = _blurred(np.einsum("an,anc->ac", trust, seen), ROW) / np.maximum(count, 1e-6)[:, None]
+        count = _blurred(trust.sum(1), ROW_SMOOTHING_METRES)
+        mean[:] = (
+            _blurred(np.einsum("an,anc->ac", trust, seen), ROW_SMOOTHING_METRES) / np.maximum(count, 1e-6)[:, None]
+        )
         off = seen - mean[:, None]
-        trust = weight / (1 + np.einsum("anc,anc->an", off, off) / UNLIKE**2)
-    away = (_lab(seen) - _lab(mean[:, None])) * HUES
-    trust = trust * (aside > ASIDE)
-    varies = _blurred((trust * np.einsum("anc,anc->an", away, away)).sum(1), KIND)
-    squares = varies / np.maximum(_blurred(trust.sum(1), KIND), 1e-6)
-    return np.concatenate([mean, squares[:, None]], 1).astype(np.float32), _blurred(weight.sum(1), ROW)
+        trust = weight / (1 + np.einsum("anc,anc->an", off, off) / ROBUST_SCALE_LEVELS**2)
+    away = (_lab(seen) - _lab(mean[:, None])) * LAB_WEIGHTS
+    trust = trust * (aside > SIDE_START_HALF_WIDTHS)
+    varies = _blurred((trust * np.einsum("anc,anc->an", away, away)).sum(1), VARIATION_WINDOW_METRES)
+    squares = varies / np.maximum(_blurred(trust.sum(1), VARIATION_WINDOW_METRES), 1e-6)
+    return np.concatenate([mean, squares[:, None]], 1).astype(np.float32), _blurred(weight.sum(1), ROW_SMOOTHING_METRES)
 
 
 def _on_both_sides(values: NDArray[np.floating]) -> NDArray[np.float32]:
     """Values (A, 2, C) of a part's rows without what one side alone has there, a letter or a pocket: by how much the sides differ more
     than is usual around is taken off the one that is the odder."""
-    size = 2 * round(KIND / STEP) + 1
+    size = 2 * round(VARIATION_WINDOW_METRES / ROW_METRES) + 1
     usual = median_filter(values, (size, 1, 1), mode="nearest")
     apart = values[:, 0] - values[:, 1]
     more = apart - median_filter(apart, (size, 1), mode="nearest")
@@ -181,7 +185,7 @@ def _on_both_sides(values: NDArray[np.floating]) -> NDArray[np.float32]:
 def _nearest_rows(values: NDArray[np.floating], count: NDArray[np.floating], across: float) -> NDArray[np.float32]:
     """Values (A, 2, C) of a part's rows, those that few cells (A, 2) tell of as the nearest row has them that more do, of the same
     side, or, where that is `across` further off, of the other: no garment fades into the next."""
-    known = count >= min(ENOUGH, float(count.max()))
+    known = count >= min(MIN_ROW_CELLS, float(count.max()))
     rows = np.arange(len(values))
     places, away = np.zeros((2, len(values)), np.intp), np.full((2, len(values)), np.inf)
     for side in (0, 1):
@@ -191,48 +195,49 @@ def _nearest_rows(values: NDArray[np.floating], count: NDArray[np.floating], acr
             pair = good[np.stack([np.maximum(after - 1, 0), after])]
             nearer = np.abs(pair - rows).argmin(0)
             places[side] = pair[nearer, rows]
-            away[side] = np.abs(places[side] - rows) * STEP
+            away[side] = np.abs(places[side] - rows) * ROW_METRES
     whole = np.empty_like(values)
     for side in (0, 1):
         own = away[side] <= away[1 - side] + across
         whole[:, side] = np.where(own[:, None], values[places[side], side], values[places[1 - side], 1 - side])
-    return _blurred(whole, ROW / 2)
+    return _blurred(whole, ROW_SMOOTHING_METRES / 2)
 
 
 def _of_the_kind(seen: NDArray[np.floating], model: RowModel, known: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """How far (A, `ANGLES`), from 0 to 1, cells are of the same kind as the sides of their rows."""
-    off = np.linalg.norm((_lab(seen) - _lab(model.colours)) * HUES, axis=-1)
-    kind = known / (1 + (off / np.hypot(ALIKE, VARIES * model.spread)) ** 4)
-    size = 2 * round(EDGE / STEP) + 1
+    """How far (A, `COLUMNS`), from 0 to 1, cells are of the same kind as the sides of their rows."""
+    off = np.linalg.norm((_lab(seen) - _lab(model.colours)) * LAB_WEIGHTS, axis=-1)
+    kind = known / (1 + (off / np.hypot(MAX_SAME_COLOUR_DISTANCE, MAX_COLOUR_DEVIATIONS * model.spread)) ** 4)
+    size = 2 * round(MIXED_EDGE_METRES / ROW_METRES) + 1
     wide = np.concatenate([kind, kind, kind], 1).astype(np.float32)
     usual = np.asarray(cv2.medianBlur(wide, 5))
-    mostly = np.minimum(usual, np.clip((cv2.blur(usual, (size, size)) - MIXED) / MIXED, 0, 1))
+    mostly = np.minimum(usual, np.clip((cv2.blur(usual, (size, size)) - MIN_KIND_SHARE) / MIN_KIND_SHARE, 0, 1))
     calm = cv2.blur(cv2.erode(mostly, np.ones((size, size), np.uint8)), (size, size))
-    return np.asarray(calm[:, ANGLES : 2 * ANGLES] * known, np.float32)
+    return np.asarray(calm[:, COLUMNS : 2 * COLUMNS] * known, np.float32)
 
 
 def continued_rows(colours: NDArray[np.floating], weight: NDArray[np.floating]) -> NDArray[np.float32]:
-    """Colours (A, `ANGLES`, C) continued smoothly from where they have a `weight` (A, `ANGLES`), across the ends of rows."""
-    quarter = ANGLES // 4
+    """Colours (A, `COLUMNS`, C) continued smoothly from where they have a `weight` (A, `COLUMNS`), across the ends of
+    rows."""
+    quarter = COLUMNS // 4
     wide, there = (np.concatenate([each[:, -quarter:], each, each[:, :quarter]], 1) for each in (colours, weight))
-    return pull_push(wide, there)[:, quarter : quarter + ANGLES]
+    return pull_push(wide, there)[:, quarter : quarter + COLUMNS]
 
 
 def joined(
     filled: NDArray[np.floating], seen: NDArray[np.floating], known: NDArray[np.bool_], trust: NDArray[np.floating]
 ) -> NDArray[np.float32]:
-    """What is `filled` in, (A, `ANGLES`, 3), moved to what is `seen` where both meet, as far as that is of its kind: `trust`
-    (A, `ANGLES`)."""
+    """What is `filled` in, (A, `COLUMNS`, 3), moved to what is `seen` where both meet, as far as that is of its kind: `trust`
+    (A, `COLUMNS`)."""
     moved = continued_rows(seen - filled, trust)
     wide = np.concatenate([known, known, known], 1)
-    away = cv2.distanceTransform((~wide).astype(np.uint8), cv2.DIST_L2, 5)[:, ANGLES : 2 * ANGLES] * STEP
-    return np.asarray(filled + moved * np.exp(-away / JOINED)[..., None], np.float32)
+    away = cv2.distanceTransform((~wide).astype(np.uint8), cv2.DIST_L2, 5)[:, COLUMNS : 2 * COLUMNS] * ROW_METRES
+    return np.asarray(filled + moved * np.exp(-away / FILL_BLEND_METRES)[..., None], np.float32)
 
 
 def _blurred(values: NDArray[np.floating], metres: float) -> NDArray[np.float32]:
     """Values (A, ...) averaged along a part."""
     flat = np.ascontiguousarray(values.reshape(len(values), -1), np.float32)
-    out = cv2.GaussianBlur(flat, (1, 0), 1, sigmaY=metres / STEP, borderType=cv2.BORDER_REFLECT)
+    out = cv2.GaussianBlur(flat, (1, 0), 1, sigmaY=metres / ROW_METRES, borderType=cv2.BORDER_REFLECT)
     return np.asarray(out, np.float32).reshape(values.shape)
 
 

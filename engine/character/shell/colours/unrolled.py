@@ -19,17 +19,17 @@ from engine.geometry.joint_names import SIDES
 from engine.imaging.filling.nearest import nearest_in
 from engine.render.rasteriser import Raster, rasterise
 
-STEP = 0.0025
+ROW_METRES = 0.0025
 """Metres of a row, on the mean body."""
-ANGLES = 384
+COLUMNS = 384
 """Columns once round."""
-BELONGS = 0.02
+MIN_PART_WEIGHT = 0.02
 """Share of a part in what moves a vertex, from which on it has a place on the part."""
-ARMPIT = 0.07
+ARMPIT_DEPTH_METRES = 0.07
 """Metres from the shoulder's joint down to where necklines have ended."""
-HIPS = 0.03
+HIP_BLEND_METRES = 0.03
 """Metres above the crotch at which hips begin to be the trunk's, and over which they come to be it."""
-CROWN = 0.1
+CROWN_RADIUS_METRES = 0.1
 """Metres of a head's radius: above its middle, rows are its latitudes."""
 
 
@@ -42,8 +42,8 @@ class UnrolledPart:
     along : (V,) float32, rows from the part's beginning.
     angle : (V,) float32, radians round its axis; 0 in front, or above on arms and feet, and growing to the person's left, or forward.
     yoke : of the trunk, the row above which a front has a neckline.
-    raster : which of the mesh's triangles is outermost in each cell, (rows, `ANGLES`); cells that none covers have the nearest one.
-    covered : (rows, `ANGLES`) bool, which cells have one of their own.
+    raster : which of the mesh's triangles is outermost in each cell, (rows, `COLUMNS`); cells that none covers have the
+    nearest one. covered : (rows, `COLUMNS`) bool, which cells have one of their own.
     """
 
     name: str
@@ -71,9 +71,9 @@ def unrolled_parts() -> tuple[UnrolledPart, ...]:
     depth = z - spine[:, 2]
     legs = share["left_leg"] + share["right_leg"]
     crotch = float(y[share["torso"] > legs].min())
-    hips = np.clip((y - crotch) / HIPS - 1, 0, 1) * legs  # both hips are one ring
+    hips = np.clip((y - crotch) / HIP_BLEND_METRES - 1, 0, 1) * legs  # both hips are one ring
     trunk = _unrolled("torso", mesh, share["torso"] + hips, y, np.arctan2(x, depth), np.hypot(x, depth))
-    yoke = int((joint["LeftArm"][1] - ARMPIT - float(y[trunk.share > BELONGS].min())) / STEP)
+    yoke = int((joint["LeftArm"][1] - ARMPIT_DEPTH_METRES - float(y[trunk.share > MIN_PART_WEIGHT].min())) / ROW_METRES)
     found.append(replace(trunk, yoke=yoke))
     for side in SIDES:
         arm = [joint[side + name] for name in ("Arm", "ForeArm", "Hand", "HandMiddle1", "HandMiddle3")]
@@ -106,7 +106,7 @@ def _head(
     middle = np.interp(body[:, 1], [joint["Neck"][1], joint["Head"][1] + 0.03], [joint["Neck"][2], depth])
     away = np.hypot(body[:, 0], body[:, 2] - middle)
     above = body[:, 1] - level
-    along = np.where(above > 0, level + CROWN * np.arctan2(above, away), body[:, 1])
+    along = np.where(above > 0, level + CROWN_RADIUS_METRES * np.arctan2(above, away), body[:, 1])
     return middle, along, np.where(above > 0, np.hypot(above, away), away)
 
 
@@ -125,23 +125,23 @@ def _unrolled(
     angle: NDArray[np.float64],
     radius: NDArray[np.float64],
 ) -> UnrolledPart:
-    belongs = share > BELONGS
+    belongs = share > MIN_PART_WEIGHT
     first = float(along[belongs].min())
-    row = (along - first) / STEP
+    row = (along - first) / ROW_METRES
     rows = int(row[belongs].max()) + 2
     chosen = np.flatnonzero(belongs[mesh.triangles].all(1))
     corners = mesh.triangles[chosen]
-    columns = unwrapped(angle[corners]) / (2 * np.pi) * ANGLES
-    flat = np.ptp(columns, axis=1) < ANGLES / 2  # what lies round the end of the axis has no place
+    columns = unwrapped(angle[corners]) / (2 * np.pi) * COLUMNS
+    flat = np.ptp(columns, axis=1) < COLUMNS / 2  # what lies round the end of the axis has no place
     chosen, corners, columns = chosen[flat], corners[flat], columns[flat]
-    places = np.stack([columns + ANGLES / 2 - 0.5, row[corners] - 0.5, -radius[corners]], -1)
-    copies = np.concatenate([places + np.array([turn * ANGLES, 0, 0]) for turn in (0, -1, 1)]).reshape(-1, 3)
-    drawn = rasterise(copies, np.arange(len(copies)).reshape(-1, 3), (rows, ANGLES))
+    places = np.stack([columns + COLUMNS / 2 - 0.5, row[corners] - 0.5, -radius[corners]], -1)
+    copies = np.concatenate([places + np.array([turn * COLUMNS, 0, 0]) for turn in (0, -1, 1)]).reshape(-1, 3)
+    drawn = rasterise(copies, np.arange(len(copies)).reshape(-1, 3), (rows, COLUMNS))
     covered = drawn.triangle >= 0
     which = np.where(covered, chosen[drawn.triangle % max(len(chosen), 1)], -1).astype(np.int32)
     wide = np.concatenate([covered, covered, covered], 1)
-    y, x = (each[:, ANGLES : 2 * ANGLES] for each in nearest_in(wide))
-    x = x % ANGLES
+    y, x = (each[:, COLUMNS : 2 * COLUMNS] for each in nearest_in(wide))
+    x = x % COLUMNS
     raster = Raster(which[y, x], drawn.barycentrics[y, x], drawn.depth[y, x])
     return UnrolledPart(
         name, share.astype(np.float32), row.astype(np.float32), angle.astype(np.float32), raster, covered

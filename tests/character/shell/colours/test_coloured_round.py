@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from engine.character.shell.colours.round import ANGLE, SIDEWAYS, coloured_round, with_the_other
-from engine.character.shell.colours.unrolled import ANGLES
+from engine.character.shell.colours.round import COLUMN_RADIANS, COLUMN_SINES, coloured_round, with_the_other
+from engine.character.shell.colours.unrolled import COLUMNS
 
 ROWS = 160
 NAVY, RED, WHITE = np.array([20, 30, 60]), np.array([220, 30, 40]), np.array([235, 235, 230])
-FACING = np.broadcast_to(np.cos(ANGLE), (ROWS, ANGLES)).astype(np.float32)
+FACING = np.broadcast_to(np.cos(COLUMN_RADIANS), (ROWS, COLUMNS)).astype(np.float32)
 SOURCE = FACING > 0.22
 BEHIND = FACING < -0.3
 
 
 def roll(*bands: tuple[slice, NDArray[np.int_]], ground: NDArray[np.int_] = NAVY) -> NDArray[np.float32]:
-    cloth = np.empty((ROWS, ANGLES, 3), np.float32)
+    cloth = np.empty((ROWS, COLUMNS, 3), np.float32)
     cloth[:] = ground
     for rows, colour in bands:
         cloth[rows] = colour
@@ -40,7 +40,7 @@ def test_stripes_go_round_and_what_is_seen_stays() -> None:
 
 def test_a_tie_is_not_on_the_back_but_for_whoever_wants_the_front_mirrored() -> None:
     cloth = roll()
-    tie = np.broadcast_to(np.abs(SIDEWAYS) < 0.15, SOURCE.shape) & (FACING > 0) & (np.arange(ROWS) > 40)[:, None]
+    tie = np.broadcast_to(np.abs(COLUMN_SINES) < 0.15, SOURCE.shape) & (FACING > 0) & (np.arange(ROWS) > 40)[:, None]
     cloth[tie] = RED
     found = painted(cloth)
     assert (np.abs(found[BEHIND] - NAVY).max(-1) > 6).mean() < 0.002  # but for its corners
@@ -50,14 +50,14 @@ def test_a_tie_is_not_on_the_back_but_for_whoever_wants_the_front_mirrored() -> 
 
 
 def test_checks_are_on_the_back_as_on_the_front_and_inpainted_ones_are_not() -> None:
-    checks = ((np.arange(ROWS)[:, None] // 8 + np.arange(ANGLES) // 8) % 2)[..., None]
+    checks = ((np.arange(ROWS)[:, None] // 8 + np.arange(COLUMNS) // 8) % 2)[..., None]
     cloth = (checks * WHITE + (1 - checks) * np.array([150, 150, 150])).astype(np.float32)
     contrast = {back: painted(cloth, back=back)[BEHIND].std() for back in ("see_through", "inpaint")}
     assert contrast["see_through"] > 0.8 * cloth.std() > 5 * contrast["inpaint"] - 20
 
 
 def test_light_from_one_side_has_no_border_behind() -> None:
-    light = (0.6 + 0.4 * SIDEWAYS)[None, :, None]
+    light = (0.6 + 0.4 * COLUMN_SINES)[None, :, None]
     found = painted((light * np.array([180, 160, 140])).repeat(ROWS, 0).astype(np.float32))
     row = found[ROWS // 2, :, 0]
     assert np.abs(np.diff(row, append=row[:1])).max() < 6
@@ -79,9 +79,9 @@ def test_nothing_seen_is_nothing_changed() -> None:
 
 
 def test_whoever_is_turned_has_a_tie_seen_aside_not_on_the_back() -> None:
-    turned = ANGLES // 8
+    turned = COLUMNS // 8
     cloth = roll()
-    cloth[:, np.abs(SIDEWAYS * (np.cos(ANGLE) > 0) + 2 * (np.cos(ANGLE) <= 0)) < 0.1] = RED
+    cloth[:, np.abs(COLUMN_SINES * (np.cos(COLUMN_RADIANS) > 0) + 2 * (np.cos(COLUMN_RADIANS) <= 0)) < 0.1] = RED
     facing, source = np.roll(FACING, turned, 1), np.roll(SOURCE, turned, 1)
     found = coloured_round(cloth, source, facing)[0]
     assert np.abs(found[np.roll(BEHIND, turned, 1)] - NAVY).max() < 8
@@ -89,7 +89,7 @@ def test_whoever_is_turned_has_a_tie_seen_aside_not_on_the_back() -> None:
 
 def test_what_is_hidden_of_a_sleeve_is_as_the_other_side_s() -> None:
     other = roll((slice(0, 80), WHITE), (slice(120, ROWS), RED))
-    other[:, (ANGLE > 0.2) & (ANGLE < 0.5)] = WHITE
+    other[:, (COLUMN_RADIANS > 0.2) & (COLUMN_RADIANS < 0.5)] = WHITE
     hidden = (np.arange(ROWS) > 40)[:, None] & np.ones_like(SOURCE)
     own = other[:, ::-1].copy()
     own[hidden] = 255
@@ -106,7 +106,7 @@ def test_what_is_seen_of_a_sleeve_is_its_own() -> None:
 
 def test_a_limb_of_which_one_side_is_seen_is_a_ring_of_that() -> None:
     cloth = roll((slice(0, 80), WHITE))
-    left = np.broadcast_to(ANGLE < 0, SOURCE.shape) & SOURCE
+    left = np.broadcast_to(COLUMN_RADIANS < 0, SOURCE.shape) & SOURCE
     source = np.where((np.arange(ROWS) < 70)[:, None], SOURCE & ~left, SOURCE)
     found = coloured_round(cloth, source, FACING, ring=True)[0]
     assert np.abs(found[:64] - WHITE).max() < 6
@@ -114,7 +114,7 @@ def test_a_limb_of_which_one_side_is_seen_is_a_ring_of_that() -> None:
 
 def test_a_limb_of_which_a_strip_of_its_middle_is_seen_is_a_ring_of_that() -> None:
     cloth = roll((slice(0, 80), WHITE))
-    strip = np.broadcast_to(np.abs(ANGLE) < 0.12, SOURCE.shape)
+    strip = np.broadcast_to(np.abs(COLUMN_RADIANS) < 0.12, SOURCE.shape)
     source = np.where((np.arange(ROWS) < 84)[:, None], SOURCE & strip, SOURCE)
     found = coloured_round(cloth, source, FACING, ring=True)[0]
     assert np.abs(found[:70] - WHITE).max() < 6

@@ -14,7 +14,7 @@ from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import load_human
 from engine.character.parts.label_map import Labels
 from engine.character.shell.colours.evidence import witness
-from engine.character.shell.colours.paint import SIZE, paint_shell, texels
+from engine.character.shell.colours.paint import TEXTURE_SIZE_TEXELS, paint_shell, texels
 from engine.character.shell.shell import Shell
 from engine.character.shell.template_mesh import template_mesh
 from engine.render.attributes import interpolate
@@ -64,7 +64,7 @@ def test_all_of_somebody_in_one_colour_is_in_it_and_nothing_of_the_wall(
     shell, silhouette, labels = seen
     rgb = np.where(silhouette.mask[..., None], np.array(CLOTH), np.array(WALL)).astype(np.uint8)
     texture = paint_shell(rgb, silhouette, labels, shell)
-    assert texture.shape == (SIZE, SIZE, 3) and texture.dtype == np.uint8
+    assert texture.shape == (TEXTURE_SIZE_TEXELS, TEXTURE_SIZE_TEXELS, 3) and texture.dtype == np.uint8
     assert np.abs(texture.astype(int) - CLOTH).max() <= 2
 
 
