@@ -35,8 +35,8 @@ def _rehearse(folder: Path) -> None:
     from engine.media.image import write_image
 
     (folder / "out").mkdir()
-    write_image(folder / "photo.png", sample_picture())
-    options = CharacterOptions.model_validate({"seconds": 1})
+    write_image(folder / "photo.png", sample_picture(400))
+    options = CharacterOptions.model_validate({"seconds": 1, "fps": 12, "triangles": 15_000})
     with Run() as run:
         _work({"photo": folder / "photo.png"}, options, folder / "out", run)
 
