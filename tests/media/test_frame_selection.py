@@ -23,7 +23,7 @@ from engine.media.frame_selection import (
 )
 from engine.media.video import read_video
 
-SIZE = (320, 180)
+SIZE = (160, 90)
 
 
 def panned(places: NDArray[np.floating], seed: int = 3) -> list[NDArray[np.uint8]]:
