@@ -28,7 +28,7 @@ ENDS = {
     **{f"{side}Leg": f"{side}Foot" for side in ("Left", "Right")},
 }
 """Where bones end: the joint at the other end."""
-MOST_BONES = 4
+MAX_VERTEX_INFLUENCES = 4
 """Influences of a vertex."""
 
 Directions = Mapping[str, tuple[float, float, float]]

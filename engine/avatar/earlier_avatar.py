@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.acting import FILMED
 from engine.avatar.avatar import Avatar
-from engine.avatar.mesh import MAX_INFLUENCES
+from engine.avatar.mesh import MAX_VERTEX_INFLUENCES
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import FACE_UNITS, load_rig
 from engine.errors import InputError
@@ -34,7 +34,7 @@ MAX_TRIANGLES = 40_000
 """More than any avatar has."""
 MAX_TEXTURE_SIDE = 8192
 MAX_MORPHS = 200
-FARTHEST = 20.0
+MAX_BODY_DISTANCE_METRES = 20.0
 """Metres: nothing of a person is farther from the ground's middle."""
 
 Array = NDArray[np.float64]
@@ -96,7 +96,7 @@ def _mesh(
         raise ValueError("its triangles are others")
     uv, bones, weights = (accessors.numbers(at[name]) for name in ("TEXCOORD_0", "JOINTS_0", "WEIGHTS_0"))
     shapes = [uv.shape, bones.shape, weights.shape]
-    if shapes != [(count, 2), (count, MAX_INFLUENCES), (count, MAX_INFLUENCES)]:
+    if shapes != [(count, 2), (count, MAX_VERTEX_INFLUENCES), (count, MAX_VERTEX_INFLUENCES)]:
         raise ValueError("its attributes are others")
     total = weights.sum(1, keepdims=True)
     if bones.max() >= len(skeleton.names) or min(bones.min(), weights.min()) < 0 or total.min() < 0.5:
@@ -179,6 +179,6 @@ def _sampler(animation: Part, channel: Part) -> Any:
 
 def _near(places: NDArray[np.floating]) -> NDArray[np.float32]:
     """Places (N, 3) of a person. Raises ValueError where they are none."""
-    if places.ndim != 2 or places.shape[1] != 3 or np.abs(places).max() > FARTHEST:
+    if places.ndim != 2 or places.shape[1] != 3 or np.abs(places).max() > MAX_BODY_DISTANCE_METRES:
         raise ValueError("it is no person")
     return np.asarray(places, np.float32)

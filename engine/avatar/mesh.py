@@ -25,7 +25,7 @@ EYE_JOINTS = {"LeftEye": "left_eye", "RightEye": "right_eye"}
 """The joint of each eyeball and the part of the template that it is. An eyeball is rigid, which its weights in the source are
 not to the last percent."""
 
-MAX_INFLUENCES = 4
+MAX_VERTEX_INFLUENCES = 4
 """Joints that move a vertex, at most: what game engines take."""
 
 
@@ -116,10 +116,11 @@ def morphs_of(surface: Surface, displacements: Mapping[str, NDArray[np.floating]
 
 
 def _strongest(bones: NDArray[np.uint8], weights: NDArray[np.float32]) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
-    """The `MAX_INFLUENCES` strongest of each vertex' influences (N, K), which stand strongest first, summing to one."""
-    kept = np.zeros((len(bones), MAX_INFLUENCES), np.float32)
-    width = min(MAX_INFLUENCES, weights.shape[1])
+    """The `MAX_VERTEX_INFLUENCES` strongest of each vertex' influences (N, K), which stand strongest first, summing to
+    one."""
+    kept = np.zeros((len(bones), MAX_VERTEX_INFLUENCES), np.float32)
+    width = min(MAX_VERTEX_INFLUENCES, weights.shape[1])
     kept[:, :width] = weights[:, :width]
-    joints = np.zeros((len(bones), MAX_INFLUENCES), np.uint8)
+    joints = np.zeros((len(bones), MAX_VERTEX_INFLUENCES), np.uint8)
     joints[:, :width] = np.where(kept[:, :width] > 0, bones[:, :width], 0)
     return joints, kept / kept.sum(1, keepdims=True)

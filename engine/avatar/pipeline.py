@@ -68,7 +68,7 @@ PREVIEW_SPACING = 0.006
 
 MAX_FURTHER = 4
 """Further clips, at most: each takes its minutes."""
-UNMEASURED = frozenset({"person_not_measured"})
+UNMEASURED_CODES = frozenset({"person_not_measured"})
 """What makes a clip beside the body's, whose cameras were found, one that is not used: the body alone is an avatar, too."""
 
 Clipped = tuple[ChosenFrames, ClipScan]
@@ -195,7 +195,7 @@ def _scanned_if_measured(
         try:
             found.append(_scanned(frames, cameras, (), grown, False, run))
         except InputError as refused:
-            if refused.code not in UNMEASURED:
+            if refused.code not in UNMEASURED_CODES:
                 raise
             run.warn(code, f"A clip beside that of the body is not used. {refused.detail}")
     return found

@@ -19,9 +19,9 @@ FIELD_OF_VIEW = np.radians(28.0)
 """Along the picture's height: a long lens, as for portraits, so that what is near is not large."""
 FRAMING_MARGIN = 1.12
 """By how much more than the avatar the picture holds, in height and in width."""
-EYE_HEIGHT = 0.6
+CAMERA_HEIGHT_SHARE = 0.6
 """Of the avatar's height: where the camera is; it looks at the middle."""
-BACKGROUND = ((232, 234, 236), (178, 182, 187))
+BACKGROUND_COLOURS = ((232, 234, 236), (178, 182, 187))
 """Colours (sRGB) at the top and at the bottom of what is behind it."""
 
 
@@ -58,7 +58,7 @@ def orbit_camera(posed: NDArray[np.floating], size: tuple[int, int], angle: floa
     tall, wide = float(high[1] - low[1]), float(2 * np.hypot(*(posed - middle)[:, [0, 2]].T).max())
     focal = height / 2 / np.tan(FIELD_OF_VIEW / 2)
     distance = FRAMING_MARGIN * focal * max(tall / height, wide / width) + wide / 2
-    away = np.array([distance * np.sin(angle), (EYE_HEIGHT - 0.5) * tall, distance * np.cos(angle)])
+    away = np.array([distance * np.sin(angle), (CAMERA_HEIGHT_SHARE - 0.5) * tall, distance * np.cos(angle)])
     lens = Camera((0.0, 0.0, 0.0), focal, ((width - 1) / 2, (height - 1) / 2), (height, width))
     return lens.aimed(middle + away, middle)
 
@@ -66,6 +66,6 @@ def orbit_camera(posed: NDArray[np.floating], size: tuple[int, int], angle: floa
 def backdrop(size: tuple[int, int]) -> NDArray[np.uint8]:
     """What is behind the avatar: a plain wall, a little darker below. (h, w, 3) uint8 for `size` (width, height)."""
     width, height = size
-    top, bottom = np.array(BACKGROUND, np.float32)
+    top, bottom = np.array(BACKGROUND_COLOURS, np.float32)
     rows = top + (bottom - top) * np.linspace(0, 1, height, dtype=np.float32)[:, None]
     return np.repeat(rows[:, None].round().astype(np.uint8), width, axis=1)

@@ -76,7 +76,7 @@ STAGES_PER_PERSON = ("cut_out", "fit_template", "label_parts", "build_mesh", "ma
 """Those that come once for each person."""
 MAX_PEOPLE = 6
 """People who are woken together."""
-MOST_BYTES = 10_000_000
+MAX_BYTES = 10_000_000
 """Of a character's GLB; levels of detail are files of their own."""
 LEAVE_OUT = ("not_full_body", "person_too_small", "person_lying")
 """Of all, those who are refused for this stay in the picture."""
@@ -314,11 +314,11 @@ def write_film(
 
 
 def write_small_glb(path: Path, mesh: SkinnedMesh, clips: Sequence[Clip], run: Run) -> None:
-    """A GLB of at most `MOST_BYTES`; the report says what that took, or that it was not to be had."""
+    """A GLB of at most `MAX_BYTES`; the report says what that took, or that it was not to be had."""
     written = write_glb(
-        path, CharacterModel(mesh, clips), synthetic=run.mark_synthetic, most=MOST_BYTES, check=run.check
+        path, CharacterModel(mesh, clips), synthetic=run.mark_synthetic, most=MAX_BYTES, check=run.check
     )
-    if written.size > MOST_BYTES:
+    if written.size > MAX_BYTES:
         run.warn(
             "glb_too_large",
             f"{path.name} has {written.size / 1e6:.1f} MB, however its texture is written; fewer triangles help, or a shorter motion.",
@@ -328,7 +328,7 @@ def write_small_glb(path: Path, mesh: SkinnedMesh, clips: Sequence[Clip], run: R
         run.warn(
             "texture_reduced",
             f"The texture of {path.name} has {size}, at JPEG quality {written.quality}: the file would have had more than"
-            f" {MOST_BYTES / 1e6:.0f} MB.",
+            f" {MAX_BYTES / 1e6:.0f} MB.",
         )
 
 

@@ -21,7 +21,7 @@ WHITE_PERCENTILE = 60
 """Of the light beside an iris, from which on it is the white's: lids shade the rest."""
 IRIS_MARGIN = 1.2
 """Radii of the iris within which nothing is white."""
-MIN_PIXELS = 12
+MIN_WHITE_PIXELS = 12
 
 
 def white_tint(
@@ -33,7 +33,7 @@ def white_tint(
     hue = np.log(skin / float(skin @ LUMINANCE_WEIGHTS))
     whites = np.concatenate([eye_whites(rgb, mesh, side) for side in range(2)])
     share = USUAL_SHARE
-    if len(whites) >= MIN_PIXELS and float(hue @ hue) > 1e-4:
+    if len(whites) >= MIN_WHITE_PIXELS and float(hue @ hue) > 1e-4:
         white = np.maximum(whites.mean(axis=0), 1.0)
         share = float(np.log(white / float(white @ LUMINANCE_WEIGHTS)) @ hue) / float(hue @ hue)
     tint = np.exp(float(np.clip(share, *shares)) * hue)

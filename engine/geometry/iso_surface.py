@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]])
 """Of a cell, by their numbers."""
-LEAST_SHARE = 0.02
+MIN_EDGE_SHARE = 0.02
 """Share of an edge from its ends at which the surface may cross it, at least: no triangle becomes a needle."""
 
 
@@ -39,7 +39,7 @@ def iso_surface(
     triangles = triangles.reshape(-1, 3)
     start, end = (np.stack(np.unravel_index(ends, field.shape), 1) for ends in crossed.T)
     inner, outer = field.ravel()[crossed[:, 0]], field.ravel()[crossed[:, 1]]
-    share = np.clip(inner / np.maximum(inner - outer, 1e-300), LEAST_SHARE, 1 - LEAST_SHARE)
+    share = np.clip(inner / np.maximum(inner - outer, 1e-300), MIN_EDGE_SHARE, 1 - MIN_EDGE_SHARE)
     places = start + share[:, None] * (end - start)
     a, b, c = (places[triangles[:, k]] for k in range(3))
     outwards = (end - start)[triangles].sum(1)

@@ -17,12 +17,12 @@ from scipy.spatial import cKDTree
 
 from engine.geometry.point_cloud import thinning
 
-NEIGHBOURS = 160
+MAX_NEIGHBOURS = 160
 """Points of which a plane is made, at most."""
 FEWEST, FEWEST_SHARE = 8, 0.35
 """Those without which there is none, and the share of the usual number without which there is none: at a border there are half as
 many as elsewhere, and beside a sheet few."""
-ASKED = 12
+ASKED_POINTS = 12
 """Points of a sheet that are asked about a place."""
 KERNEL_WIDTH = 0.7
 """Of the Gaussian by which they are asked, in distances of the nearest of them, where that is more than they are apart."""
@@ -39,7 +39,7 @@ class PointSheet:
     def distances(self, places: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(M,) how far `places` (M, 3) are from the sheet, or from what it would be if it went on, and (M,) how far from its
         points along itself: about 0 where it is, growing beyond its border."""
-        count = min(ASKED, len(self.points))
+        count = min(ASKED_POINTS, len(self.points))
         found = cKDTree(self.points).query(places, count)
         nearest, which = (np.reshape(one, (-1, count)) for one in found)
         width = np.maximum(KERNEL_WIDTH * nearest[:, :1], self.spacing)
@@ -65,7 +65,7 @@ def sheet_through(points: NDArray[np.floating], radius: float, rounds: int, spac
 
 def _on_planes(points: NDArray[np.float64], radius: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Points moved onto the planes of those around them, and the planes' normals; lone ones left out."""
-    count = min(NEIGHBOURS, len(points))
+    count = min(MAX_NEIGHBOURS, len(points))
     if count < FEWEST:
         return points[:0], points[:0]
     found = cKDTree(points).query(points, count, distance_upper_bound=radius)

@@ -16,7 +16,7 @@ EDGE_SHARE, MIN_SLOPE = 0.35, 2.0
 """Of the steepest slope in what is looked at, from which on there is an edge, and not grain; and grey levels a pixel that it has at least."""
 SHARP_PERCENTILE = 30
 """Of the edges' blurs: the sharper ones say how sharp the picture is, the others are soft in themselves."""
-MAX_BLUR = 4.0
+MAX_BLUR_PIXELS = 4.0
 """Pixels that are told, at most."""
 OWN_BLUR = 0.5
 """Pixels, of slopes taken over two pixels, and of the pixels themselves."""
@@ -33,7 +33,7 @@ def edge_blur(grey: NDArray[np.number], mask: NDArray[np.bool_]) -> float | None
     if found.sum() < MIN_EDGES:
         return None
     ratio = slope[found] / np.maximum(softer[found], 1e-3)
-    blur = REBLUR / np.sqrt(np.maximum(ratio**2 - 1, (REBLUR / MAX_BLUR) ** 2))
+    blur = REBLUR / np.sqrt(np.maximum(ratio**2 - 1, (REBLUR / MAX_BLUR_PIXELS) ** 2))
     return float(np.sqrt(max(float(np.percentile(blur, SHARP_PERCENTILE)) ** 2 - OWN_BLUR**2, 0.0)))
 
 

@@ -21,11 +21,11 @@ from engine.perception.landmarks import LIPS_OUTER
 
 EYES_APART = 160
 """Pixels between the outer corners of the eyes in the copy."""
-LEAST_FOR_BRIDGE = 80
+MIN_BRIDGE_EYE_PIXELS = 80
 """Pixels between them in the picture from which a bridge can be seen ..."""
-LEAST_FOR_HAIR = 40
+MIN_HAIR_EYE_PIXELS = 40
 """... and hair."""
-MAX_TURN = 0.5
+MAX_NOSE_OFFSET = 0.5
 """By how much of half their distance the tip of the nose may stand off their middle: of a face seen from the side nothing is told."""
 OUTER_CORNERS, INNER_CORNERS, NOSE_TIP = (33, 263), (133, 362), 4
 """Vertices of the face mesh; the person's right eye's first."""
@@ -35,13 +35,13 @@ BRIDGE_REACH = 0.25
 """Of the distance between the inner corners, how far a bridge reaches to either side."""
 LINE_SIGMA = 1.5
 """Pixels of the copy, half the width of a line."""
-COLUMNS = 21
+LINE_COLUMNS = 21
 """Places across the nose where a line is looked for, each within a pixel of the place before."""
-DARKEST = 8.0
+LOG_OFFSET_LEVELS = 8.0
 """Grey levels that are added before the logarithm: noise of black is none of a line."""
 ABOVE_LIP = ((2, 98, 92, 0, 167, 165), (2, 327, 322, 0, 393, 391))
 """Corners of the skin between nose and lip, of the right and the left half."""
-CHEEKS = ((50, 101, 205, 36, 142, 187), (280, 330, 425, 266, 371, 411))
+CHEEK_VERTICES = ((50, 101, 205, 36, 142, 187), (280, 330, 425, 266, 371, 411))
 """Those of the cheeks."""
 LIP_MARGIN = 7
 """Pixels of the copy about the lips that are none of the skin."""
@@ -65,12 +65,12 @@ def face_wear(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> FaceWear:
     right, left = places[list(OUTER_CORNERS)]
     apart = float(np.linalg.norm(left - right))
     if (
-        apart < LEAST_FOR_HAIR
-        or abs((places[NOSE_TIP] - (left + right) / 2) @ (left - right)) > MAX_TURN * apart**2 / 2
+        apart < MIN_HAIR_EYE_PIXELS
+        or abs((places[NOSE_TIP] - (left + right) / 2) @ (left - right)) > MAX_NOSE_OFFSET * apart**2 / 2
     ):
         return FaceWear()
     copy, at = _copy(rgb, places)
-    return FaceWear(_bridge(copy, at) if apart >= LEAST_FOR_BRIDGE else nan, _lip_darkness(copy, at))
+    return FaceWear(_bridge(copy, at) if apart >= MIN_BRIDGE_EYE_PIXELS else nan, _lip_darkness(copy, at))
 
 
 def _copy(rgb: NDArray[np.uint8], places: NDArray[np.float64]) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
@@ -97,13 +97,13 @@ def _warped(rgb: NDArray[np.uint8], places: NDArray[np.float64]) -> tuple[NDArra
 
 
 def _bridge(copy: NDArray[np.uint8], at: NDArray[np.float64]) -> float:
-    grey = np.log(copy @ np.array([0.299, 0.587, 0.114], np.float32) + DARKEST)
+    grey = np.log(copy @ np.array([0.299, 0.587, 0.114], np.float32) + LOG_OFFSET_LEVELS)
     root = at[list(NOSE_ROOT)]
     along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(root, axis=0), axis=1))])
     steps = np.linspace(0, along[-1], max(2, int(along[-1])))
     middle = np.column_stack([np.interp(steps, along, root[:, k]) for k in (0, 1)])
     right, left = at[list(INNER_CORNERS)]
-    across = np.linspace(-BRIDGE_REACH, BRIDGE_REACH, COLUMNS)[:, None] * (left - right)
+    across = np.linspace(-BRIDGE_REACH, BRIDGE_REACH, LINE_COLUMNS)[:, None] * (left - right)
     places = middle[:, None] + across
     lines = map_coordinates(grey, [places[..., 1], places[..., 0]], order=1, mode="nearest")
     curved = LINE_SIGMA**2 * gaussian_filter1d(lines - lines.mean(), LINE_SIGMA, axis=0, order=2)
@@ -124,7 +124,7 @@ def _lip_darkness(copy: NDArray[np.uint8], at: NDArray[np.float64]) -> float:
     light = np.log(srgb_light(copy.astype(np.float32) / 255) + 1e-3).mean(2)
     lips = cv2.dilate(_filled(at[list(LIPS_OUTER)]), np.ones((LIP_MARGIN, LIP_MARGIN), np.uint8)) > 0
     darker = []
-    for above, cheek in zip(ABOVE_LIP, CHEEKS, strict=True):
+    for above, cheek in zip(ABOVE_LIP, CHEEK_VERTICES, strict=True):
         skin, beside = (_filled(at[list(corners)]) > 0 for corners in (above, cheek))
         skin &= ~lips
         if min(int(skin.sum()), int(beside.sum())) < MIN_SKIN:

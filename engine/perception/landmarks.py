@@ -22,7 +22,7 @@ FIDUCIALS: tuple[tuple[int, ...], ...] = tuple(
 """The 68 points of the iBUG scheme as mesh vertices; where two are named, their mean."""
 _FIRST, _SECOND = np.array([(v[0], v[-1]) for v in FIDUCIALS]).T
 
-JAW, BROWS, NOSE, EYES, OUTER_LIPS, INNER_LIPS = (
+JAW_POINTS, BROW_POINTS, NOSE_POINTS, EYE_POINTS, OUTER_LIPS, INNER_LIPS = (
     slice(0, 17),
     slice(17, 27),
     slice(27, 36),

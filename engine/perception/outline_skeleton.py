@@ -30,9 +30,9 @@ SMOOTHING = 0.008
 """Standard deviation, as a share of that side, by which the outline is smoothed first: wobbly lines have no limbs."""
 MAX_ENDS = 11
 """Ends of the axis that are tried as head, hands and feet: those that stick out furthest."""
-ROUND = 1.3
+ROUND_RADII = 1.3
 """Radii of what is round within which ends of the axis are no more than its bumps: hair on a head, fingers of a hand."""
-WIDER = 1.3
+ROUND_WIDTH_RATIO = 1.3
 """How much wider than what is around it something is that is round."""
 TIPS_APART = 0.06
 """How far ends are apart at least, as a share of the outline's longer side."""
@@ -44,13 +44,13 @@ MAX_COST = 1.2
 UNLIKE_COST, ASTRAY_COST, LEFT_OVER_COST = 0.5, 1.0, 3.0
 """What it costs where a limb is e times as long as the other, or an arm leaves the trunk a figure's size further down than the other; where
 the head is, or the feet are, as far from where the axis is highest or lowest; and if nothing of the axis were used."""
-UPRIGHT = 0.8
+MIN_UPRIGHT_COSINE = 0.8
 """Cosine of the angle with the vertical from which on somebody is upright."""
-MOST_UNLIKE = 2.0
+MAX_LIMB_LENGTH_RATIO = 2.0
 """How many times as long as the other one arm, or leg, is at most."""
-ELBOW, WRIST, KNEE, ANKLE = 0.48, 0.88, 0.5, 0.93
+ELBOW_SHARE, WRIST_SHARE, KNEE_SHARE, ANKLE_SHARE = 0.48, 0.88, 0.5, 0.93
 """Where on its way from the shoulder or hip to the end a joint lies."""
-EYES, EARS, MOUTH = 0.35, 0.8, 0.45
+EYE_OFFSET_RADII, EAR_OFFSET_RADII, MOUTH_OFFSET_RADII = 0.35, 0.8, 0.45
 """How far from the middle of the head eyes and ears lie, and the mouth beneath it, as shares of its radius."""
 
 
@@ -150,7 +150,7 @@ def _ends(axis: MedialAxis) -> _Ends:
     distance = np.linalg.norm(axis.points[:, None] - axis.points, axis=-1)
     near = distance <= 2 * axis.radius[:, None]
     largest, least = np.where(near, axis.radius, 0).max(1), np.where(near, axis.radius, np.inf).min(1)
-    wide = (axis.radius > TIPS_APART * axis.size) & (axis.radius > WIDER * least)
+    wide = (axis.radius > TIPS_APART * axis.size) & (axis.radius > ROUND_WIDTH_RATIO * least)
     round_middles = np.flatnonzero((axis.radius >= largest) & wide)
     away = np.linalg.norm(axis.points - axis.points.mean(0), axis=1) + axis.radius
     kept: list[int] = []
@@ -158,7 +158,7 @@ def _ends(axis: MedialAxis) -> _Ends:
         *sorted(round_middles.tolist(), key=lambda k: -float(axis.radius[k])),
         *sorted(np.flatnonzero(np.diff(axis.graph.indptr) == 1).tolist(), key=lambda k: -float(away[k])),
     ):
-        if all(distance[one, other] > max(ROUND * axis.radius[other], TIPS_APART * axis.size) for other in kept):
+        if all(distance[one, other] > max(ROUND_RADII * axis.radius[other], TIPS_APART * axis.size) for other in kept):
             kept.append(one)
     kept = sorted(kept, key=lambda k: -float(away[k]))
     kept = kept[:MAX_ENDS]
@@ -205,7 +205,11 @@ def _cost(axis: MedialAxis, ends: _Ends, five: _Five) -> float:
     unlike = abs(five.arms_leave[0] - five.arms_leave[1]) / size
     head, feet = ends.at[five.head], ends.at[list(five.feet)]
     shortest = min(*arms, *legs, *five.arms_leave, five.crotch)
-    if not np.isfinite(sum(arms + legs)) or shortest < MIN_LIMB * size or _upright(head - feet.mean(0)) < UPRIGHT:
+    if (
+        not np.isfinite(sum(arms + legs))
+        or shortest < MIN_LIMB * size
+        or _upright(head - feet.mean(0)) < MIN_UPRIGHT_COSINE
+    ):
         return np.inf
     limbs = ((arms, five.hands, five.arms_leave), (legs, five.feet, (five.crotch, five.crotch)))
     for lengths, tips, leaves in limbs:
@@ -214,7 +218,7 @@ def _cost(axis: MedialAxis, ends: _Ends, five: _Five) -> float:
             if length < STICKS_OUT * axis.radius[way[_place(axis, way, leave)]]:
                 return np.inf
     ratios = [abs(np.log(pair[0] / pair[1])) for pair in (arms, legs)]
-    if max(ratios) > np.log(MOST_UNLIKE):
+    if max(ratios) > np.log(MAX_LIMB_LENGTH_RATIO):
         return np.inf
     unlike += sum(ratios)
     high, low = axis.rows
@@ -250,16 +254,16 @@ def _landmarks(axis: MedialAxis, ends: _Ends, five: _Five) -> dict[str, NDArray[
     ):
         arm = _from(axis, ends.ways[five.head, hand], leaves)
         leg = _from(axis, ends.ways[five.head, foot], five.crotch)
-        marks |= _limb(arm, side, ("Shoulder", "Elbow", "Wrist"), (0.0, ELBOW, WRIST))
-        marks |= _limb(leg, side, ("Hip", "Knee", "Ankle"), (0.0, KNEE, ANKLE))
+        marks |= _limb(arm, side, ("Shoulder", "Elbow", "Wrist"), (0.0, ELBOW_SHARE, WRIST_SHARE))
+        marks |= _limb(leg, side, ("Hip", "Knee", "Ankle"), (0.0, KNEE_SHARE, ANKLE_SHARE))
         tip, toes = arm[-1], leg[-1]
         marks |= {f"{side}{finger}": tip for finger in ("Pinky", "Index", "Thumb")}
         marks |= {f"{side}Heel": marks[f"{side}Ankle"], f"{side}FootIndex": toes}
-        eye = head + skull * EYES * (towards + 0.5 * up)
+        eye = head + skull * EYE_OFFSET_RADII * (towards + 0.5 * up)
         marks |= {f"{side}{eye_part}": eye for eye_part in ("EyeInner", "Eye", "EyeOuter")}
         marks |= {
-            f"{side}Ear": head + skull * EARS * towards,
-            f"Mouth{side}": head + skull * MOUTH * (0.6 * towards - up),
+            f"{side}Ear": head + skull * EAR_OFFSET_RADII * towards,
+            f"Mouth{side}": head + skull * MOUTH_OFFSET_RADII * (0.6 * towards - up),
         }
     return marks
 

@@ -29,9 +29,9 @@ NETWORK_SIDE = 320
 """Pixels of the square that the network looks at."""
 MEAN, DEVIATION = (0.485, 0.456, 0.406), (0.229, 0.224, 0.225)
 """Of the colours in [0, 1] that it was trained on."""
-SURROUNDINGS = 0.2
+SURROUNDINGS_SHARE = 0.2
 """How much of the picture around people it looks at, as a share of their box's longer side."""
-LEAST_SEEN = 16
+MIN_PEOPLE_PIXELS = 16
 """Pixels of people from which there is somebody to look at."""
 SALIENCE_SHARE = 0.5
 """Its share in the belief."""
@@ -40,7 +40,7 @@ EDGE_WIDTH, THING_HALF_WIDTH = 0.012, 0.015
 shares of their height: what is thinner is a foot or a hand that the networks of people miss."""
 HELD_BELIEF, HAND_REACH = 0.9, 0.075
 """Belief that a thing is somebody's that reaches one of their hands: so far from it at most, as a share of their height."""
-LARGEST_HELD, WHOLE = 0.3, 0.7
+LARGEST_HELD, HELD_THING_LIMITS = 0.3, 0.7
 """Size of what is held, as a share of people's, at most, and how surely all of it stands out, in the mean. What goes on beyond what is looked
 at is held by nobody."""
 THREADS = 2
@@ -56,13 +56,13 @@ def with_salience(rgb: NDArray[np.uint8], people: Mask, limbs: NDArray[np.bool_]
     Raises `IncompleteInstallation` where set-up has not put the network there.
     """
     seen = people > 0.5
-    if seen.sum() < LEAST_SEEN:
+    if seen.sum() < MIN_PEOPLE_PIXELS:
         return people
     size = (people.shape[1], people.shape[0])
     small = resized(np.ascontiguousarray(rgb), size)
     rows, columns = bounding_box(seen)
     height = rows.stop - rows.start
-    box = bounding_box(seen, round(SURROUNDINGS * max(height, columns.stop - columns.start)))
+    box = bounding_box(seen, round(SURROUNDINGS_SHARE * max(height, columns.stop - columns.start)))
     salient = people.copy()
     part = np.ascontiguousarray(small[box])
     salient[box] = resized(salience(part), (part.shape[1], part.shape[0]))
@@ -73,14 +73,14 @@ def with_salience(rgb: NDArray[np.uint8], people: Mask, limbs: NDArray[np.bool_]
     reach = max(1, round(THING_HALF_WIDTH * height))
     disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))
     thick = cv2.morphologyEx(things.astype(np.uint8), cv2.MORPH_OPEN, disk) > 0
-    for thing in pieces_by_area(things, LEAST_SEEN):
+    for thing in pieces_by_area(things, MIN_PEOPLE_PIXELS):
         if not (thing & thick).any():
             continue
         y, x = np.nonzero(thing)
         away = np.linalg.norm(np.stack([x, y], 1)[:, None] - at, axis=-1).min(initial=np.inf)
         within = thing[box]
         whole = not (within[[0, -1]].any() or within[:, [0, -1]].any())
-        whole = whole and salient[thing].mean() > WHOLE and thing.sum() < LARGEST_HELD * seen.sum()
+        whole = whole and salient[thing].mean() > HELD_THING_LIMITS and thing.sum() < LARGEST_HELD * seen.sum()
         around = dilate_mask(thing, max(1, round(EDGE_WIDTH * height))) & ~seen
         held = whole and away < HAND_REACH * height
         belief[around] = np.maximum(belief, HELD_BELIEF * salient)[around] if held else people[around]

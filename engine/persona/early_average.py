@@ -21,7 +21,7 @@ from engine.persona.texture.texture_frame import texture_frame
 
 AVERAGE_SIZE = (244, 194)
 """Height and width, pixels."""
-BACKGROUND = (58, 60, 64)
+BACKGROUND_COLOUR = (58, 60, 64)
 """Around the face, as around the puppet."""
 FIRST_SHOWN = 4
 """Photographs of the person; then it is shown anew with twice as many: an average sharpens by their ratio."""
@@ -63,6 +63,6 @@ class EarlyAverage:
             return
         self._wanted = 2 * len(used)
         mean = np.mean(used, axis=0)
-        mean[~self._frame.face] = BACKGROUND
+        mean[~self._frame.face] = BACKGROUND_COLOUR
         write_still(self._out / "average.png", np.rint(mean).astype(np.uint8), self._synthetic)
         self._publish(self._out / "average.png")

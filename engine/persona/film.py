@@ -16,7 +16,7 @@ from engine.persona.puppet import Puppet
 
 HEADROOM = 1.25
 """Of the space that the face takes in all frames, that the picture has."""
-WIDEST = 2.0
+MAX_DRIVER_WIDTH_RATIO = 2.0
 """Times the puppet's width that a driver beside it may take."""
 TEXTURES_AT_ONCE = 16
 
@@ -42,9 +42,9 @@ def puppet_frames(
 
 def size_beside(driver: tuple[int, int], size: tuple[int, int]) -> tuple[int, int]:
     """The even (width, height) of a film of `size` (width, height) with a driver of that size beside it, as high as it, and
-    `WIDEST` times as wide at most."""
+    `MAX_DRIVER_WIDTH_RATIO` times as wide at most."""
     width, height = size
-    return width + 2 * round(min(driver[0] / driver[1] * height, WIDEST * width) / 2), height
+    return width + 2 * round(min(driver[0] / driver[1] * height, MAX_DRIVER_WIDTH_RATIO * width) / 2), height
 
 
 def beside(left: NDArray[np.uint8], right: NDArray[np.uint8], background: tuple[int, int, int]) -> NDArray[np.uint8]:

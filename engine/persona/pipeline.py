@@ -14,8 +14,8 @@ from engine.persona.animating import animate_persona, is_picture, with_composite
 from engine.persona.collecting import learnt_of_photos
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.composite.photo_performance import PHOTO_STAGES, STILL_STAGES
-from engine.persona.early_average import BACKGROUND
-from engine.persona.light.relighting import LEAST_STRENGTH, in_light
+from engine.persona.early_average import BACKGROUND_COLOUR
+from engine.persona.light.relighting import MIN_STRENGTH, in_light
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import read_persona, write_persona
 from engine.persona.results.in_average_light import in_average_light
@@ -56,7 +56,7 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
     with run.timed("write_persona"):
         write_persona(out / "persona.npz", persona)
         average = persona.average
-        alone = np.where(persona.frame.face[..., None], average, np.array(BACKGROUND, np.uint8))
+        alone = np.where(persona.frame.face[..., None], average, np.array(BACKGROUND_COLOUR, np.uint8))
         write_still(out / "average.png", alone, run.mark_synthetic)
         if not isinstance(driver, Path):
             at_rest = Studio(persona, options.size, options.background).picture(persona.neutral, average)
@@ -71,7 +71,7 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
         run.plan(_plan(inputs, options))
         if options.light != "own":
             persona, strength = in_light(persona, options.light)
-            if strength < LEAST_STRENGTH:
+            if strength < MIN_STRENGTH:
                 run.warn("light_rare", "Hardly any photo is lit from that side: the light is nearly the mean of all.")
         told |= animate_persona(persona, inputs, options, out, run)
     write_report(

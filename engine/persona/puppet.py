@@ -26,7 +26,7 @@ from engine.render.surface import Surface, draw_surface, triangle_spread
 
 SUBDIVISIONS = 2
 """Of the subdivision: triangles of a frame 194 wide are three pixels wide then."""
-DISTANCE = 4096.0
+CAMERA_DISTANCE_PIXELS = 4096.0
 """Pixels from the eye to the face: so far off that nearer parts are no larger."""
 FACE_VERTICES = 468
 """Of the mesh's: those after them are the irises'."""
@@ -53,7 +53,7 @@ class Puppet:
         """
         linear, shift = placing
         points = self.vertices(face) @ np.asarray(linear, np.float64).T + shift
-        points[:, 2] += DISTANCE - points[:, 2].mean()
+        points[:, 2] += CAMERA_DISTANCE_PIXELS - points[:, 2].mean()
         drawn = picture.copy()
         enlarged = np.cbrt(abs(np.linalg.det(linear))) / self.persona.frame.scale
         finest = min(texture.shape[:2])

@@ -29,7 +29,7 @@ MAX_PICTURE_SIDE = 1920
 """Pixels of the result by default (the project's conventions)."""
 MAX_REACTIVE_SIDE = 640
 """Pixels of a reactive profile by default: pages show one smaller than that, and all of its clips are loaded."""
-MIN_EYE_DISTANCE = 16.0
+MIN_EYE_DISTANCE_PIXELS = 16.0
 """Pixels; a smaller face has nothing to animate."""
 MAX_TARGET_TURN_DEGREES = (35.0, 30.0)
 """Degrees of yaw and pitch beyond which a target fails; see the limits in the documentation."""
@@ -93,10 +93,10 @@ def find_target_face(
     scale = float(place[0, 0])
     moved[:, :2] = (mesh[:, :2] + 0.5) * scale + place[:, 2] - 0.5
     moved[:, 2] *= scale
-    if float(eye_distance(moved[:, :2])) < MIN_EYE_DISTANCE:
+    if float(eye_distance(moved[:, :2])) < MIN_EYE_DISTANCE_PIXELS:
         raise InputError(
             "face_too_small",
-            f"The face is too small: its eyes must be at least {MIN_EYE_DISTANCE:.0f} pixels apart. Crop to the face or use a larger picture.",
+            f"The face is too small: its eyes must be at least {MIN_EYE_DISTANCE_PIXELS:.0f} pixels apart. Crop to the face or use a larger picture.",
             ("crop", "size", "face_index"),
             found,
         )

@@ -23,7 +23,7 @@ def inside(point, polygon) -> bool:
 
 
 def test_there_are_68_points_in_six_groups() -> None:
-    groups = (lm.JAW, lm.BROWS, lm.NOSE, lm.EYES, lm.OUTER_LIPS, lm.INNER_LIPS)
+    groups = (lm.JAW_POINTS, lm.BROW_POINTS, lm.NOSE_POINTS, lm.EYE_POINTS, lm.OUTER_LIPS, lm.INNER_LIPS)
     assert len(lm.FIDUCIALS) == 68
     assert [i for g in groups for i in range(g.start, g.stop)] == list(range(68))
 
@@ -43,7 +43,7 @@ def test_many_meshes_give_what_each_gives(face) -> None:
 
 def test_the_68_points_lie_on_a_face_as_the_scheme_has_them(face) -> None:
     p = lm.fiducials(face)[:, :2]
-    jaw, brows, nose, eyes = p[lm.JAW], p[lm.BROWS], p[lm.NOSE], p[lm.EYES]
+    jaw, brows, nose, eyes = p[lm.JAW_POINTS], p[lm.BROW_POINTS], p[lm.NOSE_POINTS], p[lm.EYE_POINTS]
     assert (np.diff(jaw[:, 0])[2:-2] > 0).all()  # from the picture's left to its right
     assert jaw[:, 1].argmax() == 8
     assert (np.diff(brows[:, 0]) > 0).all() and (brows[:, 1] < eyes[:, 1].min()).all()

@@ -18,7 +18,7 @@ from engine.perception.landmarks import mouth_opening
 from engine.performances import video
 from engine.persona.animating import with_composite
 from engine.persona.composite.framing import framed
-from engine.persona.early_average import BACKGROUND
+from engine.persona.early_average import BACKGROUND_COLOUR
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import read_persona, write_persona
 from engine.persona.pipeline import make_persona
@@ -63,7 +63,7 @@ def test_it_leaves_what_the_contract_names(whole: Path) -> None:
 
 def test_the_average_is_the_face_alone_on_a_plain_background(whole: Path) -> None:
     average = read_image(whole / "out/average.png").rgb
-    plain = (average == BACKGROUND).all(axis=-1)
+    plain = (average == BACKGROUND_COLOUR).all(axis=-1)
     assert plain[:3].all() and plain[-3:].all() and plain[:, :3].all() and plain[:, -3:].all()
     height, width = plain.shape
     assert not plain[height // 3 : 2 * height // 3, width // 3 : 2 * width // 3].any()

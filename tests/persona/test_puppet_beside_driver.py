@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from engine.persona.film import WIDEST, beside, size_beside
+from engine.persona.film import MAX_DRIVER_WIDTH_RATIO, beside, size_beside
 
 BACKGROUND = (10, 20, 30)
 
@@ -18,5 +18,5 @@ def test_a_driver_beside_the_puppet_is_as_high_as_it(driver: tuple[int, int], wi
 def test_what_is_too_wide_is_fitted() -> None:
     left, right = np.full((50, 400, 3), 255, np.uint8), np.full((100, 60, 3), 99, np.uint8)
     both = beside(left, right, BACKGROUND)
-    assert both.shape == (100, 60 + round(WIDEST * 60), 3)
+    assert both.shape == (100, 60 + round(MAX_DRIVER_WIDTH_RATIO * 60), 3)
     assert (both[:, 120:] == 99).all() and (both[45:55, :120] == 255).all() and (both[:42, :120] == BACKGROUND).all()

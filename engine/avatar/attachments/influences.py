@@ -9,9 +9,9 @@ from engine.avatar.attachments.body_surface import BodySurface
 from engine.geometry.adjacency import neighbours
 from engine.geometry.closest_points import closest_points
 
-MAX_INFLUENCES = 4
+MAX_VERTEX_INFLUENCES = 4
 """Joints that move a vertex, at most."""
-SMOOTHINGS = 300
+INFLUENCE_SMOOTHING_ROUNDS = 300
 """Rounds in which a vertex' influences become the mean of those around, a hand's breadth and more: a coat's tail that lies between
 both legs follows what they do together, and is not folded between them when they close."""
 
@@ -35,9 +35,9 @@ def influences(
         own[:, np.flatnonzero(head)[0]] = 1
     beside = neighbours(triangles, len(vertices))
     number = np.maximum(np.asarray(beside.sum(1)).reshape(-1, 1), 1)
-    for _ in range(SMOOTHINGS):
+    for _ in range(INFLUENCE_SMOOTHING_ROUNDS):
         own = (own + beside @ own / number) / 2
-    joints = np.argsort(-own, axis=1, kind="stable")[:, :MAX_INFLUENCES]
+    joints = np.argsort(-own, axis=1, kind="stable")[:, :MAX_VERTEX_INFLUENCES]
     kept = np.take_along_axis(own, joints, 1)
     kept /= kept.sum(1, keepdims=True)
     return np.where(kept > 0, joints, 0).astype(np.uint8), kept.astype(np.float32)

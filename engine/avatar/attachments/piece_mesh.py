@@ -14,9 +14,9 @@ from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.surface import triangle_areas
 
-FAIRINGS = 50
+FAIRING_ROUNDS = 50
 """Rounds of fairing."""
-LEAST_AREA = 0.015
+MIN_PIECE_SQUARE_METRES = 0.015
 """Square metres of a piece's surface, both its sides: less is no hat and no tail."""
 HIDDEN_DEPTH = 0.003
 """Metres within the skin from which on nothing is seen of a piece."""
@@ -30,9 +30,9 @@ Mesh = tuple[NDArray[np.float64], NDArray[np.int32]]
 def piece_mesh(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> Mesh | None:
     """The largest part of a solid's surface, closed and fair; None where that is too small to be worn."""
     mesh = _largest(np.asarray(vertices, np.float64), np.asarray(triangles, np.int32))
-    if mesh is None or triangle_areas(*mesh).sum() < LEAST_AREA:
+    if mesh is None or triangle_areas(*mesh).sum() < MIN_PIECE_SQUARE_METRES:
         return None
-    return fair(*mesh, FAIRINGS), mesh[1]
+    return fair(*mesh, FAIRING_ROUNDS), mesh[1]
 
 
 def seen_area(mesh: Mesh, body: BodySurface) -> float:

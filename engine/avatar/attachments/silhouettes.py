@@ -14,7 +14,7 @@ from engine.geometry.camera import Camera
 from engine.geometry.multiview.silhouette_depth import Beside, silhouette_depths
 from engine.render.rasteriser import rasterise
 
-WRONG_SILHOUETTES = 0.3
+MAX_MISSED_SILHOUETTES_SHARE = 0.3
 """Share of the silhouettes beside the body that may leave out what is there: thin things are seen edge-on in some, and the person
 sways."""
 BESIDE_DISTANCE = 0.006
@@ -24,7 +24,7 @@ BESIDE_VIEWS, BESIDE_SHARE = 4, 0.7
 proof."""
 RIM_PIXELS = 2
 """Pixels around the body that do not count as beside it."""
-LEAST_ADDED = 0.03
+MIN_ADDED_SHARE = 0.03
 """Share of a surface's pixels that a view has beside the body, if it shows it there."""
 
 
@@ -39,9 +39,10 @@ class Silhouettes:
 
     def depths(self, points: NDArray[np.floating]) -> tuple[NDArray[np.float32], NDArray[np.uint16]]:
         """(N,) metres by which `points` (N, 3) lie within the silhouettes of the views that have them beside the body, but for
-        `WRONG_SILHOUETTES` of these, negative outside; and (N,) how many views have them there: +inf where none has."""
+        `MAX_MISSED_SILHOUETTES_SHARE` of these, negative outside; and (N,) how many views have them there: +inf where
+        none has."""
         beside = Beside(self.bare, BESIDE_DISTANCE)
-        return silhouette_depths(points, self.masks, self.cameras, WRONG_SILHOUETTES, beside)
+        return silhouette_depths(points, self.masks, self.cameras, MAX_MISSED_SILHOUETTES_SHARE, beside)
 
     def confirm(self, vertices: NDArray[np.floating], triangles: NDArray[np.int32]) -> bool:
         """Whether enough views have a surface, vertices (V, 3) and triangles (T, 3), beside the body, and most of what it adds there
@@ -51,7 +52,7 @@ class Silhouettes:
             own = _shown(camera, vertices, triangles)
             rim = np.ones((2 * RIM_PIXELS + 1, 2 * RIM_PIXELS + 1), np.uint8)
             more = own & (cv2.dilate(bare.astype(np.uint8), rim) == 0)
-            views += int(more.sum() > LEAST_ADDED * own.sum())
+            views += int(more.sum() > MIN_ADDED_SHARE * own.sum())
             added += int(more.sum())
             within += int((more & mask).sum())
         return views >= BESIDE_VIEWS and within >= BESIDE_SHARE * added

@@ -12,14 +12,14 @@ from engine.avatar.attachments.silhouettes import BESIDE_VIEWS, Silhouettes
 from engine.geometry.cloud_cleaning import crowded_points
 from engine.geometry.point_cloud import thinning
 
-LEAST_DISTANCE = 0.012
+MIN_STANDING_OFF_METRES = 0.012
 """Metres from the skin at which a surface stands off it."""
 FACE_DISTANCE = 0.02
 """The same before a face, which moves while it is filmed, and stays free of what does not clearly stand off."""
 ROOT_REACH, ROOT_DEPTH = 0.03, -0.02
 """Metres from what stands off within which other points are of the same piece, although they are near the skin, and how far within it
 at most: a piece comes off the body somewhere, and has no holes where the skin comes close."""
-DOUBTED = 0.25
+DOUBTED_POINTS_SHARE = 0.25
 """Share of a cloud's points, those that fewest views saw, of which no piece is made."""
 POINT_SPACING = 0.004
 """Metres between points that are looked at."""
@@ -27,13 +27,13 @@ MEAN_RADIUS, MEAN_POINTS = 0.012, 32
 """Metres about a point, and points there at most, the mean of which says how far off the surface is: single ones scatter."""
 MAX_WORN_DISTANCE = 0.3
 """Metres from the skin within which anything can be worn."""
-SWAY = 0.006
+SWAY_METRES = 0.006
 """Metres by which a silhouette may be beside where the cloud has the person."""
-CROWD_RADIUS, CROWD = 0.012, 10
+NEIGHBOUR_RADIUS_METRES, MIN_NEIGHBOURS = 0.012, 10
 """Metres within which so many others stand off with a point."""
 FEWEST_POINTS = 250
 """Points of a piece that stand off: at their spacing a hand's palm of it."""
-PIECE_GAP = 0.012
+PIECE_GAP_METRES = 0.012
 """Metres that part pieces."""
 
 
@@ -43,7 +43,7 @@ def well_supported(points: NDArray[np.floating], support: NDArray[np.integer]) -
     measured = support[support > 0]
     if not len(measured):
         return points[:0]
-    return points[support >= np.quantile(measured, DOUBTED)]
+    return points[support >= np.quantile(measured, DOUBTED_POINTS_SHARE)]
 
 
 def pieces_standing_off(
@@ -59,10 +59,10 @@ def pieces_standing_off(
         return []
     points, face = points[asked], body.face[nearest[asked]]
     off = _mean_about(points, body.distances(points))
-    stands = np.flatnonzero(off > np.where(face, FACE_DISTANCE, LEAST_DISTANCE))
+    stands = np.flatnonzero(off > np.where(face, FACE_DISTANCE, MIN_STANDING_OFF_METRES))
     depths, views = silhouettes.depths(points[stands])
-    stands = stands[(depths > -SWAY) & (views >= BESIDE_VIEWS)]
-    stands = stands[crowded_points(points[stands], CROWD_RADIUS, CROWD)]
+    stands = stands[(depths > -SWAY_METRES) & (views >= BESIDE_VIEWS)]
+    stands = stands[crowded_points(points[stands], NEIGHBOUR_RADIUS_METRES, MIN_NEIGHBOURS)]
     if not len(stands):
         return []
     about = cKDTree(points[stands]).query(points, distance_upper_bound=ROOT_REACH)[0] < np.inf
@@ -83,10 +83,10 @@ def _mean_about(points: NDArray[np.floating], values: NDArray[np.float64]) -> ND
 
 
 def _pieces(points: NDArray[np.floating]) -> NDArray[np.intp]:
-    """(N,) which piece each of the points (N, 3) is of, from 0: those that an empty cell of `PIECE_GAP` parts."""
+    """(N,) which piece each of the points (N, 3) is of, from 0: those that an empty cell of `PIECE_GAP_METRES` parts."""
     if not len(points):
         return np.zeros(0, np.intp)
-    cells = np.floor((points - points.min(0)) / PIECE_GAP).astype(int)
+    cells = np.floor((points - points.min(0)) / PIECE_GAP_METRES).astype(int)
     grid = np.zeros(cells.max(0) + 1, np.bool_)
     grid[tuple(cells.T)] = True
     return np.asarray(ndimage.label(grid, np.ones((3, 3, 3)))[0][tuple(cells.T)] - 1, np.intp)

@@ -18,35 +18,35 @@ from engine.avatar.attachments.standing_off import FACE_DISTANCE
 from engine.geometry.iso_surface import iso_surface
 from engine.geometry.point_sheet import PointSheet, sheet_through
 
-SPACING = 0.003
+GRID_SPACING_METRES = 0.003
 """Metres between the grid's points."""
-THICKNESS = 0.006
+SHEET_THICKNESS_METRES = 0.006
 """Metres, as of felt, which is two of them."""
 SHEET_RADIUS, SHEET_ROUNDS, SHEET_SPACING = 0.02, 4, 0.003
 """Of the sheet through the points: metres about each that make it smooth, rounds, and metres from point to point."""
-EXTENT = 0.015
+SHEET_EXTENSION_METRES = 0.015
 """Metres by which the sheet goes on beyond its points, if silhouettes let it."""
-SLACK, EXTENT_DOUBT = 0.003, 0.5
+SILHOUETTE_TOLERANCE_METRES, EXTENT_DOUBT = 0.003, 0.5
 """Metres by which silhouettes may be too small, and how many of them less where no point is, for each metre from the points."""
-COVER, OVERLAP = 0.0025, 0.006
+SKIN_COVER_METRES, SKIN_OVERLAP_METRES = 0.0025, 0.006
 """Metres that a piece reaches over the skin where it comes close, so that it is whole, and into it, so that no gap shows."""
-OUTLINE_BLUR, BLUR = 2.0, 0.7
+OUTLINE_BLUR, SHEET_BLUR_GRID_POINTS = 2.0, 0.7
 """Grid points of the Gaussians over where the sheet ends, and over all."""
-FARTHEST = 4 * SPACING
+MAX_FIELD_DISTANCE_METRES = 4 * GRID_SPACING_METRES
 """Metres: the field says no more than that a place is so far off."""
 
 
 @dataclass(frozen=True)
 class _Grid:
-    """`shape` points from `origin`, `SPACING` apart; `near` (X, Y, Z) bool: those at which anything can be."""
+    """`shape` points from `origin`, `GRID_SPACING_METRES` apart; `near` (X, Y, Z) bool: those at which anything can be."""
 
     origin: NDArray[np.float64]
     near: NDArray[np.bool_]
 
     def spread(self, values: NDArray[np.floating]) -> NDArray[np.float64]:
-        """(X, Y, Z) `values` of the places `near`, and -`FARTHEST` elsewhere; none beyond it."""
-        out = np.full(self.near.shape, -FARTHEST)
-        out[self.near] = np.clip(values, -FARTHEST, FARTHEST)
+        """(X, Y, Z) `values` of the places `near`, and -`MAX_FIELD_DISTANCE_METRES` elsewhere; none beyond it."""
+        out = np.full(self.near.shape, -MAX_FIELD_DISTANCE_METRES)
+        out[self.near] = np.clip(values, -MAX_FIELD_DISTANCE_METRES, MAX_FIELD_DISTANCE_METRES)
         return out
 
 
@@ -62,22 +62,24 @@ def thick_sheet(
     across, along = sheet.distances(places)
     off = body.distances(places)
     free = np.where(body.before_face(places), off - FACE_DISTANCE, np.inf)
-    room = silhouettes.depths(places)[0] + SLACK - EXTENT_DOUBT * along
-    ends = ndimage.gaussian_filter(grid.spread(np.minimum(np.minimum(EXTENT - along, room), free)), OUTLINE_BLUR)
-    field = np.minimum(grid.spread(np.maximum(THICKNESS / 2 - across, COVER - off)), ends)
+    room = silhouettes.depths(places)[0] + SILHOUETTE_TOLERANCE_METRES - EXTENT_DOUBT * along
+    ends = ndimage.gaussian_filter(
+        grid.spread(np.minimum(np.minimum(SHEET_EXTENSION_METRES - along, room), free)), OUTLINE_BLUR
+    )
+    field = np.minimum(grid.spread(np.maximum(SHEET_THICKNESS_METRES / 2 - across, SKIN_COVER_METRES - off)), ends)
     skin = grid.spread(-off) > 0
     enclosed = ndimage.binary_fill_holes((field > 0) | skin) & ~skin
-    field = np.where(enclosed, np.maximum(field, THICKNESS / 2), field)
-    field = np.minimum(ndimage.gaussian_filter(field, BLUR), grid.spread(off + OVERLAP))
-    return iso_surface(field, grid.origin, SPACING)
+    field = np.where(enclosed, np.maximum(field, SHEET_THICKNESS_METRES / 2), field)
+    field = np.minimum(ndimage.gaussian_filter(field, SHEET_BLUR_GRID_POINTS), grid.spread(off + SKIN_OVERLAP_METRES))
+    return iso_surface(field, grid.origin, GRID_SPACING_METRES)
 
 
 def _around(sheet: PointSheet) -> tuple[_Grid, NDArray[np.float64]]:
     """A grid about a sheet, and its places (N, 3) near it."""
-    reach = EXTENT + 2 * SPACING
-    origin = sheet.points.min(0) - reach - SPACING
-    shape = np.ceil((sheet.points.max(0) + reach + SPACING - origin) / SPACING).astype(int) + 1
-    places = origin + SPACING * np.moveaxis(np.indices(shape), 0, -1)
+    reach = SHEET_EXTENSION_METRES + 2 * GRID_SPACING_METRES
+    origin = sheet.points.min(0) - reach - GRID_SPACING_METRES
+    shape = np.ceil((sheet.points.max(0) + reach + GRID_SPACING_METRES - origin) / GRID_SPACING_METRES).astype(int) + 1
+    places = origin + GRID_SPACING_METRES * np.moveaxis(np.indices(shape), 0, -1)
     away = cKDTree(sheet.points).query(places.reshape(-1, 3), distance_upper_bound=reach)[0]
     near = np.isfinite(away).reshape(tuple(shape))
     return _Grid(origin, near), places[near]

@@ -17,7 +17,7 @@ from engine.geometry.camera import Camera
 from engine.geometry.multiview.visual_hull import depth_range, visual_hull
 from engine.imaging.masks.mask_distance import dilate_mask
 
-SPACING = 0.008
+VOXEL_SIZE_METRES = 0.008
 """Metres from voxel to voxel of the hull."""
 KEPT_PIXELS = 1
 """About what the hull shows, which a mask may have beyond it: arms drift, and voxels are coarser than pixels."""
@@ -40,7 +40,7 @@ def within_hull(masks: Sequence[NDArray[np.bool_]], cameras: Sequence[Camera], t
     straight = [replace(camera, distortion=()) for camera in cameras]
     flat = [_seen_by(mask, one, other) for mask, one, other in zip(masks, cameras, straight, strict=True)]
     try:
-        hull = visual_hull(flat, straight, SPACING)
+        hull = visual_hull(flat, straight, VOXEL_SIZE_METRES)
     except ValueError:
         return list(masks)
     out = []

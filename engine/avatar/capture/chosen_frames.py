@@ -22,13 +22,13 @@ FRAME_QUALITY = 95
 """Of the JPEGs in which frames are kept: a third of a megabyte for one of 1080x1920."""
 MAX_MEGAPIXELS_PER_SECOND = 600.0
 """4K at 60 frames a second has 498: phones film so, and only small flows and a few frames are made of it."""
-MIN_FRAMES = 12
+MIN_CLIP_FRAMES = 12
 """Of a clip of which anything can be made."""
 JUDGED_SIDE = 640
 """Pixels of the longer side at which frames are judged."""
 MIN_BRIGHTNESS = 40.0
 """Grey level that the brightest tenth of a frame's pixels reaches at least."""
-MAX_BLUR = 0.6
+MAX_MEDIAN_FRAME_BLUR = 0.6
 """Of a film's frames, in the median: a sharp picture has 0.3 to 0.4, one of which nothing can be made out close to 1."""
 
 
@@ -66,10 +66,10 @@ class ChosenFrames:
         Raises `InputError`: `clip_too_short` where too few are left.
         """
         kept = np.flatnonzero(~np.isin(self.indices, list(left_out)))
-        if len(kept) < MIN_FRAMES:
+        if len(kept) < MIN_CLIP_FRAMES:
             raise InputError(
                 "clip_too_short",
-                f"Of the clip of the {name} only {len(kept)} frames are left; {MIN_FRAMES} are needed.",
+                f"Of the clip of the {name} only {len(kept)} frames are left; {MIN_CLIP_FRAMES} are needed.",
                 (f"{name}_frames_left_out",),
             )
         return replace(self, numbers=self.numbers[kept], indices=self.indices[kept], seconds=self.seconds[kept])
@@ -98,7 +98,7 @@ def choose_frames(
         limits, video_megapixels_per_second=max(limits.video_megapixels_per_second, MAX_MEGAPIXELS_PER_SECOND)
     )
     movement = measure_movement(path, wider, tick=lambda fraction: tick(0.6 * fraction))
-    if len(movement) + 1 < MIN_FRAMES:
+    if len(movement) + 1 < MIN_CLIP_FRAMES:
         raise InputError(
             "clip_too_short",
             f"The clip of the {_spoken(name)} has too few frames: film a whole circle, slowly.",
@@ -137,7 +137,7 @@ def _refuse_dark_or_blurred(light: float, blur: float, name: str) -> None:
         raise InputError(
             "too_dark", f"The clip of the {_spoken(name)} is too dark: film in daylight, or with more lamps.", (name,)
         )
-    if blur > MAX_BLUR:
+    if blur > MAX_MEDIAN_FRAME_BLUR:
         raise InputError(
             "too_blurred",
             f"Even the sharpest frames of the clip of the {_spoken(name)} are blurred: walk slower, and let the camera focus.",

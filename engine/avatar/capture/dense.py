@@ -33,7 +33,7 @@ SILHOUETTE_ERROR = 1.5
 """Pixels by which segmentation errs, at the size at which stereo works."""
 SIGHT_SUBSAMPLING = 16
 """One of so many points of the hull's surface tells which views share sight."""
-SOURCES, ASKED = 4, 12
+SOURCE_VIEWS, ASKED_VIEWS = 4, 12
 """Views that a view is measured against, and those that are asked about its points."""
 ALIGNMENT_ROUNDS = 2
 """Rounds of laying views on the fused cloud."""
@@ -41,9 +41,9 @@ FUSED_STEP = 2
 """Of a view's rows and of its columns one in so many gives points of the cloud: others show the same places."""
 ALIGNMENT_STEP = 3
 """Of a view's rows and of its columns one in so many is fused to the cloud on which views are laid."""
-ALIGNED_POINTS = 1500
+MAX_ALIGNED_POINTS = 1500
 """Points of a view, at most, that are laid on the cloud."""
-ALIGNMENT_GATE = 0.02
+ALIGNMENT_GATE_METRES = 0.02
 """Metres within which the cloud's surface is looked for."""
 CLOUD_SPACING = 0.003
 """Metres: of points in one cell so wide one stays."""
@@ -57,13 +57,13 @@ CROP_BORDER = 8
 """Pixels around the person that are kept."""
 STEREO_SHARE = 0.9
 """Share of the stage's time that stereo takes."""
-CROWD_RADIUS, CROWD = 0.012, 6
+NEIGHBOUR_RADIUS_METRES, MIN_NEIGHBOURS = 0.012, 6
 """Metres within which a point of the surface has so many others."""
 RIM_GAP = 0.015
 """Metres around a point of a silhouette's rim in which stereo found nothing."""
 RIM_RADIUS, RIM_CROWD = 0.01, 3
 """Metres within which so many others confirm it, and from one that is taken to the next."""
-PIECE_GAP, PIECE_SHARE = 0.02, 0.01
+PIECE_GAP_METRES, PIECE_SHARE = 0.02, 0.01
 """Metres that part pieces, and what a piece must have of the largest one's points."""
 
 
@@ -97,8 +97,8 @@ def dense_cloud(
         raise _not_measured() from error
     shared = shared_sight(cameras, *(part[::SIGHT_SUBSAMPLING] for part in hull.surface()))
     centre = hull.box().mean(axis=0)
-    sources = chosen_sources(shared, cameras, centre, SOURCES)
-    asked = [[int(v) for v in np.argsort(-row)[:ASKED] if row[v] > 0] for row in shared]
+    sources = chosen_sources(shared, cameras, centre, SOURCE_VIEWS)
+    asked = [[int(v) for v in np.argsort(-row)[:ASKED_VIEWS] if row[v] > 0] for row in shared]
     maps = _measured(straight, hull, sources, told)
     images = [view.image for view in straight]
     for _ in range(ALIGNMENT_ROUNDS):
@@ -157,11 +157,11 @@ def _aligned(maps: Sequence[DepthMap], cameras: Sequence[Camera], fused: FusedPo
     moved = []
     for measured, camera in zip(maps, cameras, strict=True):
         y, x = np.nonzero((measured.depth > 0) & (measured.cost < ALIGNED_COST))
-        step = max(len(y) // ALIGNED_POINTS, 1)
+        step = max(len(y) // MAX_ALIGNED_POINTS, 1)
         y, x = y[::step], x[::step]
         points = camera.unproject(np.stack([x, y], axis=-1).astype(np.float64), measured.depth[y, x])
         normals = measured.normals[y, x]
-        motion = align_to_surface(points, normals, tree, surface.normals, ALIGNMENT_GATE)
+        motion = align_to_surface(points, normals, tree, surface.normals, ALIGNMENT_GATE_METRES)
         moved.append(camera.moved(motion))
     return moved
 
@@ -169,8 +169,8 @@ def _aligned(maps: Sequence[DepthMap], cameras: Sequence[Camera], fused: FusedPo
 def _cleaned(fused: FusedPoints) -> tuple[PointCloud, NDArray[np.uint8]]:
     """One point in each cell, without lone points and pieces that hang apart, smoothed; and its support."""
     chosen = thinning(fused.cloud.points, CLOUD_SPACING)
-    chosen = chosen[crowded(fused.cloud[chosen], CROWD_RADIUS, CROWD)]
-    chosen = chosen[in_large_pieces(fused.cloud[chosen], PIECE_GAP, PIECE_SHARE)]
+    chosen = chosen[crowded(fused.cloud[chosen], NEIGHBOUR_RADIUS_METRES, MIN_NEIGHBOURS)]
+    chosen = chosen[in_large_pieces(fused.cloud[chosen], PIECE_GAP_METRES, PIECE_SHARE)]
     return smoothed_along_normals(fused.cloud[chosen], SMOOTHING_RADIUS), fused.support[chosen]
 
 

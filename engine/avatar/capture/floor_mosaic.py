@@ -14,21 +14,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
-from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, ColourMixture
+from engine.imaging.masks.colour_segmentation import MIN_MIXTURE_PIXELS, ColourMixture
 from engine.render.sampling import bilinear
 
-SPACING = 0.005
+MOSAIC_SPACING_METRES = 0.005
 """Metres between points of the mosaic."""
 MOSAIC_MARGIN = 0.5
 """Metres that it reaches beyond the places that it is made around."""
 MIN_SHOWN_SHARE = 1 / 3
 """Of the frames that have a point in their picture, how many must show it free: beside a foot it is seen from half of all sides,
 beneath one from none, whatever a mask says of a few."""
-HEIGHTS = np.arange(-5, 6) * 0.003
+TRIED_HEIGHTS_METRES = np.arange(-5, 6) * 0.003
 """Metres about where the floor is thought to be, within which it is looked for."""
-MIN_SHOWN = 3
+MIN_FRAMES_SHOWING = 3
 """Frames that must, at least."""
-SEARCHED = 4
+SEARCH_POINT_STEP = 4
 """Of the points along each side one in so many is asked where it is."""
 GAIN_ROUNDS = 2
 """How often exposures and colours are found from each other."""
@@ -59,7 +59,8 @@ class FloorView:
 
 @dataclass(frozen=True)
 class FloorMosaic:
-    """The floor at `height` metres: `colours` (M, N, 3) float32 of the points `corner` (x, z) + `SPACING` * (column, row), NaN where
+    """The floor at `height` metres: `colours` (M, N, 3) float32 of the points `corner` (x, z) + `MOSAIC_SPACING_METRES`
+    * (column, row), NaN where
     it is not known; the `gains` (F, 3) by which frames differ from it, `sigma` (3,) levels by which they do beside, and the `mixture`
     of all its colours."""
 
@@ -94,7 +95,7 @@ class FloorMosaic:
         with np.errstate(divide="ignore", invalid="ignore"):
             reach = (self.height - eye[1]) / rays[:, 1]
         reach[~(reach > 0)] = np.nan
-        at = ((eye + reach[:, None] * rays)[:, [0, 2]] - self.corner) / SPACING
+        at = ((eye + reach[:, None] * rays)[:, [0, 2]] - self.corner) / MOSAIC_SPACING_METRES
         columns, rows = at.T.reshape(2, *camera.size).astype(np.float32)
         nothing = (np.nan,) * 3
         return np.asarray(cv2.remap(self.colours, columns, rows, cv2.INTER_LINEAR, None, cv2.BORDER_CONSTANT, nothing))
@@ -106,15 +107,22 @@ def floor_mosaic(
     """The mosaic around places (N, 3) near the floor; at `height`, or where about zero frames agree most. None where they show
     hardly any of it."""
     corner = around[:, [0, 2]].min(0) - MOSAIC_MARGIN
-    size = np.ceil((around[:, [0, 2]].max(0) + MOSAIC_MARGIN - corner) / SPACING).astype(int) + 1
+    size = np.ceil((around[:, [0, 2]].max(0) + MOSAIC_MARGIN - corner) / MOSAIC_SPACING_METRES).astype(int) + 1
     columns, rows = np.meshgrid(np.arange(size[0]), np.arange(size[1]))
-    places = np.stack([corner[0] + SPACING * columns, np.zeros(columns.shape), corner[1] + SPACING * rows], -1)
+    places = np.stack(
+        [
+            corner[0] + MOSAIC_SPACING_METRES * columns,
+            np.zeros(columns.shape),
+            corner[1] + MOSAIC_SPACING_METRES * rows,
+        ],
+        -1,
+    )
     if height is None:
-        height = _height(views, places[::SEARCHED, ::SEARCHED].reshape(-1, 3))
+        height = _height(views, places[::SEARCH_POINT_STEP, ::SEARCH_POINT_STEP].reshape(-1, 3))
     shown = _shown(views, places.reshape(-1, 3) + np.array([0, height, 0]))
     known = np.flatnonzero(np.isfinite(shown[..., 0]).any(1))
-    some = known[:: SEARCHED**2]
-    if len(some) < MIN_SAMPLES:
+    some = known[:: SEARCH_POINT_STEP**2]
+    if len(some) < MIN_MIXTURE_PIXELS:
         return None
     gains = _gains(shown[some])
     colours = np.full((len(shown), 3), np.nan, np.float32)
@@ -129,12 +137,12 @@ def floor_mosaic(
 def _height(views: Sequence[FloorView], places: NDArray[np.float64]) -> float:
     """Where the floor is: its places look alike in all frames."""
     scatter = []
-    for height in HEIGHTS:
+    for height in TRIED_HEIGHTS_METRES:
         shown = _shown(views, places + np.array([0, height, 0]))
         gains = _gains(shown)
         off = np.abs(shown / gains - _medians(shown / gains))
         scatter.append(np.nanmean(off) if np.isfinite(off).any() else np.inf)
-    return float(HEIGHTS[int(np.argmin(scatter))])
+    return float(TRIED_HEIGHTS_METRES[int(np.argmin(scatter))])
 
 
 def _shown(views: Sequence[FloorView], places: NDArray[np.float64]) -> NDArray[np.float32]:
@@ -149,7 +157,7 @@ def _shown(views: Sequence[FloorView], places: NDArray[np.float64]) -> NDArray[n
         x, y = np.rint(pixels[inside, :2]).astype(np.intp).T
         free = np.flatnonzero(inside)[~view.covered[y, x]]
         shown[free, number] = bilinear(view.image, pixels[free])
-    seldom = np.isfinite(shown[..., 0]).sum(1) < np.maximum(MIN_SHOWN_SHARE * in_picture, MIN_SHOWN)
+    seldom = np.isfinite(shown[..., 0]).sum(1) < np.maximum(MIN_SHOWN_SHARE * in_picture, MIN_FRAMES_SHOWING)
     shown[seldom] = np.nan
     return shown
 
@@ -161,7 +169,7 @@ def _gains(shown: NDArray[np.float32]) -> NDArray[np.float32]:
         usual = _medians(shown / gains)
         for gain, one in zip(gains, np.swapaxes(shown, 0, 1), strict=True):
             seen = np.isfinite(one[:, 0])
-            if seen.sum() >= MIN_SAMPLES:
+            if seen.sum() >= MIN_MIXTURE_PIXELS:
                 gain[:] = np.median(one[seen], axis=0) / np.maximum(np.median(usual[seen], axis=0), 1.0)
     return gains
 

@@ -17,17 +17,17 @@ from engine.avatar.capture.floor_mosaic import FloorMosaic, FloorView, cost_amon
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.geometry.camera import Camera
 from engine.geometry.joint_names import SIDES
-from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, ColourMixture, ContrastGraph
+from engine.imaging.masks.colour_segmentation import MIN_MIXTURE_PIXELS, ColourMixture, ContrastGraph
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, near_lines
 from engine.imaging.masks.mask_pieces import without_small_pieces
 
-CORNERS = ("Ankle", "Heel", "FootIndex")
+FOOT_LANDMARKS = ("Ankle", "Heel", "FootIndex")
 """Of a foot, without their side."""
 REACH_SHARE = 0.6
 """How far from its marks a foot may reach, in its lengths, and the floor is told from it."""
-WITHIN = {"Heel": 0.5, "FootIndex": 0.7}
+CERTAIN_FOOT_SHARES = {"Heel": 0.5, "FootIndex": 0.7}
 """How far from the ankle to a corner it is surely a foot."""
-SHIN = 0.5
+CERTAIN_SHIN_SHARE = 0.5
 """Of the way to the knee, how much is surely a leg."""
 SURE_SHARE = 0.04
 """Half the width of what surely is, in lengths of the foot."""
@@ -39,7 +39,7 @@ INNER_PIXELS = 1.5
 """From a mask's outline, beyond which it surely shows the person."""
 SPECK_SHARE = 0.02
 """Of a square as wide as a foot is long: smaller pieces, and holes, are nobody's."""
-MIN_DEPTH = 0.1
+MIN_DEPTH_METRES = 0.1
 """Metres before the camera."""
 MASK_COST = 1.0
 """What it costs a pixel to be told otherwise than the mask before has it: less than colours that say anything."""
@@ -79,17 +79,17 @@ def feet_of(landmarks: SpatialLandmarks) -> list[Foot]:
     """The feet whose corners are known."""
     found = []
     for side in SIDES:
-        known = [landmarks.body.get(f"{side}{corner}") for corner in CORNERS]
+        known = [landmarks.body.get(f"{side}{corner}") for corner in FOOT_LANDMARKS]
         if any(one is None for one in known):
             continue
         corners = np.array(known, np.float64)
         lines = [
             [corners[0], corners[0] + share * (end - corners[0])]
-            for end, share in zip(corners[1:], WITHIN.values(), strict=True)
+            for end, share in zip(corners[1:], CERTAIN_FOOT_SHARES.values(), strict=True)
         ]
         knee = landmarks.body.get(f"{side}Knee")
         if knee is not None:
-            lines.append([corners[0], corners[0] + SHIN * (np.asarray(knee) - corners[0])])
+            lines.append([corners[0], corners[0] + CERTAIN_SHIN_SHARE * (np.asarray(knee) - corners[0])])
         found.append(Foot(corners, np.array(lines)))
     return found
 
@@ -126,7 +126,7 @@ def _near(frame: FootFrame, feet: Sequence[Foot]) -> _Near | None:
     area, sure = np.zeros((height, width), np.bool_), np.zeros((height, width), np.bool_)
     lengths = []
     for foot in feet:
-        if frame.person.depth(np.concatenate([foot.corners, foot.lines.reshape(-1, 3)])).min() < MIN_DEPTH:
+        if frame.person.depth(np.concatenate([foot.corners, foot.lines.reshape(-1, 3)])).min() < MIN_DEPTH_METRES:
             continue
         corners = frame.person.project(foot.corners, np.float64)[:, :2]
         if ((corners < 0) | (corners > [width - 1, height - 1])).all():
@@ -165,7 +165,7 @@ def _person_colours(
         if part is not None and own is not None
     ]
     colours = np.concatenate(seen) if seen else np.zeros((0, 3))
-    return ColourMixture.fit(colours) if len(colours) >= MIN_SAMPLES else None
+    return ColourMixture.fit(colours) if len(colours) >= MIN_MIXTURE_PIXELS else None
 
 
 def _told_apart(

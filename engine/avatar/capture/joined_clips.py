@@ -31,7 +31,7 @@ MIN_PERSON_SHARED = 12
 """Points of the person in common by which they have the last word."""
 ROOM_TOLERANCE, PERSON_TOLERANCE = 0.03, 0.01
 """Distances of the first film's cameras by which points in common may be apart: of the room, which is far, and of the person."""
-ADJUSTMENTS = 3
+ADJUSTMENT_ROUNDS = 3
 """Times that both films are adjusted as one: each time more of what they share agrees."""
 
 
@@ -57,7 +57,7 @@ def join_scenes(first: ClipScene, second: ClipScene) -> JoinedScenes | None:
         return None
     tracks, change = tracks[known], found.transform
     shared = tracks
-    for _ in range(ADJUSTMENTS):
+    for _ in range(ADJUSTMENT_ROUNDS):
         joined = join_by_pixels(one, other, tracks, change, first.length)
         shared = tracks[joined.agreed]
         if len(shared) < MIN_SHARED:

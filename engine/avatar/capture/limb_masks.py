@@ -20,9 +20,9 @@ from engine.geometry.joint_names import SIDES
 from engine.imaging.masks.colour_segmentation import grab_cut
 from engine.imaging.masks.mask_distance import near_lines
 
-PALM = ("Wrist", "Index", "Pinky")
+PALM_LANDMARKS = ("Wrist", "Index", "Pinky")
 """The corners of a palm, without their side."""
-BONES = (("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Hip", "Knee"), ("Knee", "Ankle"))
+BONE_LANDMARKS = (("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Hip", "Knee"), ("Knee", "Ankle"))
 """Both ends of what is long, without their side."""
 MAX_LOST_SHARE = 0.2
 """The same in the mean of all frames, beyond which it is the landmarks that are wrong: networks do not lose a limb so often."""
@@ -36,9 +36,9 @@ SURROUNDINGS_SHARE = 0.8
 """How much of what is around a limb tells its colours, in lengths of what is marked."""
 SETTLED_PIXELS = 3
 """From the outline of the mask, where away from limbs the mask stands."""
-MIN_DEPTH = 0.1
+MIN_DEPTH_METRES = 0.1
 """Metres before the camera: nearer, or behind it, a limb is not in its picture."""
-MIN_PIXELS = 6
+MIN_LIMB_LENGTH_PIXELS = 6
 """Along a limb: of a smaller one nothing can be told."""
 
 
@@ -56,11 +56,11 @@ def limbs_of(landmarks: SpatialLandmarks) -> list[Limb]:
     """The person's arms, legs and hands, as far as they are known."""
     limbs = []
     for k, side in enumerate(SIDES):
-        for ends in BONES:
+        for ends in BONE_LANDMARKS:
             both = [landmarks.body.get(f"{side}{end}") for end in ends]
             if all(place is not None for place in both):
                 limbs.append(Limb(np.array([both], np.float64), BONE_REACH_SHARE, LOST_SHARE))
-        named = [landmarks.body.get(f"{side}{corner}") for corner in PALM]
+        named = [landmarks.body.get(f"{side}{corner}") for corner in PALM_LANDMARKS]
         if all(place is not None for place in named):
             a, b, c = (np.asarray(place) for place in named)
             limbs.append(Limb(np.array([[a, b], [b, c], [c, a]])))
@@ -89,7 +89,7 @@ def _seen_lines(
     """The masks of those frames that have all of a limb in their picture, with its lines (L, 2, 2) there."""
     for mask, camera in zip(masks, cameras, strict=True):
         ends = limb.lines.reshape(-1, 3)
-        if camera.depth(ends).min() < MIN_DEPTH:
+        if camera.depth(ends).min() < MIN_DEPTH_METRES:
             continue
         pixels = np.asarray(camera.project(ends, np.float64)[:, :2])
         if (pixels >= 0).all() and (pixels <= np.array(mask.shape[::-1]) - 1).all():
@@ -102,16 +102,16 @@ def with_limbs(
     """The mask (h, w) of a person in a frame (h, w, 3) of a `camera` of that size, with their limbs."""
     out = mask.copy()
     for limb in limbs:
-        if camera.depth(limb.lines.reshape(-1, 3)).min() < MIN_DEPTH:
+        if camera.depth(limb.lines.reshape(-1, 3)).min() < MIN_DEPTH_METRES:
             continue
         lines = np.asarray(camera.project(limb.lines.reshape(-1, 3), np.float64)[:, :2]).reshape(-1, 2, 2)
         length = float(np.linalg.norm(np.ptp(lines.reshape(-1, 2), axis=0)))
-        if length < MIN_PIXELS:
+        if length < MIN_LIMB_LENGTH_PIXELS:
             continue
         height, width = mask.shape
         least = np.maximum(np.floor(lines.min((0, 1)) - SURROUNDINGS_SHARE * length).astype(int), 0)
         most = np.minimum(np.ceil(lines.max((0, 1)) + SURROUNDINGS_SHARE * length).astype(int) + 1, [width, height])
-        if (most - least < MIN_PIXELS).any():
+        if (most - least < MIN_LIMB_LENGTH_PIXELS).any():
             continue
         part = np.s_[least[1] : most[1], least[0] : most[0]]
         if _lost_share(out[part], lines - least) >= limb.lost:

@@ -20,7 +20,7 @@ from engine.perception.body import Body
 
 USUAL_HEIGHT = 1.7
 """Metres that the person is taken to be tall: how tall they are is a matter of scale, which nothing that is measured tells."""
-FLOOR_REACH = 0.6
+FLOOR_REACH_CAMERA_DISTANCES = 0.6
 """Distances of the cameras around the person within which the floor is looked for."""
 FLOOR_THICKNESS = 0.015
 """Distances of the cameras: a slab that holds the points of the floor."""
@@ -82,7 +82,7 @@ def _floor(
     points = found.bundle.points[found.solved & ~person]
     heights = points @ up
     aside = np.linalg.norm((points - middle) - np.outer((points - middle) @ up, up), axis=1)
-    heights = np.sort(heights[(aside < FLOOR_REACH * distance) & (heights < middle @ up)])
+    heights = np.sort(heights[(aside < FLOOR_REACH_CAMERA_DISTANCES * distance) & (heights < middle @ up)])
     if len(heights) < MIN_FLOOR_POINTS:
         return None
     ends = np.searchsorted(heights, heights + FLOOR_THICKNESS * distance, side="right")

@@ -22,7 +22,7 @@ NEXT_FRAMES = 4
 """Frames after each that it is matched with."""
 FAR_FRAMES = 4
 """Frames elsewhere in the film that each is matched with: of the other orbit, and where an orbit closes."""
-MIN_OVERLAP = 12
+MIN_COMMON_FEATURES = 12
 """Large features in common with a frame elsewhere."""
 USUAL_FOCAL = 1.2
 """Focal length in longer sides of the picture, where nothing is known: adjusted as soon as there are cameras."""
@@ -108,7 +108,7 @@ def film_pairs(features: Sequence[Features]) -> list[tuple[int, int]]:
     shared = overlaps(features)
     pairs = {(i, i + step) for step in range(1, NEXT_FRAMES + 1) for i in range(count - step)}
     for i in range(count):
-        elsewhere = [j for j in range(count) if abs(i - j) > NEXT_FRAMES and shared[i, j] >= MIN_OVERLAP]
+        elsewhere = [j for j in range(count) if abs(i - j) > NEXT_FRAMES and shared[i, j] >= MIN_COMMON_FEATURES]
         best = sorted(elsewhere, key=lambda j: -shared[i, j])[:FAR_FRAMES]
         pairs |= {(min(i, j), max(i, j)) for j in best}
     return sorted(pairs, key=lambda pair: (pair[1] - pair[0], pair))

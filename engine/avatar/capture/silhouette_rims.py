@@ -17,7 +17,7 @@ from engine.geometry.point_cloud import PointCloud
 
 LONGEST_CHORD = 0.25
 """Metres within the hull up to which the middle is taken for where the line of sight touches the person."""
-NORMALS_BLUR = 1.5
+NORMAL_BLUR_PIXELS = 1.5
 """Pixels of the Gaussian by which the outline is smoothed before it tells normals."""
 PICTURE_BORDER = 2
 """Pixels at a picture's borders where an outline is that of the picture."""
@@ -42,7 +42,7 @@ def _outward(
     figure: NDArray[np.uint8], view: CapturedView, pixels: NDArray[np.float64], x: NDArray[np.intp], y: NDArray[np.intp]
 ) -> NDArray[np.float64]:
     """(N, 3) unit normals of the surface at an outline's pixels: across the outline and across the line of sight."""
-    blurred = cv2.GaussianBlur(figure.astype(np.float32), (0, 0), NORMALS_BLUR)
+    blurred = cv2.GaussianBlur(figure.astype(np.float32), (0, 0), NORMAL_BLUR_PIXELS)
     right, down = -cv2.Sobel(blurred, cv2.CV_32F, 1, 0)[y, x], -cv2.Sobel(blurred, cv2.CV_32F, 0, 1)[y, x]
     axes = np.array(view.camera.axes)
     out = right[:, None] * axes[0] - down[:, None] * axes[1]

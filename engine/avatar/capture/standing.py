@@ -12,13 +12,13 @@ from engine.avatar.capture.scene_cameras import ClipScene
 from engine.errors import InputError
 from engine.geometry.multiview.bundle import undistorted
 
-MIN_SHOWN = 0.003
+MIN_PERSON_AREA_SHARE = 0.003
 """Share of a frame that shows somebody."""
 MAX_ASIDE = 0.1
 """Distances of the cameras by which the person may be seen beside their place: 20 cm at two metres."""
 MAX_ASTRAY = 0.25
 """Share of the frames that may see nobody there."""
-REWEIGHTINGS = 20
+REWEIGHTING_ROUNDS = 20
 """Rounds of least squares for the place that most frames agree on."""
 
 
@@ -44,7 +44,7 @@ def share_astray(scene: ClipScene, masks: Sequence[NDArray[np.bool_]]) -> float:
     bundle, registered = found.bundle, np.flatnonzero(found.registered)
     up = upward(bundle, found.registered)
     level = np.linalg.svd(up[None])[2][1:]
-    shown = [c for c in registered.tolist() if masks[c].mean() > MIN_SHOWN]
+    shown = [c for c in registered.tolist() if masks[c].mean() > MIN_PERSON_AREA_SHARE]
     if len(shown) < 2:
         return 1.0
     sight = np.array([_sight(scene, c, masks[c]) for c in shown]) @ level.T
@@ -72,7 +72,7 @@ def _nearest_to_lines(eyes: NDArray[np.float64], across: NDArray[np.float64]) ->
     weights = np.ones(len(eyes))
     offsets = (eyes * across).sum(1)
     place = np.zeros(2)
-    for _ in range(REWEIGHTINGS):
+    for _ in range(REWEIGHTING_ROUNDS):
         system = np.einsum("n,ni,nj->ij", weights, across, across) + 1e-12 * np.eye(2)
         place = np.linalg.solve(system, (weights * offsets) @ across)
         off = np.abs(across @ place - offsets)

@@ -18,11 +18,11 @@ SIGHT_RADIUS = 0.005
 """Metres about a line of sight within which points of the cloud tell how far it goes."""
 SURFACE_DEPTH = 0.015
 """Metres behind the nearest of them within which others are of the same surface."""
-MIN_POINTS = 2
+MIN_AGREEING_POINTS = 2
 """Points that must tell so."""
-BELIEVED = 0.06
+MAX_LANDMARK_DISTANCE_METRES = 0.06
 """Metres from where many views have a landmark within which one view's is believed: lines of sight past a hand end on the trunk."""
-SURER = (*FROM_THE_FRONT, "Index", "Pinky")
+CLOUD_PLACED_LANDMARKS = (*FROM_THE_FRONT, "Index", "Pinky")
 """Landmarks of the body, without a side, that one view and the cloud place better than many views do that see them aslant."""
 
 
@@ -53,11 +53,11 @@ def completed(triangulated: SpatialLandmarks, projected: SpatialLandmarks) -> Sp
     body = dict(triangulated.body)
     for name, at in projected.body.items():
         known = body.get(name)
-        surer = name.removeprefix("Left").removeprefix("Right") in SURER
-        if known is None or (surer and np.linalg.norm(at - known) < BELIEVED):
+        surer = name.removeprefix("Left").removeprefix("Right") in CLOUD_PLACED_LANDMARKS
+        if known is None or (surer and np.linalg.norm(at - known) < MAX_LANDMARK_DISTANCE_METRES):
             body[name] = at
     off = np.linalg.norm(projected.face - triangulated.face, axis=1)
-    taken = np.isfinite(projected.face).all(1) & ~(off > BELIEVED)
+    taken = np.isfinite(projected.face).all(1) & ~(off > MAX_LANDMARK_DISTANCE_METRES)
     return replace(triangulated, body=body, face=np.where(taken[:, None], projected.face, triangulated.face))
 
 
@@ -73,6 +73,6 @@ def onto_cloud(camera: Camera, pixels: NDArray[np.floating], points: NDArray[np.
     for k, some in enumerate(near):
         depths = np.sort(projected[before[some], 2])
         surface = depths[depths < depths[0] + SURFACE_DEPTH] if len(depths) else depths
-        if len(surface) >= MIN_POINTS:
+        if len(surface) >= MIN_AGREEING_POINTS:
             out[k] = camera.unproject(np.asarray(pixels[k : k + 1], np.float64), np.median(surface)[None])[0]
     return out

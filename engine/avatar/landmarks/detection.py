@@ -28,7 +28,7 @@ HAND_SIGMA_SHARE = 0.08
 """By what share of a hand's size in the frame one of the hand is."""
 MIN_VIEWS = 3
 """Views that must agree on a landmark."""
-BLINK = 0.6
+BLINK_OPENING_SHARE = 0.6
 """Of the median opening of an eye, below which a frame shows it blinking."""
 MAX_FACE_TURN = 0.65
 """The most by which the tip of the nose may be off the middle between the eyes' outer corners, in halves of their distance: faces
@@ -95,7 +95,9 @@ def _eye(seen: Sequence[tuple[Camera, FrameLandmarks]], side: int) -> NDArray[np
     if len(having) < MIN_VIEWS:
         return out
     opening = np.array([eye_opening(eye) for _, _, eye in having])
-    having = [one for one, wide in zip(having, opening >= BLINK * np.median(opening), strict=True) if wide]
+    having = [
+        one for one, wide in zip(having, opening >= BLINK_OPENING_SHARE * np.median(opening), strict=True) if wide
+    ]
     if len(having) < MIN_VIEWS:
         return out
     cameras = [camera for camera, _, _ in having]

@@ -26,9 +26,9 @@ MIN_BONES = 4
 """Bones with which a skeleton is one ..."""
 MIN_BEST_CONFIDENCE = 0.5
 """... and the confidence of its surest landmark."""
-MIN_CONFIDENCE = 0.3
+MIN_LANDMARK_CONFIDENCE = 0.3
 """Of a landmark that is used."""
-KNUCKLES = ("Index", "Pinky")
+KNUCKLE_LANDMARKS = ("Index", "Pinky")
 """Landmarks of the body that a hand's own crop shows better: its first joints."""
 HEAD_REACH = 1.6
 """Half the side of the square in which a body's face is looked for, in distances between its shoulders' and eyes' middle."""
@@ -73,7 +73,7 @@ def frame_landmarks(rgb: NDArray[np.uint8]) -> FrameLandmarks:
     if body is not None and named:
         for hand in find_hands(rgb, body):
             hands[hand.side] = hand.points.astype(np.float64), hand.confidence
-            for finger in KNUCKLES:
+            for finger in KNUCKLE_LANDMARKS:
                 at, _ = hand.joint(f"{hand.side}Hand{finger}1")
                 named[f"{hand.side}{finger}"] = at.astype(np.float64), hand.confidence
     mesh = _face_mesh(rgb, body if named else None)
@@ -86,7 +86,7 @@ def _face_mesh(rgb: NDArray[np.uint8], body: Body | None) -> NDArray[np.float64]
     """(478, 2) the largest face; of a body, that where its head is, if its nose is seen at all."""
     within = None
     if body is not None:
-        if body.confidence[BODY_LANDMARKS.index("Nose")] < MIN_CONFIDENCE:
+        if body.confidence[BODY_LANDMARKS.index("Nose")] < MIN_LANDMARK_CONFIDENCE:
             return None
         eyes = (body.landmark("LeftEye") + body.landmark("RightEye")) / 2
         shoulders = (body.landmark("LeftShoulder") + body.landmark("RightShoulder")) / 2
@@ -104,7 +104,9 @@ def _face_mesh(rgb: NDArray[np.uint8], body: Body | None) -> NDArray[np.float64]
 def reliable(body: Body) -> dict[str, tuple[NDArray[np.float64], float]]:
     """A body's landmarks of some confidence; none at all of a skeleton with fewer than four bones, or whose best confidence is
     below one half."""
-    sure = {name for name, value in zip(BODY_LANDMARKS, body.confidence, strict=True) if value >= MIN_CONFIDENCE}
+    sure = {
+        name for name, value in zip(BODY_LANDMARKS, body.confidence, strict=True) if value >= MIN_LANDMARK_CONFIDENCE
+    }
     bones = sum(a in sure and b in sure for a, b in SKELETON_BONES)
     if bones < MIN_BONES or body.confidence.max() < MIN_BEST_CONFIDENCE:
         return {}

@@ -21,7 +21,7 @@ TELLING_THE_SIDE = ("Index", "Ear")
 """Landmarks whose confidence says which side of the person is seen."""
 UPPER_LIDS, LOWER_LIDS, CORNERS = ((37, 38), (43, 44)), ((41, 40), (47, 46)), ((36, 39), (42, 45))
 """Of the 68 points of a face, of both eyes."""
-MIRRORED = tuple(
+MIRRORED_LANDMARKS = tuple(
     zip(
         (*range(8), *range(17, 22), 31, 32, 36, 48),
         (*range(16, 8, -1), *range(26, 21, -1), 35, 34, 45, 54),
@@ -29,7 +29,7 @@ MIRRORED = tuple(
     )
 )
 """Pairs of them that are each other's mirror images ..."""
-MIDDLE = (27, 28, 29, 30, 33, 51, 57, 8)
+MIDLINE_LANDMARKS = (27, 28, 29, 30, 33, 51, 57, 8)
 """... and those in the middle."""
 
 
@@ -63,8 +63,8 @@ def frontality(face: NDArray[np.float64]) -> float:
     if width == 0:
         return -np.inf
     along = across / width
-    middle = face[list(MIDDLE)].mean(0)
-    left, right = (face[list(points)] for points in zip(*MIRRORED, strict=True))
+    middle = face[list(MIDLINE_LANDMARKS)].mean(0)
+    left, right = (face[list(points)] for points in zip(*MIRRORED_LANDMARKS, strict=True))
     symmetry = 1 - float(np.abs((left - middle) @ along + (right - middle) @ along).mean()) / width
     heights = [
         np.linalg.norm(face[list(upper)].mean(0) - face[list(lower)].mean(0))

@@ -9,9 +9,9 @@ import numpy as np
 from engine.avatar.landmarks.in_frames import FrameLandmarks
 from engine.errors import Notice
 
-MIN_FRAMES = 3
+MIN_FRAMES_TELLING = 3
 """Frames that must tell of a face."""
-BRIDGE = 0.05
+MIN_BRIDGE_STRENGTH = 0.05
 """Of `engine.perception.face_wear.FaceWear.bridge`, in the median frame, from which glasses are worn."""
 LIP_DARKNESS = 1.1
 """Of `FaceWear.lip_darkness`, from which a beard is: a third of the cheek's light."""
@@ -20,7 +20,7 @@ LIP_DARKNESS = 1.1
 def worn_on_face(seen: Sequence[FrameLandmarks]) -> tuple[Notice, ...]:
     """What the user should know of a face that frames have `seen`; nothing where fewer than three tell of it."""
     notices = []
-    if _median([one.wear.bridge for one in seen]) > BRIDGE:
+    if _median([one.wear.bridge for one in seen]) > MIN_BRIDGE_STRENGTH:
         notices.append(
             Notice(
                 "glasses_as_skin",
@@ -41,4 +41,4 @@ def worn_on_face(seen: Sequence[FrameLandmarks]) -> tuple[Notice, ...]:
 
 def _median(values: Sequence[float]) -> float:
     known = np.array(values)[np.isfinite(values)]
-    return float(np.median(known)) if len(known) >= MIN_FRAMES else -np.inf
+    return float(np.median(known)) if len(known) >= MIN_FRAMES_TELLING else -np.inf

@@ -42,7 +42,7 @@ USUAL_SIGMA = 0.02
 """... and all others."""
 ROUGH_SIGMA = 0.03
 """What is assumed of landmarks at first, at least."""
-LANDMARK_CUTOFF = 6.0
+LANDMARK_CUTOFF_SIGMAS = 6.0
 """Deviations at which a landmark's pull is at its strongest (Geman-McClure)."""
 MAX_LANDMARK_RESIDUAL = 0.12
 """Metres from the fit beyond which a landmark is wrong: right ones come within 0.03, those of another limb are 0.4 off."""
@@ -51,7 +51,7 @@ MAX_SIGMAS = 2.5
 MIN_LANDMARKS = 8
 SOLE_SIGMA = 0.01
 """Metres that soles reach below the ground, usually: nothing says where feet are that the cloud lacks, except that."""
-POINT_SIGMA = 0.006
+POINT_SIGMA_METRES = 0.006
 """Metres by which points are off, usually, for clothes ..."""
 INDEPENDENT_POINTS = 500.0
 """... and as how many independent measurements all of them count: clothes are off alike, and sleeves slide arms along, against
@@ -175,7 +175,7 @@ def _residuals(
     """(N, R) landmarks, priors and the ground in standard deviations, for parameters (N, P)."""
     posed = model.poser(parameters)
     off = (posed.carry(carried)[:, chosen] - places) / sigmas[:, None]
-    off = off / np.sqrt(1 + (off**2).sum(-1, keepdims=True) / LANDMARK_CUTOFF**2)
+    off = off / np.sqrt(1 + (off**2).sum(-1, keepdims=True) / LANDMARK_CUTOFF_SIGMAS**2)
     _, turns, coefficients = model.poser.split(parameters)
     stiff = np.array([STIFF_WEIGHT if name in STIFF_JOINTS else 1.0 for name in FITTED_JOINTS[1:]]).repeat(3)
     heights = posed.carry(model.soles)[..., 1]
@@ -206,7 +206,7 @@ def _point_term(
     between /= np.linalg.norm(between, axis=1, keepdims=True)
     weights = 1 / (1 + (nearest.distance[used] / turn.gate) ** 2)
     weights *= np.where(skin.regions["hands"][corners].all(1), HAND_TRUST, 1.0)
-    scale = np.sqrt(weights * INDEPENDENT_POINTS / max(len(weights), 1)) / POINT_SIGMA
+    scale = np.sqrt(weights * INDEPENDENT_POINTS / max(len(weights), 1)) / POINT_SIGMA_METRES
     across = np.hypot(1, TANGENTIAL_SHARE) - TANGENTIAL_SHARE
     metric = TANGENTIAL_SHARE * np.eye(3) + across * between[:, :, None] * between[:, None, :]
     metric *= scale[:, None, None]

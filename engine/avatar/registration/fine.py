@@ -30,7 +30,7 @@ LIP_STIFFNESS = 30.0
 """Of lips in the head's cloud ..."""
 LID_STIFFNESS = 10.0
 """... and of lids."""
-ANCHOR = 0.003
+COARSE_FIT_WEIGHT = 0.003
 """What the coarse fit's place of the skin counts beside the points': nothing where there are some, all where there are none."""
 POINT_NOISE = 0.0015
 """Metres by which points scatter in a good cloud. In a bad one, of plain clothes in a small film, it is five times that: sleeves and
@@ -41,7 +41,7 @@ LID_POINTS = (37, 38, 40, 41, 43, 44, 46, 47)
 """Face landmarks on the rims of upper and lower lids, between the corners of the eyes."""
 LID_LANDMARKS = 3000.0
 """What those count in the head's own fit, where nothing else tells how far eyes are open."""
-LANDMARK_SIGMA = 0.008
+LANDMARK_SIGMA_METRES = 0.008
 """Metres from the fit before at which a landmark counts a quarter (Geman-McClure): a moustache moves those of the mouth."""
 MAX_FACE_DISTANCE = 0.03
 """Metres from the coarse fit beyond which, in the median, face landmarks are of a visor or a mask and not used."""
@@ -89,7 +89,7 @@ def face_landmarks(
     ahead = _straight_ahead(vertices[skin.face_points])
     places = face[known] + ((vertices[at] - face[known]) @ ahead)[:, None] * ahead
     off = np.linalg.norm(vertices[at] - places, axis=1)
-    believed = 1 / (1 + (off / LANDMARK_SIGMA) ** 2) ** 2
+    believed = 1 / (1 + (off / LANDMARK_SIGMA_METRES) ** 2) ** 2
     weights = believed * np.where(np.isin(known, LID_POINTS), lids, 1.0)
     return SurfaceLandmarks(rows, np.asarray(places, np.float64), weights)
 
@@ -122,7 +122,7 @@ def _elastic(skin: Skin, rest: NDArray[np.float64], stiffness: NDArray[np.float6
         _trust(skin),
         held=skin.regions["lower_feet"] | skin.regions["whole_hands"],
         noise=np.where(skin.regions["face"], np.inf, POINT_NOISE),
-        anchor=ANCHOR,
+        anchor=COARSE_FIT_WEIGHT,
         contact=skin.lip_contact,
     )
 

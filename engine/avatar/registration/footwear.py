@@ -20,17 +20,17 @@ from engine.geometry.point_cloud import PointCloud
 
 FOOT_REACH = 0.02
 """Metres from the coarse fit's feet within which points are of them."""
-FLOOR_REACH = 0.012
+FLOOR_REACH_METRES = 0.012
 """Metres above the lowest of them below which points may be the floor's."""
-NOSE = slice(27, 36)
+NOSE_LANDMARKS = slice(27, 36)
 """Of the 68 face landmarks: about them there is skin, and no hair."""
 NOSE_REACH = 0.015
 """Metres about them."""
-MIN_POINTS = 60
+MIN_COLOUR_POINTS = 60
 """Points of feet, and of the face, with which colours are known."""
 MAX_HUE_OFF = 9.0
 """By how much, in the plane of CIELAB's a and b, the skin of feet differs from the face's, at most ..."""
-DARKEST, BRIGHTEST = 0.6, 1.5
+MIN_LIGHTNESS_RATIO, MAX_LIGHTNESS_RATIO = 0.6, 1.5
 """... and how light it is, in the face's lightness."""
 MIN_BARE_SHARE = 0.6
 """Of the points of feet, that have the colour of skin."""
@@ -67,18 +67,18 @@ def seen_barefoot(feet: Feet, coarse: NDArray[np.float64], cloud: PointCloud, fa
     `face` (68, 3), NaN where unknown. Where either are not seen, nobody was seen barefoot."""
     own = coarse[feet.masks[0] | feet.masks[1]]
     near = _about(cloud, own, FOOT_REACH)
-    near = near[near.points[:, 1] > own[:, 1].min() + FLOOR_REACH]
-    nose = face[NOSE]
+    near = near[near.points[:, 1] > own[:, 1].min() + FLOOR_REACH_METRES]
+    nose = face[NOSE_LANDMARKS]
     nose = nose[np.isfinite(nose).all(1)]
     if not len(nose):
         return False
     skin = _about(cloud, nose, NOSE_REACH)
-    if min(len(near), len(skin)) < MIN_POINTS:
+    if min(len(near), len(skin)) < MIN_COLOUR_POINTS:
         return False
     face_lab = np.median(_lab(skin), axis=0)
     lab = _lab(near)
     alike = np.linalg.norm(lab[:, 1:] - face_lab[1:], axis=1) < MAX_HUE_OFF
-    alike &= (lab[:, 0] > DARKEST * face_lab[0]) & (lab[:, 0] < BRIGHTEST * face_lab[0])
+    alike &= (lab[:, 0] > MIN_LIGHTNESS_RATIO * face_lab[0]) & (lab[:, 0] < MAX_LIGHTNESS_RATIO * face_lab[0])
     return bool(alike.mean() > MIN_BARE_SHARE)
 
 

@@ -13,7 +13,7 @@ from engine.geometry.point_cloud import PointCloud, joined
 from engine.geometry.registration.iterative_closest_point import rigid_onto_cloud
 from engine.geometry.registration.rigid import Similarity, fit_rigid, fit_robustly, fit_similarity
 
-LANDMARK_SIGMA = 0.006
+LANDMARK_SIGMA_METRES = 0.006
 """Metres by which face landmarks are off, usually."""
 MIN_FACE_LANDMARKS = 20
 """Face landmarks without which a head's cloud has no place."""
@@ -22,11 +22,11 @@ ALIGNMENT_ROUNDS = 12
 ALIGNMENT_REACH = 0.25
 """Metres about the head's middle within which the two clouds are laid on each other: hair, neck and shoulders tell how a round
 head is turned."""
-ALIGNMENT_GATE = 0.03
+ALIGNMENT_GATE_METRES = 0.03
 """Metres within which points of one cloud are of what the other shows there."""
-AGREED = 0.005
+AGREEMENT_DISTANCE_METRES = 0.005
 """Metres within which a point agrees with the other cloud."""
-ALIGNED_POINTS = 20000
+MAX_ALIGNED_POINTS = 20000
 """Points of the head's cloud that are laid on the body's, at most."""
 CLOUD_RINGS = 10
 """Rings of vertices below the head for which the head's cloud counts, too."""
@@ -54,19 +54,21 @@ def head_to_body(
         return None
     target = fitted[skin.face_points[known]]
     fit = fit_rigid if sized else fit_similarity
-    starts = [fit_robustly(landmarks.face[known], target, LANDMARK_SIGMA, fit).transform]
+    starts = [fit_robustly(landmarks.face[known], target, LANDMARK_SIGMA_METRES, fit).transform]
     if sized:
         starts.append(Similarity(np.eye(3), np.zeros(3)))
     middle = fitted[skin.regions["head"]].mean(0)
-    around = body[np.linalg.norm(body.points - middle, axis=1) < ALIGNMENT_REACH + ALIGNMENT_GATE]
+    around = body[np.linalg.norm(body.points - middle, axis=1) < ALIGNMENT_REACH + ALIGNMENT_GATE_METRES]
     tree = cKDTree(around.points)
     best, most = starts[0], -1
     for start in starts:
         points = start(cloud.points)
         points = points[np.linalg.norm(points - middle, axis=1) < ALIGNMENT_REACH]
-        points = points[:: max(len(points) // ALIGNED_POINTS, 1)]
-        turn = rigid_onto_cloud(points, around.points, around.normals, ALIGNMENT_GATE, ALIGNMENT_ROUNDS)
-        agreed = int(np.count_nonzero(np.isfinite(tree.query(turn(points), distance_upper_bound=AGREED)[0])))
+        points = points[:: max(len(points) // MAX_ALIGNED_POINTS, 1)]
+        turn = rigid_onto_cloud(points, around.points, around.normals, ALIGNMENT_GATE_METRES, ALIGNMENT_ROUNDS)
+        agreed = int(
+            np.count_nonzero(np.isfinite(tree.query(turn(points), distance_upper_bound=AGREEMENT_DISTANCE_METRES)[0]))
+        )
         if agreed > most:
             best, most = Similarity(turn.linear @ start.linear, turn(start.shift)), agreed
     return best

@@ -37,7 +37,7 @@ HEAD_SPACING = 0.0012
 """The same of the head's."""
 MAX_COEFFICIENT = 5.0
 """Standard deviations of the space of bodies beyond which proportions are unusual, and said to be."""
-MIN_POINTS = 2000
+MIN_CLOUD_POINTS = 2000
 """Of a cloud that says anything of a body."""
 
 EYES_NOT_MEASURED = Notice(
@@ -68,7 +68,7 @@ def register(
     Raises `InputError`: `landmarks_needed` where landmarks are missing or contradict each other; `cloud_too_thin` where there
     are too few points.
     """
-    if len(body.cloud) < MIN_POINTS:
+    if len(body.cloud) < MIN_CLOUD_POINTS:
         raise InputError(
             "cloud_too_thin",
             "Too little of the person was reconstructed: film again in even light, slowly, with the whole body in view.",
@@ -87,7 +87,7 @@ def register(
     fitted = fit_body(models.skin, coarse, cloud, body.landmarks.face)
     check()
     placed: Similarity | None = None
-    if head is not None and len(head.cloud) >= MIN_POINTS:
+    if head is not None and len(head.cloud) >= MIN_CLOUD_POINTS:
         placed = head_to_body(models.skin, fitted, body.cloud, head.cloud, head.landmarks, head.sized)
         if placed is not None:
             fitted = _with_head(models, fitted, cloud, head, placed)

@@ -36,8 +36,8 @@ class Level(NamedTuple):
     rounds: int
 
 
-LEVELS = (Level(240, 256, 14, 4), Level(480, 448, 28, 3), Level(960, 640, 40, 2))
-BLUR = 1.2
+ALIGNMENT_LEVELS = (Level(240, 256, 14, 4), Level(480, 448, 28, 3), Level(960, 640, 40, 2))
+BLUR_SIGMA_PIXELS = 1.2
 """Pixels: the deviation by which pictures are blurred, so that between pixels they change as their slopes say."""
 STEEPEST_DEGREES = 70.0
 """Between a normal and the way to the camera, from which on a frame has nothing to say about a point."""
@@ -75,9 +75,9 @@ class _Sight:
 
 def aligned(surface: ChartedSurface, views: Sequence[FrameView], gains: NDArray[np.floating]) -> tuple[FrameView, ...]:
     """The views, each with the shift by which it shows the surface as the others do; `gains` (N, 3) make exposures one. Their
-    pictures are read once for each of `LEVELS`."""
+    pictures are read once for each of `ALIGNMENT_LEVELS`."""
     shifts = [ImageShift.none(view.camera.size, max(view.camera.size)) for view in views]
-    for level in LEVELS:
+    for level in ALIGNMENT_LEVELS:
         points, normals = _points(surface, level.texels)
         sights = [
             _sight(surface, points, normals, view, np.asarray(gain, np.float32), level.side)
@@ -122,7 +122,7 @@ def _sight(
     if view.person is not None:
         mask = resized(view.person().astype(np.uint8) * np.uint8(MASK_LEVELS), (width, height))
     picture = np.clip(resized(view.picture(), (width, height)) * gain, 0, 255).astype(np.uint8)
-    layers = cv2.GaussianBlur(np.dstack([picture, mask]), (0, 0), BLUR)
+    layers = cv2.GaussianBlur(np.dstack([picture, mask]), (0, 0), BLUR_SIGMA_PIXELS)
     pixels = camera.project(points)
     back = np.asarray(camera.eye) - points
     cosine = np.einsum("nk,nk->n", back, normals) / np.maximum(np.linalg.norm(back, axis=1), 1e-9)

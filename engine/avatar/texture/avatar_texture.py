@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.registration.eyes.fitted_eyes import IRIS_RADIUS
-from engine.avatar.texture.labels import UNSEEN, FaceLabels
-from engine.avatar.texture.stitching import TEXTURE_SIZE, stitch_texture
+from engine.avatar.texture.labels import UNSEEN_LABEL, FaceLabels
+from engine.avatar.texture.stitching import TEXTURE_SIZE_TEXELS, stitch_texture
 from engine.avatar.texture.template_surface import TemplateSurface
 from engine.avatar.texture.template_texture.placing import place_eyes, place_hands, place_lids, place_mouth
 from engine.avatar.texture.views import FrameView
@@ -38,7 +38,7 @@ def avatar_texture(
     rig: Rig,
     vertices: NDArray[np.floating],
     views: Sequence[FrameView],
-    size: int = TEXTURE_SIZE,
+    size: int = TEXTURE_SIZE_TEXELS,
     iris: float = IRIS_RADIUS,
 ) -> AvatarTexture:
     """The texture, `size` texels a side, of the person whose template vertices are (V, 3), metres, as the cameras of `views`
@@ -53,7 +53,7 @@ def avatar_texture(
     place_lids(found.texture, surface, vertices, found.raster)
     eyes_seen = place_eyes(found.texture, surface, vertices, views, found.gains, iris, found.raster)
     areas = triangle_areas(fitted.vertices, fitted.triangles) * fitted.stitched
-    share = float(areas[found.labels.labels != UNSEEN].sum() / areas.sum())
+    share = float(areas[found.labels.labels != UNSEEN_LABEL].sum() / areas.sum())
     charts = charts_of(surface.atlas, found.raster)
     labels, best, gains, texture = found.labels, found.best, found.gains, found.texture
     del found

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.texture.view_samples import ViewSamples
 
-DARKEST, BRIGHTEST = 12.0, 245.0
+MIN_GREY_LEVEL, MAX_GREY_LEVEL = 12.0, 245.0
 """Grey levels, means along an edge, beyond which nothing is learnt: noise, and what is blown out."""
 MAX_EDGES = 6000
 """Edges that are asked, evenly spread over all: each shows it in many frames."""
@@ -32,7 +32,7 @@ def exposure_gains(samples: ViewSamples) -> NDArray[np.float32]:
     gains = np.ones((shown.shape[1], 3), np.float32)
     for channel in range(3):
         means = samples.colours[asked, :, :, channel].mean(2, dtype=np.float32)
-        used = shown & (means > DARKEST) & (means < BRIGHTEST)
+        used = shown & (means > MIN_GREY_LEVEL) & (means < MAX_GREY_LEVEL)
         used &= used.sum(1, keepdims=True) > 1
         if not used.any():
             continue

@@ -25,14 +25,14 @@ FRAMES_PER_FACE = 16
 """Best frames of a face among which it chooses, beside those that it begins with."""
 EXPANSION_SWEEPS = 3
 """Rounds of expansions over all labels."""
-UNSEEN = -1
+UNSEEN_LABEL = -1
 """The label of a face that no frame shows."""
 
 
 @dataclass(frozen=True)
 class FaceLabels:
-    """`labels` (T,) int: the frame that each face takes, or `UNSEEN`. `data` and `seams`: what the energy is made of, the
-    latter not weighted. `patches`: connected pieces of one label."""
+    """`labels` (T,) int: the frame that each face takes, or `UNSEEN_LABEL`. `data` and `seams`: what the energy is made
+    of, the latter not weighted. `patches`: connected pieces of one label."""
 
     labels: NDArray[np.intp]
     data: float
@@ -43,7 +43,7 @@ class FaceLabels:
 def best_views(samples: ViewSamples, gains: NDArray[np.floating], areas: NDArray[np.floating]) -> FaceLabels:
     """Each face by the frame that shows it best: where the paper begins. `gains` (N, 3), `areas` (T,)."""
     costs = _data_costs(samples, areas)
-    labels = np.where(np.isfinite(costs).any(1), costs.argmin(1), UNSEEN)
+    labels = np.where(np.isfinite(costs).any(1), costs.argmin(1), UNSEEN_LABEL)
     return _measured(labels, costs, samples, gains)
 
 
@@ -63,7 +63,7 @@ def stitched(samples: ViewSamples, gains: NDArray[np.floating], areas: NDArray[n
         begin[known],
         EXPANSION_SWEEPS,
     )
-    labels = np.full(len(costs), UNSEEN, np.intp)
+    labels = np.full(len(costs), UNSEEN_LABEL, np.intp)
     labels[known] = found.labels
     return _measured(labels, costs, samples, gains)
 
@@ -104,7 +104,7 @@ def _seam_costs(samples: ViewSamples, gains: NDArray[np.floating]) -> PairCost:
 def _measured(
     labels: NDArray[np.intp], costs: NDArray[np.float32], samples: ViewSamples, gains: NDArray[np.floating]
 ) -> FaceLabels:
-    known = labels != UNSEEN
+    known = labels != UNSEEN_LABEL
     pairs = samples.pairs
     inner = np.flatnonzero(known[pairs].all(1))
     alike = labels[pairs[inner, 0]] == labels[pairs[inner, 1]]

@@ -10,9 +10,9 @@ from scipy.sparse.linalg import splu
 from engine.avatar.texture.image_shift import ImageShift, lattice_cell
 from engine.compiled import njit
 
-STIFFNESS = 4.0
+STIFFNESS_LEVELS = 4.0
 """Grey levels a pixel: where a picture changes less than that, a node goes with those beside it."""
-ANCHOR = 0.4
+SHIFT_PRIOR_LEVELS = 0.4
 """Grey levels a pixel, by which a shift is drawn back to none: what nothing tells of does not move."""
 
 
@@ -35,7 +35,9 @@ def lattice_step(
     matrix = _assembled(blocks, rows, columns)
     covered = max(int((blocks[:, 4, 2] > 0).sum()), 1)
     scale = float(weights.sum()) / covered if len(weights) else 1.0
-    smooth = scale * (STIFFNESS**2 * _differences(rows, columns) + ANCHOR**2 * sp.eye_array(rows * columns))
+    smooth = scale * (
+        STIFFNESS_LEVELS**2 * _differences(rows, columns) + SHIFT_PRIOR_LEVELS**2 * sp.eye_array(rows * columns)
+    )
     both = sp.kron(smooth, sp.eye_array(2)).tocsc()
     now = shift.nodes.astype(np.float64).ravel()
     return np.asarray(splu((matrix + both).tocsc()).solve(-right.ravel() - both @ now)).reshape(rows, columns, 2)

@@ -10,16 +10,16 @@ from engine.avatar.registration.eyes.eyeballs import sphere
 from engine.geometry.camera import Camera
 from engine.render.visibility import depth_buffer, seen_points, view_cosines
 
-FOLD = 0.25
+LID_FOLD_EYE_WIDTHS = 0.25
 """Widths of an eye from the rims of its lids within which skin may lie in a fold."""
-DISTANCE, PIXELS, WIDTH = 0.5, 480, 0.06
+CAMERA_DISTANCE_METRES, PICTURE_WIDTH_PIXELS, PICTURE_WIDTH_METRES = 0.5, 480, 0.06
 """Metres from the eye to the camera that looks at it, and the pixels and the metres at the eye that its picture is wide."""
-LEAST_COSINE = 0.35
+MIN_VIEW_COSINE = 0.35
 """To the way to that camera; skin that is seen more from the side is in the shade of lids and lashes, as what is in the fold is."""
 CLOSING_ROUNDS = 2
 """In which triangles of the upper lid that share two corners with what lies in the fold are counted with it: what shows of them at rest
 is narrower than lashes."""
-SLACK = 5e-4
+VISIBILITY_TOLERANCE_METRES = 5e-4
 """Metres behind the surface at which a triangle's middle is seen."""
 
 
@@ -37,18 +37,25 @@ def in_lid_fold(
     middle = sphere(vertices[eyeball])[0]
     loop = vertices[rim]
     ahead = loop.mean(0) - middle
-    half = (PIXELS - 1) / 2
-    lens = Camera((0.0, 0.0, 0.0), PIXELS * DISTANCE / WIDTH, (half, half), (PIXELS, PIXELS))
-    camera = lens.aimed(middle + DISTANCE * ahead / np.linalg.norm(ahead), middle)
+    half = (PICTURE_WIDTH_PIXELS - 1) / 2
+    lens = Camera(
+        (0.0, 0.0, 0.0),
+        PICTURE_WIDTH_PIXELS * CAMERA_DISTANCE_METRES / PICTURE_WIDTH_METRES,
+        (half, half),
+        (PICTURE_WIDTH_PIXELS, PICTURE_WIDTH_PIXELS),
+    )
+    camera = lens.aimed(middle + CAMERA_DISTANCE_METRES * ahead / np.linalg.norm(ahead), middle)
     corners = np.asarray(triangles)
     middles = vertices[corners].mean(1)
-    reach = FOLD * float(np.ptp(loop, axis=0).max())
+    reach = LID_FOLD_EYE_WIDTHS * float(np.ptp(loop, axis=0).max())
     near = np.flatnonzero(np.isfinite(cKDTree(loop).query(middles, distance_upper_bound=reach)[0]))
     a, b, c = (vertices[corners[near, k]] for k in range(3))
     normals = np.cross(b - a, c - a)
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
-    seen = seen_points(depth_buffer(camera, vertices, corners), camera.project(middles[near]), SLACK)
-    seen &= view_cosines(camera, middles[near], normals) > LEAST_COSINE
+    seen = seen_points(
+        depth_buffer(camera, vertices, corners), camera.project(middles[near]), VISIBILITY_TOLERANCE_METRES
+    )
+    seen &= view_cosines(camera, middles[near], normals) > MIN_VIEW_COSINE
     upper = _above_corners(camera.project(middles[near]), camera.project(loop))
     hidden = ~seen
     for _ in range(CLOSING_ROUNDS):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.texture.labels import UNSEEN
+from engine.avatar.texture.labels import UNSEEN_LABEL
 from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.compiled import njit
 from engine.render.rasteriser import Raster
@@ -45,8 +45,8 @@ def paint(
     texels are worked on at once, which changes nothing.
     """
     size = len(raster.triangle)
-    of_texel = np.where(raster.triangle >= 0, labels[raster.triangle], UNSEEN).astype(np.int16)
-    known = of_texel != UNSEEN
+    of_texel = np.where(raster.triangle >= 0, labels[raster.triangle], UNSEEN_LABEL).astype(np.int16)
+    known = of_texel != UNSEEN_LABEL
     seams = _meeting_texels(of_texel, surface.atlas.charts, raster.triangle)
     first, second = of_texel.ravel()[seams.T]
     # frames are asked for their own texels, and at seams for the other's: the second frame at the first texel, and back
@@ -107,7 +107,7 @@ def _meeting_texels(
         ((slice(-1), slice(None)), (slice(1, None), slice(None))),
     ):
         a, b = of_texel[one], of_texel[other]
-        meet = np.nonzero((a != b) & (a != UNSEEN) & (b != UNSEEN))
+        meet = np.nonzero((a != b) & (a != UNSEEN_LABEL) & (b != UNSEEN_LABEL))
         together = charts[triangle[one][meet]] == charts[triangle[other][meet]]
         pairs = np.stack([numbers[one][meet], numbers[other][meet]], 1)
         found.append(pairs[together])

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.texture.view_samples import ViewSamples
 
-MIN_FRAMES = 4
+MIN_FRAMES_SHOWING = 4
 """That show a face, for most of them to be right."""
 MAX_DEVIATIONS = 3.0
 """Beyond which a frame contradicts the others, in their median distance from what they agree on ..."""
@@ -43,7 +43,7 @@ def consistent(samples: ViewSamples, gains: NDArray[np.floating]) -> ViewSamples
 
 def _contradicted(colours: NDArray[np.float32], seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(T, N) where the colours (T, N, 3) of frames that have `seen` (T, N) a face are not those that most have."""
-    enough = seen.sum(1) >= MIN_FRAMES
+    enough = seen.sum(1) >= MIN_FRAMES_SHOWING
     out = np.zeros(seen.shape, np.bool_)
     shown = np.where(seen[enough, :, None], colours[enough], np.nan)
     away = np.linalg.norm(shown - np.nanmedian(shown, axis=1, keepdims=True), axis=2)

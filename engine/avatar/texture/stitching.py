@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.texture.alignment import aligned
 from engine.avatar.texture.exposure import exposure_gains
-from engine.avatar.texture.labels import UNSEEN, FaceLabels, best_views, stitched
+from engine.avatar.texture.labels import UNSEEN_LABEL, FaceLabels, best_views, stitched
 from engine.avatar.texture.levelling import level_seams
 from engine.avatar.texture.painting import paint
 from engine.avatar.texture.photo_consistency import consistent
@@ -21,7 +21,7 @@ from engine.render.rasteriser import Raster
 from engine.render.texture_bake import charts_of, texel_raster
 from engine.render.texture_fill import fill_over_surface
 
-TEXTURE_SIZE = 4096
+TEXTURE_SIZE_TEXELS = 4096
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,9 @@ class StitchedTexture:
         return np.asarray((self.raster.triangle >= 0) & (self.resolution[self.raster.triangle] > 0))
 
 
-def stitch_texture(surface: ChartedSurface, views: Sequence[FrameView], size: int = TEXTURE_SIZE) -> StitchedTexture:
+def stitch_texture(
+    surface: ChartedSurface, views: Sequence[FrameView], size: int = TEXTURE_SIZE_TEXELS
+) -> StitchedTexture:
     """The texture of `surface`, `size` texels along a side, from `views`, whose pictures are read twice.
 
     Raises ValueError where no view shows any of the surface.
@@ -57,7 +59,7 @@ def stitch_texture(surface: ChartedSurface, views: Sequence[FrameView], size: in
     best, labels = best_views(samples, gains, areas), stitched(samples, gains, areas)
     resolution = _resolution(samples, labels)
     del samples
-    if (labels.labels == UNSEEN).all():
+    if (labels.labels == UNSEEN_LABEL).all():
         raise ValueError("no view shows any of the surface")
     raster = texel_raster(surface.atlas, size)
     painted = paint(surface, raster, labels.labels, views, gains)
@@ -70,4 +72,4 @@ def _resolution(samples: ViewSamples, labels: FaceLabels) -> NDArray[np.float32]
     """(T,) pixels per metre, in the mean of both directions, at which frames show the faces that took them."""
     taken = labels.labels[:, None]
     density = np.take_along_axis(samples.density * np.sqrt(samples.cosine), np.maximum(taken, 0), 1)
-    return np.where(taken == UNSEEN, 0, density)[:, 0]
+    return np.where(taken == UNSEEN_LABEL, 0, density)[:, 0]

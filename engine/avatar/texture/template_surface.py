@@ -27,7 +27,7 @@ HAND_DRIFT = 0.025
 """Metres from a hand within which frames may show it in place of what is there ..."""
 GROWN_TOGETHER = 0.12
 """... and within which, in the template, what is there is the hand itself, or its arm."""
-ATTACHED = len(AVATAR_PARTS)
+ATTACHED_PART = len(AVATAR_PARTS)
 """The part of triangles that stand off the body."""
 
 
@@ -37,7 +37,7 @@ class TemplateSurface:
 
     triangles : (T, 3) into the template's vertices, and those of what is worn.
     atlas : how they lie on the texture.
-    part : (T,) int: which of `AVATAR_PARTS` each is of, or `ATTACHED`.
+    part : (T,) int: which of `AVATAR_PARTS` each is of, or `ATTACHED_PART`.
     mouth : (T,) bool: the bag behind the lips.
     hands : of each side in `SIDES`, (T,) bool.
     rest : (V, 3) the template's vertices, in whose shape it is known where everything is.
@@ -58,7 +58,9 @@ class TemplateSurface:
         """The surface of the person whose template vertices are (V, 3), metres: all of the body's skin but the mouth's bag is
         stitched from frames, and so is what stands off it; but not what a hand lies on, nor what lies in the lids' folds."""
         places = np.asarray(vertices, np.float64)
-        stitched = np.isin(self.part, [AVATAR_PARTS.index("body"), ATTACHED]) & ~self.mouth & ~self._under_hands(places)
+        stitched = (
+            np.isin(self.part, [AVATAR_PARTS.index("body"), ATTACHED_PART]) & ~self.mouth & ~self._under_hands(places)
+        )
         for folded in self.lid_folds(places).values():
             stitched &= ~folded
         stitched &= ~self.sockets
@@ -96,7 +98,7 @@ class TemplateSurface:
         return TemplateSurface(
             triangles=np.concatenate([self.triangles, worn.triangles + np.int32(len(self.rest))]),
             atlas=atlas,
-            part=np.concatenate([self.part, np.full(count, ATTACHED, np.intp)]),
+            part=np.concatenate([self.part, np.full(count, ATTACHED_PART, np.intp)]),
             mouth=np.concatenate([self.mouth, none]),
             hands={side: np.concatenate([hand, none]) for side, hand in self.hands.items()},
             rest=np.concatenate([self.rest, worn.vertices]),

@@ -29,13 +29,16 @@ from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IR
 CAPTURED_UNITS = tuple(unit for unit in FACE_UNITS if unit != "tongueOut")
 """Those that a face mesh shows: it has no tongue."""
 GAZE_UNITS = tuple(unit for unit in CAPTURED_UNITS if unit.startswith("eyeLook"))
-EYES = {"Right": (RIGHT_EYE[0], RIGHT_EYE[8], RIGHT_IRIS[0]), "Left": (LEFT_EYE[0], LEFT_EYE[8], LEFT_IRIS[0])}
+EYE_LANDMARK_VERTICES = {
+    "Right": (RIGHT_EYE[0], RIGHT_EYE[8], RIGHT_IRIS[0]),
+    "Left": (LEFT_EYE[0], LEFT_EYE[8], LEFT_IRIS[0]),
+}
 """The outer and the inner corner of each eye, and its iris, as vertices of the tracked mesh."""
 MAX_GAZE_TRAVEL = {"In": 0.2, "Out": 0.2, "Up": 0.13, "Down": 0.17}
 """Eye widths that an iris travels in the picture when a unit of gaze is whole: eyeballs turn by 30 degrees aside, 25 up, 30 down."""
 DEPTH_WEIGHT = 0.1
 """What a difference in depth counts against one across the picture: a single camera guesses at depth."""
-RIDGE = 0.005
+RIDGE_WEIGHT = 0.005
 """Weight of the squares of the weights, as a share of each unit's own sum of squares: all shrink alike by it."""
 SPARSITY = 0.01
 """Weight of the weights themselves, in eye distances by which all of a unit's points together have to move."""
@@ -96,8 +99,8 @@ def capture_face_units(
     pull = (moved * axes).reshape(len(moved), -1) @ basis.T
     weights = np.zeros((len(moved), len(basis)))
     sparsity = SPARSITY * np.where(np.isin(CAPTURED_UNITS, SUBTLE_UNITS), SUBTLE_SPARSITY, 1.0)
-    _descend(gram, pull, sparsity, RIDGE, SMOOTHNESS, weights)
-    for side in EYES:
+    _descend(gram, pull, sparsity, RIDGE_WEIGHT, SMOOTHNESS, weights)
+    for side in EYE_LANDMARK_VERTICES:
         blink = CAPTURED_UNITS.index(f"eyeBlink{side}")
         weights[:, blink] = np.minimum(BLINK_GAIN * weights[:, blink], 1)
         looks = [CAPTURED_UNITS.index(unit) for unit in GAZE_UNITS if unit.endswith(side)]
@@ -123,7 +126,7 @@ def _rigid(count: int) -> NDArray[np.float64]:
 def _gaze(meshes: NDArray[np.floating], rest: NDArray[np.floating], side: str) -> NDArray[np.float64]:
     """Weights (N, 4) of an eye's `GAZE_UNITS`: how far its iris is from where it is at rest, along the line between the
     corners and across it."""
-    inwards, down = (_iris(meshes, EYES[side]) - _iris(rest[None], EYES[side])).T
+    inwards, down = (_iris(meshes, EYE_LANDMARK_VERTICES[side]) - _iris(rest[None], EYE_LANDMARK_VERTICES[side])).T
     travel = {"Down": down, "In": inwards, "Out": -inwards, "Up": -down}  # as they stand in the alphabet
     return np.stack([np.clip(moved / MAX_GAZE_TRAVEL[unit], 0, 1) for unit, moved in travel.items()], axis=1)
 

@@ -28,7 +28,7 @@ MAX_ANGLES = np.array([*(0.8, 0.8, 0.8), *(1.0, 1.3), *(4 * (0.35, 1.6, 1.9, 1.4
 STRONGEST_PULL_SIGMAS = 3.0
 """Deviations at which the pull of a landmark, or of a bone's direction, is at its strongest (Geman-McClure)."""
 
-ANGLES = 5 + 4 * 4
+HAND_ANGLE_COUNT = 5 + 4 * 4
 """Angles of a hand: the thumb's root (3) and two bends, for each other finger spread and three bends."""
 TURNED_LANDMARKS = [0, *(landmark for finger in FINGERS for landmark in finger_landmarks(finger)[:3])]
 """The landmarks that are joints which turn: the wrist, then those 1 to 3 of each finger."""
@@ -43,8 +43,8 @@ class ArticulatedHand:
         self.rest = (rest - rest[0]).astype(np.float64)
 
     def rotations(self, turns: NDArray[np.float64], angles: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(N, 16, 3, 3) the hand's turn (N, 3), a rotation vector in the forearm's axes, and for its angles (N, `ANGLES`) those
-        of the joints 1 to 3 of each finger, each in its parent's axes."""
+        """(N, 16, 3, 3) the hand's turn (N, 3), a rotation vector in the forearm's axes, and for its angles (N,
+        `HAND_ANGLE_COUNT`) those of the joints 1 to 3 of each finger, each in its parent's axes."""
         vectors = np.zeros((len(turns), 16, 3))
         thumb, others = angles[:, :5], angles[:, 5:].reshape(-1, 4, 4)
         vectors[:, 1] = thumb[:, :3]
@@ -76,7 +76,7 @@ class ArticulatedHand:
 
 
 def finger_priors(angles: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(N, R) how far angles (N, `ANGLES`) are from what fingers usually do, in standard deviations."""
+    """(N, R) how far angles (N, `HAND_ANGLE_COUNT`) are from what fingers usually do, in standard deviations."""
     fingers = angles[:, 5:].reshape(-1, 4, 4)
     count = len(angles)
     return np.concatenate(

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from engine.body.body_space import BodySpace
 from engine.body.fitting.contour import SkinPoints, match_contour
 from engine.body.fitting.least_squares import levenberg_marquardt
-from engine.body.fitting.observation import LANDMARK_SIGMA, Observation
+from engine.body.fitting.observation import LANDMARK_SIGMA_SHARE, Observation
 from engine.body.fitting.posing import BodyPoser, PosedBodies, rotation_matrices
 from engine.body.fitting.residuals import ContourMatches, project, residuals, seen_from
 from engine.body.landmarks import LandmarkModel
@@ -65,12 +65,12 @@ def fit_body(
     if not views:
         raise ValueError("a body is fitted to one view at least")
     poser = BodyPoser(space)
-    rough = tuple(replace(view, landmark_sigma=max(LANDMARK_SIGMA, view.landmark_sigma)) for view in views)
+    rough = tuple(replace(view, landmark_sigma=max(LANDMARK_SIGMA_SHARE, view.landmark_sigma)) for view in views)
     unmatched = (None,) * len(views)
     parameters = levenberg_marquardt(
         partial(residuals, poser, landmarks, rough, unmatched), np.asarray(start, np.float64)
     )
-    if any(view.landmark_sigma < LANDMARK_SIGMA for view in views):
+    if any(view.landmark_sigma < LANDMARK_SIGMA_SHARE for view in views):
         # near the end only: robust penalties pull no more at what is many deviations off
         parameters = levenberg_marquardt(partial(residuals, poser, landmarks, views, unmatched), parameters)
     if skin is not None and any(view.contour is not None and len(view.contour.points) for view in views):

@@ -21,7 +21,7 @@ from engine.geometry.surface import triangulate, vertex_normals
 
 CONTOUR_POINTS = 240
 """Points along a contour."""
-LEAST_GAP = 8.0
+MIN_GAP_STEPS = 8.0
 """Steps of the contour around a gap in the mask, at least, for it to count: between arm and trunk, or both legs."""
 DIRECTION_SMOOTHING_STEPS = 2.0
 """Steps of the contour over which its direction is averaged."""
@@ -95,7 +95,9 @@ def trace_contour(mask: NDArray[np.bool_]) -> Contour:
     step = len(found[own]) / CONTOUR_POINTS
     lines = [(found[own][:, 0], 1.0)]
     lines += [
-        (found[k][:, 0], -1.0) for k in range(len(found)) if tree[0, k, 3] == own and len(found[k]) > LEAST_GAP * step
+        (found[k][:, 0], -1.0)
+        for k in range(len(found))
+        if tree[0, k, 3] == own and len(found[k]) > MIN_GAP_STEPS * step
     ]
     parts = [_along(line.astype(np.float64), step, way) for line, way in lines]
     points, normals = (np.concatenate([part[k] for part in parts]) for k in range(2))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from engine.body.fitting.articulated_hand import (
-    ANGLES,
+    HAND_ANGLE_COUNT,
     TURNED_LANDMARKS,
     WRIST_SIGMA,
     ArticulatedHand,
@@ -26,13 +26,13 @@ from engine.body.hands import HandModel, finger_landmarks
 from engine.geometry.camera import Camera
 from engine.geometry.joint_names import FINGERS
 
-LANDMARK_SIGMA = 0.05
+LANDMARK_SIGMA_HAND_LENGTHS = 0.05
 """How far landmarks are off, usually, in lengths of the hand seen."""
 DIRECTION_SIGMA = 0.25
 """How far the directions of bones in space are off, usually (the difference of unit vectors)."""
 SCALE_SIGMA = 0.2
 """Share by which a hand seen is larger or smaller than the template's, usually."""
-SHIFT_SIGMA = 0.15
+SHIFT_SIGMA_HAND_LENGTHS = 0.15
 """Lengths of the hand by which it is elsewhere than the body's fit has it, usually."""
 
 PICTURE_TO_WORLD = np.array([1.0, -1.0, 1.0])
@@ -147,7 +147,7 @@ def hand_length(points: NDArray[np.floating]) -> float:
 
 def _start(hand: _SeenHand, seen: NDArray[np.floating], turn: NDArray[np.floating]) -> NDArray[np.float64]:
     """Parameters with which to begin: a straight hand, its wrist where it is seen, turned (3,)."""
-    parameters = np.zeros(6 + ANGLES)
+    parameters = np.zeros(6 + HAND_ANGLE_COUNT)
     parameters[:3] = turn
     placed = hand.pixels(parameters[None], hand(parameters[None]))[0]
     parameters[3:5] = seen[0, :2] - placed[0]
@@ -168,7 +168,7 @@ def _residuals(
 ) -> NDArray[np.float64]:
     """(N, R): what is to be small, in standard deviations."""
     places = hand(parameters)
-    off = (hand.pixels(parameters, places) - seen[:, :2]) / (LANDMARK_SIGMA * length)
+    off = (hand.pixels(parameters, places) - seen[:, :2]) / (LANDMARK_SIGMA_HAND_LENGTHS * length)
     starts, ends = np.array(HAND_BONES).T
     bones = (
         _unit(places[:, ends] - places[:, starts]) - _unit((seen[ends] - seen[starts]) * PICTURE_TO_WORLD)
@@ -179,7 +179,7 @@ def _residuals(
             robust(off).reshape(count, -1),
             robust(bones).reshape(count, -1),
             parameters[:, :3] / WRIST_SIGMA,
-            parameters[:, 3:5] / (SHIFT_SIGMA * length),
+            parameters[:, 3:5] / (SHIFT_SIGMA_HAND_LENGTHS * length),
             parameters[:, 5:6] / SCALE_SIGMA,
             finger_priors(parameters[:, 6:]),
         ],

@@ -12,15 +12,15 @@ from engine.geometry.closest_points import closest_points
 from engine.geometry.point_cloud import PointCloud
 from engine.geometry.surface import face_normals
 
-POINT_SIGMA = 0.003
+POINT_SIGMA_METRES = 0.003
 """Metres by which points are off a hand's skin, usually ..."""
 INDEPENDENT_POINTS = 60.0
 """... and as how many independent measurements all of them count: fingers drift while others are filmed, and drift as one."""
-MIN_POINTS = 50
+MIN_HAND_POINTS = 50
 """Points that say something of a hand."""
-FACING = 0.4
+MIN_NORMAL_COSINE = 0.4
 """The least cosine between the normals of a point and of the skin."""
-GATES = (0.015, 0.012, 0.010, 0.008)
+MATCHING_GATES_METRES = (0.015, 0.012, 0.010, 0.008)
 """Metres within which points are the hand's, one round after the other."""
 
 
@@ -79,20 +79,20 @@ class HandSkin:
         low, high = posed.min(0) - gate, posed.max(0) + gate
         cloud = self.cloud[np.flatnonzero(((self.cloud.points > low) & (self.cloud.points < high)).all(1))]
         nearby = self.triangles[((vertices > low - gate) & (vertices < high + gate)).all(1)[self.triangles].any(1)]
-        if len(cloud) < MIN_POINTS or not len(nearby):
+        if len(cloud) < MIN_HAND_POINTS or not len(nearby):
             return None
         nearest = closest_points(cloud.points, vertices, nearby)
         corners = nearby[nearest.triangle]
         normals = face_normals(vertices, nearby)[nearest.triangle]
-        used = (nearest.distance < gate) & own[corners].all(1) & ((normals * cloud.normals).sum(1) > FACING)
-        if used.sum() < MIN_POINTS:
+        used = (nearest.distance < gate) & own[corners].all(1) & ((normals * cloud.normals).sum(1) > MIN_NORMAL_COSINE)
+        if used.sum() < MIN_HAND_POINTS:
             return None
         number = np.full(len(vertices), -1)
         number[self.moved] = np.arange(len(self.moved))
         weights = np.maximum(1 - (nearest.distance[used] / gate) ** 2, 0)
         return PointsOfHand(
             np.asarray(cloud.points[used], np.float64),
-            normals[used] * (np.sqrt(weights * INDEPENDENT_POINTS / used.sum()) / POINT_SIGMA)[:, None],
+            normals[used] * (np.sqrt(weights * INDEPENDENT_POINTS / used.sum()) / POINT_SIGMA_METRES)[:, None],
             number[corners[used]],
             nearest.barycentrics[used],
         )

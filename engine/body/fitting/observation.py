@@ -17,7 +17,7 @@ DIRECTED_LIMBS = (
 )
 """Limbs whose direction in space is believed, as joints."""
 
-LANDMARK_SIGMA = 0.012
+LANDMARK_SIGMA_SHARE = 0.012
 """How far perception's landmarks are off, usually, as a share of the body's height in the picture."""
 
 
@@ -56,7 +56,7 @@ class Observation:
     directions: NDArray[np.float32]
     direction_confidence: NDArray[np.float32]
     camera: Camera
-    landmark_sigma: float = LANDMARK_SIGMA
+    landmark_sigma: float = LANDMARK_SIGMA_SHARE
     crossing: Crossing | None = None
     contour: Contour | None = None
 

@@ -19,7 +19,7 @@ from engine.body.landmarks import LandmarkModel
 from engine.geometry.camera import Camera
 from engine.geometry.joint_names import SIDES
 
-LANDMARK_CUTOFF = 4.0
+LANDMARK_CUTOFF_SIGMAS = 4.0
 """Deviations at which a landmark's pull is at its strongest (Geman-McClure)."""
 DIRECTION_SIGMA = np.array([[0.25, 0.25, 0.25]] * 4 + [[0.25, 0.25, 1.2]] * 4)
 """How far the directions of `DIRECTED_LIMBS` are off, usually (the difference of unit vectors). Perception has legs lean away from
@@ -52,7 +52,7 @@ CROSSING_DEPTH = 0.09
 """Metres by which the middle of one forearm is before that of another that it crosses, at least."""
 CROSSING_SIGMA = 0.01
 """Metres by which it may fall short of that, usually."""
-MIN_DEPTH = 0.1
+MIN_DEPTH_METRES = 0.1
 """Metres from a camera at which bodies end: a search may lead through it."""
 
 
@@ -102,7 +102,7 @@ def _landmark_term(view: Observation, points: NDArray[np.float64], names: Sequen
         share = 1 / np.sqrt(1 + len(foot) * (FOOT_SIGMA / view.landmark_sigma) ** 2)
         off[:, foot] += (share - 1) * off[:, foot].mean(1, keepdims=True)
     squared = (off**2).sum(-1, keepdims=True)
-    off = off * np.sqrt(view.confidence[:, None] / (1 + squared / LANDMARK_CUTOFF**2))
+    off = off * np.sqrt(view.confidence[:, None] / (1 + squared / LANDMARK_CUTOFF_SIGMAS**2))
     return np.asarray(off.reshape(len(points), -1))
 
 
@@ -162,7 +162,7 @@ def _contour_term(matches: ContourMatches, posed: PosedBodies, view: Observation
 
 def project(points: NDArray[np.float64], camera: Camera) -> NDArray[np.float64]:
     """(..., 3) metres to (..., 2) pixels."""
-    return camera.project(points, np.float64, MIN_DEPTH)[..., :2]
+    return camera.project(points, np.float64, MIN_DEPTH_METRES)[..., :2]
 
 
 def seen_from(camera: Camera, vectors: NDArray[np.float64]) -> NDArray[np.float64]:

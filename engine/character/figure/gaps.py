@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.masks.colour_segmentation import (
-    MIN_SAMPLES,
+    MIN_MIXTURE_PIXELS,
     UNSEEDED,
     ColourMixture,
     ContrastGraph,
@@ -129,8 +129,8 @@ def _by_colour(
     ):
         near = cv2.dilate(part.astype(np.uint8), _square(COLOUR_REACH_SHARE * height)) > 0
         close = outside & near
-        own, behind = limbs & near & (alpha > 0.9), close if close.sum() >= 6 * MIN_SAMPLES else outside
-        if min(int(own.sum()), int(behind.sum()), int(part.sum())) >= MIN_SAMPLES:
+        own, behind = limbs & near & (alpha > 0.9), close if close.sum() >= 6 * MIN_MIXTURE_PIXELS else outside
+        if min(int(own.sum()), int(behind.sum()), int(part.sum())) >= MIN_MIXTURE_PIXELS:
             likely = part & (_likelier(lab, part, own, behind) > enough)
             found |= _large_with_edges(lab, likely, alpha, belief, height)
     return found
@@ -173,7 +173,7 @@ def _to_their_ends(
     person, gap = alpha[box] > 0.5, found[box]
     asked = near[box] & person & ~(distance_inside(limbs)[box] > BODY_CORE_SHARE * height) & ~hands[box]
     body, behind = person & ~asked & ~gap, gap | (alpha[box] < 0.05)
-    if min(int(body.sum()), int(gap.sum()), int(asked.sum())) < MIN_SAMPLES:
+    if min(int(body.sum()), int(gap.sum()), int(asked.sum())) < MIN_MIXTURE_PIXELS:
         return found
     lab = cv2.cvtColor(np.ascontiguousarray(rgb[box]), cv2.COLOR_RGB2LAB).astype(np.float64)
     background = _cut(lab, asked, gap, ColourMixture.fit(lab[body]), ColourMixture.fit(lab[behind]))

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
 from engine.character.parts.labels import ARM_LABELS, MIN_PIECE_PIXELS
-from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, ColourMixture, log_likelihood_ratio
+from engine.imaging.masks.colour_segmentation import MIN_MIXTURE_PIXELS, ColourMixture, log_likelihood_ratio
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import pieces_touching, without_small_pieces
 
@@ -32,7 +32,7 @@ def hair_behind_arms(
     found = labels.astype(np.intp).copy()
     head = BODY_PARTS.index("head")
     hair = (labels == head) & (template != head)
-    if hair.sum() < MIN_SAMPLES or not (template == head).any():
+    if hair.sum() < MIN_MIXTURE_PIXELS or not (template == head).any():
         return found
     chin = int(np.flatnonzero((template == head).any(1))[-1])
     colours = rgb.astype(np.float64)
@@ -44,7 +44,7 @@ def hair_behind_arms(
         bare[inner] = of_hair.negative_log_likelihood(colours[inner]) > hairy
         doubtful = (labels == arm) & (sure != arm)
         doubtful[chin:] = False
-        if bare.sum() < max(MIN_SAMPLES, MIN_NOT_HAIR_SHARE * inner.sum()) or doubtful.sum() < MIN_PIECE_PIXELS:
+        if bare.sum() < max(MIN_MIXTURE_PIXELS, MIN_NOT_HAIR_SHARE * inner.sum()) or doubtful.sum() < MIN_PIECE_PIXELS:
             continue
         likelier = log_likelihood_ratio(
             colours, doubtful, of_hair, ColourMixture.fit(colours[bare]), LIKELIHOOD_BLUR_PIXELS

@@ -21,7 +21,13 @@ from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, MIN_LIMB_PIXEL
 from engine.character.parts.overlapping_legs import leg_before
 from engine.character.parts.regions import Region, find_regions
 from engine.character.parts.unseen_limbs import not_seen
-from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, UNSEEDED, ColourMixture, ContrastGraph, colour_costs
+from engine.imaging.masks.colour_segmentation import (
+    MIN_MIXTURE_PIXELS,
+    UNSEEDED,
+    ColourMixture,
+    ContrastGraph,
+    colour_costs,
+)
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import largest_piece, pieces_touching, rows_apart, without_small_pieces
 
@@ -113,7 +119,7 @@ def _parted(
     those that are `near` (h, w) and not in it are as `below` (h, w) says."""
     colours = rgb.astype(np.float64)
     learned = [colours[near & ~band & which] for which in (~below, below)]
-    if min(len(some) for some in learned) < MIN_SAMPLES:
+    if min(len(some) for some in learned) < MIN_MIXTURE_PIXELS:
         return below
     rows = np.nonzero(near)[0]
     pixels, inner, before = colours[near], band[near], below[near]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from engine.body.parts import BODY_PARTS
 from engine.geometry.graph_cut import alpha_expansion, grid_edges
 from engine.imaging.masks.colour_segmentation import (
-    MIN_SAMPLES,
+    MIN_MIXTURE_PIXELS,
     UNSEEDED,
     ColourMixture,
     ContrastGraph,
@@ -104,7 +104,7 @@ def hair_beside_arms(
         own = labels == arm
         close = dilate_mask(template == arm, max(1, round(BARE_ARM_MARGIN_SHARE * labels.shape[0])))
         doubtful = own & ~close & (sure != arm)
-        if min(int(one.sum()) for one in (hair, doubtful, own & close)) < MIN_SAMPLES:
+        if min(int(one.sum()) for one in (hair, doubtful, own & close)) < MIN_MIXTURE_PIXELS:
             continue
         of_arm, of_hair = (ColourMixture.fit(colours[area]) for area in (own & close, hair))
         given = doubtful & (log_likelihood_ratio(colours, doubtful, of_hair, of_arm, 2.0) > 0)
@@ -178,7 +178,7 @@ def _refine(
     current = first
     for _ in range(LABELLING_ROUNDS):
         shown = [pixels[current == label] for label in meeting]
-        if min(len(own) for own in shown) < MIN_SAMPLES:
+        if min(len(own) for own in shown) < MIN_MIXTURE_PIXELS:
             break
         costs = colour_costs([ColourMixture.fit(own) for own in shown], pixels) + astray
         start = np.array([index.get(int(label), 0) for label in current])

@@ -19,7 +19,7 @@ from engine.character.fit.template_maps import side_maps
 from engine.character.parts.labels import ARM_LABELS, complete_labels
 from engine.character.parts.unfound_hands import SEEN_FINGER_CONFIDENCE, UnfoundHand, unit
 from engine.geometry.joint_names import SIDES
-from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, ColourMixture, smoothed_map
+from engine.imaging.masks.colour_segmentation import MIN_MIXTURE_PIXELS, ColourMixture, smoothed_map
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.imaging.masks.mask_pieces import pieces_touching
 
@@ -92,7 +92,7 @@ def parted(
         arm & (distance > PARTED_RADIUS_HAND_LENGTHS * length),
         worn & (distance < CLOTH_RADIUS_HAND_LENGTHS * length) & (aside > MIN_CLOTH_DISTANCE_HAND_LENGTHS * length),
     )
-    if min(int(one.sum()) for one in (sleeve, cloth, around)) < MIN_SAMPLES:
+    if min(int(one.sum()) for one in (sleeve, cloth, around)) < MIN_MIXTURE_PIXELS:
         return None
     colours = rgb.astype(np.float64)
     of_cloth, of_sleeve = ColourMixture.fit(colours[cloth]), ColourMixture.fit(colours[sleeve])
@@ -102,7 +102,7 @@ def parted(
         "cloth": of_cloth.negative_log_likelihood(colours[around]),
         "sleeve": of_sleeve.negative_log_likelihood(colours[around]),
     }
-    if len(hand.skin) >= MIN_SAMPLES and not _alike(hand.skin, rgb[cloth]):
+    if len(hand.skin) >= MIN_MIXTURE_PIXELS and not _alike(hand.skin, rgb[cloth]):
         cost["skin"] = (
             ColourMixture.fit(hand.skin).widened(SKIN_COLOUR_VARIANCE).negative_log_likelihood(colours[around])
         )

@@ -13,7 +13,7 @@ from engine.body.parts import BODY_PARTS
 from engine.body.rig import Rig
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.parts.labels import ARM_LABELS
-from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, ColourMixture, ContrastGraph, colour_costs
+from engine.imaging.masks.colour_segmentation import MIN_MIXTURE_PIXELS, ColourMixture, ContrastGraph, colour_costs
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import pieces_touching
 
@@ -42,7 +42,7 @@ def labelled_shoulders(
         own = labels == arm
         here = (distance < SHOULDER_RADIUS_METRES) & (own | torso)
         learned = [colours[torso & ~near & (distance < TRUNK_SAMPLE_RADIUS_METRES)], colours[own & ~near]]
-        if not here.any() or min(len(some) for some in learned) < MIN_SAMPLES:
+        if not here.any() or min(len(some) for some in learned) < MIN_MIXTURE_PIXELS:
             continue
         known = [ColourMixture.fit(some) for some in learned]
         known += _hair(colours[labels == BODY_PARTS.index("head")], known[1])
@@ -64,8 +64,8 @@ def labelled_shoulders(
 
 def _hair(head: NDArray[np.float64], arm: ColourMixture) -> list[ColourMixture]:
     """The colours of a head (N, 3) that are none of the `arm`'s: hair, where skin is bare. None where it has hardly any."""
-    if len(head) < MIN_SAMPLES:
+    if len(head) < MIN_MIXTURE_PIXELS:
         return []
     likelier = arm.negative_log_likelihood(head) - ColourMixture.fit(head).negative_log_likelihood(head)
     hair = head[likelier > MIN_LOG_LIKELIHOOD_RATIO]
-    return [ColourMixture.fit(hair)] if len(hair) >= MIN_SAMPLES else []
+    return [ColourMixture.fit(hair)] if len(hair) >= MIN_MIXTURE_PIXELS else []

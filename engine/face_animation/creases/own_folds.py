@@ -28,11 +28,14 @@ BESIDE_LIPS, BEYOND_LIPS, BELOW_NOSE = (0.0, 0.08), (0.7, 1.1), (-0.35, -0.1)
 """Eye distances from the lips from which folds are eased, and up to which; and from where on, down from the nose's base."""
 INSIDE_CONTOUR = 0.25
 """Eye distances from the face's contour to where they are eased fully."""
-NARROWER = (0.05, 0.25)
+NARROW_MOUTH_FADE = (0.05, 0.25)
 """Shares by which the mouth is narrower than the picture's from which on folds fade, and at which they are gone."""
 MOUSTACHE_LIGHT = (0.45, 0.55)
 """Of the cheeks' light: an upper lip darker than the first wears a moustache, whose ends are no folds; one lighter than the second does not."""
-PHILTRUM, CHEEKS = (97, 326, 269, 0, 39), ((50, 101, 118, 117, 111, 116, 123), (280, 330, 347, 346, 340, 345, 352))
+PHILTRUM_VERTICES, CHEEK_VERTICES = (
+    (97, 326, 269, 0, 39),
+    ((50, 101, 118, 117, 111, 116, 123), (280, 330, 347, 346, 340, 345, 352)),
+)
 CORNERS, OUTER_EYES = (61, 291), (33, 263)
 NOSE_BASE = 2
 
@@ -53,7 +56,7 @@ class OwnFolds:
 
     def share(self, face: NDArray[np.floating]) -> float:
         """How far a face (478, 2 or 3) has left the smile of its picture, [0, 1]."""
-        return float(smoothstep(1 - mouth_width(face) / self._width, *NARROWER))
+        return float(smoothstep(1 - mouth_width(face) / self._width, *NARROW_MOUTH_FADE))
 
     def ease(
         self, frame: NDArray[np.uint8], origin: NDArray[np.float32], scale: float, face: NDArray[np.floating]
@@ -103,7 +106,7 @@ def _upper_lip_light(light: NDArray[np.floating], points: NDArray[np.float32]) -
         cv2.fillPoly(inside, [points[list(corners)].round().astype(np.int32)], 1)
         return float(np.median(light[inside > 0])) if inside.any() else 0.0
 
-    return median(PHILTRUM) / max(*(median(cheek) for cheek in CHEEKS), 1.0)
+    return median(PHILTRUM_VERTICES) / max(*(median(cheek) for cheek in CHEEK_VERTICES), 1.0)
 
 
 def _around_mouth(lips: NDArray[np.uint8], points: NDArray[np.float32], unit: float) -> NDArray[np.float64]:

@@ -17,16 +17,16 @@ from engine.perception.landmarks import FACE_OVAL, LEFT_BROW, LEFT_EYE, LIPS_OUT
 
 CELL_PIXELS = 3
 """Pixels of the crop, along each axis, that are looked at as one."""
-UNIT = (CROP_EYES[1][0] - CROP_EYES[0][0]) / CELL_PIXELS
+EYE_DISTANCE_PIXELS = (CROP_EYES[1][0] - CROP_EYES[0][0]) / CELL_PIXELS
 """An eye distance of what is looked at, pixels."""
 LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114], np.float32)
-SKIN_CHROMA, OTHER_CHROMA = 0.025, 0.05
+SKIN_CHROMA_DIFFERENCES, OTHER_CHROMA = 0.025, 0.05
 """By how much a pixel's shares of red and blue differ from those of the skin, up to which it is skin, and from which on it is not."""
-SKIN_LIGHT = (0.55, 0.75, 1.3, 1.5)
+SKIN_LIGHT_RATIOS = (0.55, 0.75, 1.3, 1.5)
 """Of the light of the skin around it: a pixel of the neutral frame outside of these is not skin, between the middle two it is."""
 CREASE_LIGHT = (0.48, 0.58)
 """Of its light in the neutral frame, where the skin around it has all of its own: a pixel below is no crease, and above may be one."""
-AROUND_EYE_DISTANCES = 0.3
+LIGHT_WINDOW_EYE_DISTANCES = 0.3
 """Within which skin is compared."""
 BESIDE_EYE_DISTANCES = 0.07
 """From what is not skin within which a ratio is not trusted either."""
@@ -56,10 +56,12 @@ class SkinInBoth:
         self._weight = np.maximum(_around(self._skin), 1e-3)
         self._sharpness = _sharpness(self._light, self._face)
         tone = np.median(self._chroma[self._skin > 0], axis=0) if (self._skin > 0).any() else np.float32(1 / 3)
-        dark, grey, bright, glare = SKIN_LIGHT
+        dark, grey, bright, glare = SKIN_LIGHT_RATIOS
         light = self._beside_skin(self._light)
         other = np.maximum(1 - _ramp(light, dark, grey), _ramp(light, bright, glare))
-        other = np.maximum(other, _ramp(np.abs(self._chroma - tone).max(axis=-1), SKIN_CHROMA * 2, OTHER_CHROMA * 2))
+        other = np.maximum(
+            other, _ramp(np.abs(self._chroma - tone).max(axis=-1), SKIN_CHROMA_DIFFERENCES * 2, OTHER_CHROMA * 2)
+        )
         self._neutral = 1 - np.maximum(cv2.dilate(other * self._face, _disk(BESIDE_EYE_DISTANCES)), features)
 
     def share(self, crop: NDArray[np.uint8], origin: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -75,12 +77,17 @@ class SkinInBoth:
         ratio = (light + 12) / (self._light + 12)
         other = 1 - _ramp(self._beside_skin(ratio), *CREASE_LIGHT)
         other = np.maximum(
-            other, _ramp(np.abs(chroma(np.asarray(aligned)) - self._chroma).max(axis=-1), SKIN_CHROMA, OTHER_CHROMA)
+            other,
+            _ramp(
+                np.abs(chroma(np.asarray(aligned)) - self._chroma).max(axis=-1), SKIN_CHROMA_DIFFERENCES, OTHER_CHROMA
+            ),
         )
         other = np.asarray(cv2.dilate(other * self._face, _disk(BESIDE_EYE_DISTANCES)), np.float32)
         fine = _sharpness(light, self._face) / max(self._sharpness, 1e-3)
         sharp = float(np.clip((fine - BLURRED) / (SHARP - BLURRED), 0, 1))
-        keep = cv2.GaussianBlur(sharp * self._neutral * (1 - other), (0, 0), 0.5 * BESIDE_EYE_DISTANCES * UNIT)
+        keep = cv2.GaussianBlur(
+            sharp * self._neutral * (1 - other), (0, 0), 0.5 * BESIDE_EYE_DISTANCES * EYE_DISTANCE_PIXELS
+        )
         return np.asarray(cv2.resize(keep, crop.shape[1::-1], interpolation=cv2.INTER_LINEAR), np.float32)
 
     def _beside_skin(self, value: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -91,7 +98,7 @@ class SkinInBoth:
 def _around(value: NDArray[np.float32]) -> NDArray[np.float32]:
     """Averaged widely."""
     small = cv2.resize(value, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
-    wide = cv2.GaussianBlur(small, (0, 0), AROUND_EYE_DISTANCES * UNIT / 2)
+    wide = cv2.GaussianBlur(small, (0, 0), LIGHT_WINDOW_EYE_DISTANCES * EYE_DISTANCE_PIXELS / 2)
     return np.asarray(cv2.resize(wide, value.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
 
 
@@ -115,7 +122,7 @@ def _filled(
 
 
 def _disk(eye_distances: float) -> NDArray[np.uint8]:
-    size = 2 * max(1, round(eye_distances * UNIT)) + 1
+    size = 2 * max(1, round(eye_distances * EYE_DISTANCE_PIXELS)) + 1
     return np.asarray(cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (size, size)), np.uint8)
 
 

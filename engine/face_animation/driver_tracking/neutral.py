@@ -49,7 +49,7 @@ NEUTRAL_TOLERANCE = 0.5
 """By how much more than the least a frame may differ from what is looked for and still be as good, mean square in
 `REST_SPREAD`. The head's turn and the gaze choose among such frames."""
 
-TURN_SCALE = 0.2
+TURN_SCALE_RADIANS = 0.2
 """Radians by which the head is turned elsewhere than the target's that count as much as one `REST_SPREAD` of a measure."""
 GAZE_SCALE = 0.1
 """Eye widths by which the eyes look elsewhere than the target's that count as much as one `REST_SPREAD` of a measure."""
@@ -107,7 +107,7 @@ def choose_neutral_frame(track: FaceTrack, target: NDArray[np.floating], chosen:
         + LOWERED_LIDS_WEIGHT * lid_lowering(values, rest[LID_MEASURES])
     )
     face = np.where(track.found, face, np.inf)
-    place = (turn_angles(track.meshes, target) / TURN_SCALE) ** 2 + _gaze_unlike(track.meshes, target)
+    place = (turn_angles(track.meshes, target) / TURN_SCALE_RADIANS) ** 2 + _gaze_unlike(track.meshes, target)
     frame = int(np.argmin(np.where(face <= face.min() + NEUTRAL_TOLERANCE, len(MEASURES) * face + place, np.inf)))
     taken = values[[frame]]
     if _face_unlike(taken, rest + worn)[0] < _face_unlike(taken, rest)[0]:

@@ -23,7 +23,7 @@ LAYER_MARGIN_EYE_WIDTHS = 0.5
 """Around the opening, in eye widths: how far the eyeball's layer reaches behind the lids."""
 LASH_LINE_EYE_WIDTHS = 0.05
 """Width of the line of lashes on a lid that closes, in eye widths."""
-MIN_EYE_WIDTH = 14.0
+MIN_EYE_WIDTH_PIXELS = 14.0
 """Pixels; smaller eyes move with the face's warp alone."""
 WHITE_RANGE = (0.8, 1.5)
 """Of the light of the cheek below, between which the white's is."""
@@ -39,9 +39,9 @@ CORNER_SHADE, CORNER_WIDTH = 0.3, 0.25
 OWN_LIGHT, OWN_HUE = (0.7, 0.88), (0.06, 0.12)
 """Of the white's light, from which on, and by how much the shares of red and blue may differ up to which, what the picture shows beside the iris is
 kept as it is."""
-RINGS = 12
+IRIS_RINGS = 12
 """Of an iris, between which its colours are told apart."""
-SPURIOUS, SPARED = 36.0, 80.0
+SPURIOUS_LEVELS, SPARED_LEVELS = 36.0, 80.0
 """Grey levels from the usual of its ring, from which on a place of the iris is lash, lid or light, and at which it is wholly."""
 GLINT_RADII = 0.8
 """Within which a place that is so much lighter is the catch-light's."""
@@ -93,7 +93,7 @@ def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> E
     low = np.floor(opening.min(axis=0) - LAYER_MARGIN_EYE_WIDTHS * width).astype(int)
     high = np.ceil(opening.max(axis=0) + LAYER_MARGIN_EYE_WIDTHS * width).astype(int)
     low, high = np.maximum(low, 0), np.minimum(high, (rgb.shape[1], rgb.shape[0]))
-    if width < MIN_EYE_WIDTH or area < 0.08 * width**2 or (high - low).min() < 8:
+    if width < MIN_EYE_WIDTH_PIXELS or area < 0.08 * width**2 or (high - low).min() < 8:
         return None
     patch = rgb[low[1] : high[1], low[0] : high[0]].astype(np.float32)
     centre = mesh[iris[0], :2] - low
@@ -221,22 +221,24 @@ def _complete_iris(
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """The iris (h, w, 3) as a full disk, and the catch-light (h, w, 4) in it. What lids hide, and what is lash, shadow or light, takes
     the median colour at its distance from the pupil."""
-    rings = np.minimum((distance / max(radius, 1) * RINGS).astype(int), RINGS + 3)
+    rings = np.minimum((distance / max(radius, 1) * IRIS_RINGS).astype(int), IRIS_RINGS + 3)
     filled, medians = [], []
-    for ring in range(RINGS + 4):
+    for ring in range(IRIS_RINGS + 4):
         colours = patch[known & (rings == ring)]
         if len(colours):
             filled.append(ring)
             medians.append(np.median(colours, axis=0))
     if not filled:
         return patch.copy(), np.zeros((*distance.shape, 4), np.float32)
-    at = np.clip(distance / max(radius, 1) * RINGS - 0.5, 0, RINGS + 3)
+    at = np.clip(distance / max(radius, 1) * IRIS_RINGS - 0.5, 0, IRIS_RINGS + 3)
     values = np.asarray(medians, np.float32)
     modelled = np.stack([np.interp(at, filled, values[:, k]) for k in range(3)], axis=-1).astype(np.float32)
     off = (patch - modelled) @ LUMINANCE_WEIGHTS.astype(np.float32)
-    own = np.clip((SPARED - np.abs(off)) / (SPARED - SPURIOUS), 0, 1)
+    own = np.clip((SPARED_LEVELS - np.abs(off)) / (SPARED_LEVELS - SPURIOUS_LEVELS), 0, 1)
     edge = np.minimum(cv2.distanceTransform(known.astype(np.uint8), cv2.DIST_L2, 3) / 2, 1)
     disk = modelled + cv2.GaussianBlur(own * edge, (0, 0), 0.6)[..., None] * (patch - modelled)
-    lit = np.clip((off - SPURIOUS) / (SPARED - SPURIOUS), 0, 1) * (known & (distance < GLINT_RADII * radius))
+    lit = np.clip((off - SPURIOUS_LEVELS) / (SPARED_LEVELS - SPURIOUS_LEVELS), 0, 1) * (
+        known & (distance < GLINT_RADII * radius)
+    )
     alpha = cv2.GaussianBlur(lit.astype(np.float32), (0, 0), 0.6)
     return np.asarray(disk, np.float32), np.dstack([patch, alpha]).astype(np.float32)

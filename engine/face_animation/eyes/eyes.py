@@ -27,7 +27,7 @@ IRIS_ROOM = 0.85
 """Radii of the iris that are between its middle and a corner of the eye, at least."""
 FREE_SHARE = 0.6
 """Of the way to there, that an iris goes freely."""
-LEAST_VERGENCE = 0.1
+MIN_VERGENCE_EYE_WIDTHS = 0.1
 """Eye widths by which each iris has to go against the other's before eyes are taken to converge: a tracker errs by less."""
 INWARD = np.array([1.0, -1.0])[:, None]
 """Of both eyes, right eye first: from the outer corner to the inner one, along the picture's right or against it."""
@@ -41,11 +41,11 @@ def gaze_offsets(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) ->
 
 def conjugate(looks: NDArray[np.floating]) -> NDArray[np.float64]:
     """Looks (N, 2, 2) of two eyes that move together, as `gaze_offsets` has them: both go the mean of what each was seen to do, and only what
-    they differ by beyond `LEAST_VERGENCE` remains: whoever crosses their eyes means it."""
+    they differ by beyond `MIN_VERGENCE_EYE_WIDTHS` remains: whoever crosses their eyes means it."""
     across_picture = looks * INWARD
     together = across_picture.mean(axis=1, keepdims=True)
     apart = across_picture - together
-    meant = np.sign(apart) * np.maximum(np.abs(apart) - LEAST_VERGENCE, 0)
+    meant = np.sign(apart) * np.maximum(np.abs(apart) - MIN_VERGENCE_EYE_WIDTHS, 0)
     return np.asarray((together + meant) * INWARD, float)
 
 

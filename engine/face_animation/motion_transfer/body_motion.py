@@ -25,7 +25,7 @@ from engine.perception.landmarks import MESH_SIZE
 
 NECK_ROOM = (0.35, (0.18, 0.25))
 """How far a head goes from its place on the shoulders, in lengths from eyes to chin: to either side; up and down."""
-SHOULDERS, WAIST = 2.2, 6.2
+SHOULDER_FACE_LENGTHS, WAIST_FACE_LENGTHS = 2.2, 6.2
 """Lengths from eyes to chin below the eyes: from the shoulders, which move most, to where a body that leans stays."""
 BODY_SHARE = 0.6
 """Tracked points that belong to the head by less say what the body does, the less they do the more."""
@@ -109,7 +109,11 @@ def body_shift(skull: NDArray[np.floating], body: NDArray[np.floating], chin_len
 
 def body_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """(P,) how much of the shoulders' shift points (P, 2) take: all of it down to the shoulders, none at the waist."""
-    return np.asarray(np.clip((WAIST - chin_lengths_below(mesh, points)) / (WAIST - SHOULDERS), 0, 1))
+    return np.asarray(
+        np.clip(
+            (WAIST_FACE_LENGTHS - chin_lengths_below(mesh, points)) / (WAIST_FACE_LENGTHS - SHOULDER_FACE_LENGTHS), 0, 1
+        )
+    )
 
 
 def keep_on_floor(

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from engine.face_animation.smoothstep import smoothstep
 from engine.perception.head_pose import canonical_face
 
-BROWS = (-0.15, -0.25)
+BROW_HEIGHTS = (-0.15, -0.25)
 """Heights between which a face becomes brows and forehead (`canonical_face`)."""
 SPREAD_EYE_DISTANCES = (0.2, 0.05)
 """Along brows and across them, over which it is evened out, as a Gaussian: a brow is 0.6 long."""
@@ -22,7 +22,7 @@ SPREAD_EYE_DISTANCES = (0.2, 0.05)
 
 def brow_share() -> NDArray[np.float64]:
     """(478,) how far each vertex belongs to brows and forehead."""
-    return smoothstep(canonical_face()[:, 1], *BROWS)
+    return smoothstep(canonical_face()[:, 1], *BROW_HEIGHTS)
 
 
 @cache

@@ -31,7 +31,7 @@ beside it take part in each other's, and how far from it they do so fully."""
 RIM_TO_SKULL, RIM_TO_OUTLINE = 0.3, 0.12
 """Outside the face's skin its rim passes over into the skull, in depth, and into the skull's outline, in motion, within these shares of the
 face's width."""
-SKIN_BAND, CHEEKS = 0.03, 0.5
+SKIN_BAND, CHEEK_REACH = 0.03, 0.5
 """Widths of the face by which skin may reach beyond the contour, from there on that many lengths from eyes to chin below the eyes."""
 SKULL_HALF_WIDTH, SKULL_HEIGHT = 0.56, 1.5
 """Half axes of the skull seen from the front: in widths of the face, and in lengths from eyes to chin."""
@@ -117,7 +117,7 @@ def surface_depth(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> N
 
 def _beyond_skin(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """(P,) how far points (P, 2) lie outside a face's skin, in widths of the face: beside cheeks and jaw it ends a little outside of the contour."""
-    band = SKIN_BAND * smoothstep(chin_lengths_below(mesh, points) / CHEEKS)
+    band = SKIN_BAND * smoothstep(chin_lengths_below(mesh, points) / CHEEK_REACH)
     return np.asarray(rim_distance(mesh, points) / _face_width(mesh) - band)
 
 

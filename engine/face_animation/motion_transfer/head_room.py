@@ -21,7 +21,7 @@ from engine.perception.landmarks import FACE_OVAL, RIGID_VERTICES
 
 FREE_SHARE = 0.5
 """Share of the room over which nothing is held back."""
-LEAST_ROOM = 0.08
+MIN_ROOM_FACE_LENGTHS = 0.08
 """Room that there always is, in lengths from eyes to chin."""
 CUT_HAIR_SHARE = 0.35
 """Share of the hair between face and border that may come down from a border that cuts it."""
@@ -32,9 +32,9 @@ FREE_TURN_SHARE = 0.8
 """Share of the largest turn up to which nothing is held back."""
 SIDE_SLANT = np.deg2rad(55.0)
 """By which the sides of a face, its cheeks beside the eyes, slant away from its front."""
-MOST_STRETCH = 1.8
+MAX_STRETCH_RATIO = 1.8
 """By which they may be drawn out, where the picture shows them at a slant."""
-LEAST_TURN = np.deg2rad(6.0)
+MIN_TURN_RADIANS = np.deg2rad(6.0)
 """By which a face may turn in any direction, however far it is turned in its picture."""
 LARGEST_APPROACH = 0.3
 """Logarithm of the largest change of the head's size."""
@@ -58,7 +58,7 @@ def head_room(mesh: NDArray[np.floating], person: NDArray[np.floating]) -> NDArr
     oval = mesh[list(FACE_OVAL), :2]
     low, high = oval.min(axis=0), oval.max(axis=0)
     eyes, chin = mesh[[33, 133, 263, 362], :2].mean(axis=0), mesh[152, :2]
-    least = LEAST_ROOM * float(np.linalg.norm(chin - eyes))
+    least = MIN_ROOM_FACE_LENGTHS * float(np.linalg.norm(chin - eyes))
     (left_most, top), (right_most, eye_line) = (
         np.clip(place, 0, (width - 1, height - 1)).astype(int) for place in (low, (high[0], eyes[1]))
     )
@@ -99,7 +99,7 @@ def limit_rotation(rotation: NDArray[np.float64], turned: tuple[float, float] = 
         along = float(own @ vector[:2]) / turn
         aside = float(own @ own) - along**2
         reach = np.sqrt(max(LARGEST_TURN**2 - aside, 0.0)) - along  # to where it would be turned by the largest
-        largest = float(np.clip(min(reach, turn_back(-along)), LEAST_TURN, LARGEST_TURN))
+        largest = float(np.clip(min(reach, turn_back(-along)), MIN_TURN_RADIANS, LARGEST_TURN))
         start = FREE_TURN_SHARE * largest
         if turn > start:
             vector[:2] *= (start + (largest - start) * np.tanh((turn - start) / (largest - start))) / turn
@@ -109,9 +109,9 @@ def limit_rotation(rotation: NDArray[np.float64], turned: tuple[float, float] = 
 
 def turn_back(turned: float) -> float:
     """How far a face may turn back, radians, that its picture shows `turned` aside: until the side that it turns away there is stretched by
-    `MOST_STRETCH`."""
+    `MAX_STRETCH_RATIO`."""
     slant = min(SIDE_SLANT + max(turned, 0.0), np.pi / 2)
-    return float(slant - np.arccos(np.clip(MOST_STRETCH * np.cos(slant), 0, 1)))
+    return float(slant - np.arccos(np.clip(MAX_STRETCH_RATIO * np.cos(slant), 0, 1)))
 
 
 def turned_in_picture(mesh: NDArray[np.floating]) -> tuple[float, float]:

@@ -15,7 +15,7 @@ from engine.perception.face_wear import face_wear
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, MESH_SIZE, RIGHT_EYE, RIGHT_IRIS
 
-BRIDGE = (0.06, 0.1)
+BRIDGE_STRENGTHS = (0.06, 0.1)
 """Of `FaceWear.bridge`, up to which there are no spectacles, and from which on there surely are: brows that meet over the nose have 0.07."""
 UPPER_RIM, LOWER_RIM = (-0.4, -0.22), (0.6, 0.4)
 """Heights on a face between which it passes over into what lies behind a frame, from above and from below (`canonical_face`)."""
@@ -27,10 +27,10 @@ def spectacles_share(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDAr
     """(478,) how far each vertex of a face at `mesh` (478, 2 or 3), pixels of a picture (H, W, 3), lies behind the frame of spectacles: 0 of a face
     that wears none, or of which that cannot be told."""
     bridge = face_wear(rgb, mesh).bridge
-    if not bridge > BRIDGE[0]:  # nor where it cannot be told, NaN
+    if not bridge > BRIDGE_STRENGTHS[0]:  # nor where it cannot be told, NaN
         return np.zeros(MESH_SIZE)
     height = canonical_face()[:, 1]
-    share = smoothstep(bridge, *BRIDGE) * smoothstep(height, *UPPER_RIM) * smoothstep(height, *LOWER_RIM)
+    share = smoothstep(bridge, *BRIDGE_STRENGTHS) * smoothstep(height, *UPPER_RIM) * smoothstep(height, *LOWER_RIM)
     free = {*np.ravel(LID_PAIRS), *np.ravel(LID_SKIN), *RIGHT_EYE, *LEFT_EYE, *RIGHT_IRIS, *LEFT_IRIS, *BELOW_LIDS}
     share[sorted(int(vertex) for vertex in free)] = 0
     return share

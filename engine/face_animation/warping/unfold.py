@@ -13,20 +13,20 @@ import numpy as np
 
 from engine.compiled import njit
 
-LEAST_AREA = 0.2
+MIN_AREA_SHARE = 0.2
 """Share of its area that a triangle keeps."""
 AREA_TOLERANCE = 0.05
 """Share of its area by which a triangle may fall short of that."""
-MOST_ROUNDS = 40
+MAX_ROUNDS = 40
 """After so many rounds what is left folded stays so: where the face itself leaves no room."""
 
 
 @njit(fastmath=True, nogil=True)
 def unfold(offsets, rest, triangles, held):  # type: ignore[no-untyped-def]
     """Change offsets (V, 2 or more) of vertices `rest` (V, 2), in place, until no triangle (T, 3) with a free one keeps less than
-    `LEAST_AREA` of its area; those that are `held` (V,) stay. Returns the rounds that it took."""
+    `MIN_AREA_SHARE` of its area; those that are `held` (V,) stay. Returns the rounds that it took."""
     place, gradient = np.zeros((3, 2)), np.zeros((3, 2))
-    for turn in range(MOST_ROUNDS):
+    for turn in range(MAX_ROUNDS):
         clean = True
         for t in range(len(triangles)):
             a, b, c = triangles[t]
@@ -43,7 +43,7 @@ def unfold(offsets, rest, triangles, held):  # type: ignore[no-untyped-def]
             area = (place[1, 0] - place[0, 0]) * (place[2, 1] - place[0, 1]) - (place[1, 1] - place[0, 1]) * (
                 place[2, 0] - place[0, 0]
             )
-            lack = sign * (LEAST_AREA * whole - area)
+            lack = sign * (MIN_AREA_SHARE * whole - area)
             if lack <= AREA_TOLERANCE * sign * whole:
                 continue
             clean = False
@@ -60,4 +60,4 @@ def unfold(offsets, rest, triangles, held):  # type: ignore[no-untyped-def]
                         offsets[v, d] += lack / total * gradient[k, d]
         if clean:
             return turn
-    return MOST_ROUNDS
+    return MAX_ROUNDS

@@ -17,7 +17,7 @@ from engine.compiled import njit
 from engine.geometry.camera import Camera
 from engine.geometry.registration.rigid import Similarity
 
-MIN_DEPTH = 1e-9
+MIN_POINT_DEPTH = 1e-9
 """Distance along the view axis from which on a point is before the camera."""
 
 
@@ -112,7 +112,7 @@ def _errors(
         turn, at = rotations[cameras[o]], points[indices[o]]
         shift = translations[cameras[o]]
         z = turn[2, 0] * at[0] + turn[2, 1] * at[1] + turn[2, 2] * at[2] + shift[2]
-        if z <= MIN_DEPTH:
+        if z <= MIN_POINT_DEPTH:
             found[o] = np.inf
             continue
         x = (turn[0, 0] * at[0] + turn[0, 1] * at[1] + turn[0, 2] * at[2] + shift[0]) / z

@@ -13,9 +13,9 @@ import numpy as np
 
 from engine.compiled import njit
 
-MIN_DEPTH = 1e-9
+MIN_POINT_DEPTH = 1e-9
 """Distance along the view axis from which on a point is before the camera."""
-OWN, POINT = 9, 12
+CAMERA_COLUMNS, POINT_COLUMN_END = 9, 12
 """Columns of an observation's Jacobian: turn (3), shift (3), focal length, k1 and k2; then those of the point (3)."""
 
 
@@ -34,7 +34,7 @@ def linearise(
     x = turn[0, 0] * point[0] + turn[0, 1] * point[1] + turn[0, 2] * point[2] + shift[0]
     y = turn[1, 0] * point[0] + turn[1, 1] * point[1] + turn[1, 2] * point[2] + shift[1]
     z = turn[2, 0] * point[0] + turn[2, 1] * point[1] + turn[2, 2] * point[2] + shift[2]
-    if z <= MIN_DEPTH:
+    if z <= MIN_POINT_DEPTH:
         return False
     u, v = x / z, y / z
     focal, k1, k2 = lens
@@ -57,7 +57,7 @@ def linearise(
         jacobian[row, 7] = focal * square * at
         jacobian[row, 8] = focal * square * square * at
         for k in range(3):
-            jacobian[row, OWN + k] = by_x * turn[0, k] + by_y * turn[1, k] + by_z * turn[2, k]
+            jacobian[row, CAMERA_COLUMNS + k] = by_x * turn[0, k] + by_y * turn[1, k] + by_z * turn[2, k]
     return True
 
 
@@ -88,7 +88,7 @@ def eliminate_points(geometry: tuple, layout: tuple, loss_scale: float, damping:
     most = 0
     for p in range(len(starts) - 1):
         most = max(most, starts[p + 1] - starts[p])
-    jacobian, residual = np.zeros((2, POINT)), np.zeros(2)
+    jacobian, residual = np.zeros((2, POINT_COLUMN_END)), np.zeros(2)
     cross = np.zeros((6 * most + 3 * len(lenses), 3))  # of a point: sum E'P, rows of its cameras, then of the lenses
     columns = np.zeros(6 * most + 3 * len(lenses), np.int64)
     spread, block = np.zeros_like(cross), np.zeros((3, 3))
@@ -109,13 +109,13 @@ def eliminate_points(geometry: tuple, layout: tuple, loss_scale: float, damping:
                 continue
             weight = 1 / (1 + (residual[0] ** 2 + residual[1] ** 2) / loss_scale**2)
             slot = slots[c]
-            for a in range(OWN, POINT):
-                gradient[a - OWN] += weight * (jacobian[0, a] * residual[0] + jacobian[1, a] * residual[1])
-                for b in range(OWN, POINT):
-                    block[a - OWN, b - OWN] += weight * (
+            for a in range(CAMERA_COLUMNS, POINT_COLUMN_END):
+                gradient[a - CAMERA_COLUMNS] += weight * (jacobian[0, a] * residual[0] + jacobian[1, a] * residual[1])
+                for b in range(CAMERA_COLUMNS, POINT_COLUMN_END):
+                    block[a - CAMERA_COLUMNS, b - CAMERA_COLUMNS] += weight * (
                         jacobian[0, a] * jacobian[0, b] + jacobian[1, a] * jacobian[1, b]
                     )
-            for a in range(OWN):
+            for a in range(CAMERA_COLUMNS):
                 if a < 6 and slot < 0:
                     continue
                 column = 6 * slot + a if a < 6 else first_lens + 3 * lens + a - 6
@@ -126,9 +126,10 @@ def eliminate_points(geometry: tuple, layout: tuple, loss_scale: float, damping:
                 right[column] += weight * (jacobian[0, a] * residual[0] + jacobian[1, a] * residual[1])
                 for k in range(3):
                     cross[row, k] += weight * (
-                        jacobian[0, a] * jacobian[0, OWN + k] + jacobian[1, a] * jacobian[1, OWN + k]
+                        jacobian[0, a] * jacobian[0, CAMERA_COLUMNS + k]
+                        + jacobian[1, a] * jacobian[1, CAMERA_COLUMNS + k]
                     )
-                for b in range(OWN):
+                for b in range(CAMERA_COLUMNS):
                     if b < 6 and slot < 0:
                         continue
                     other = 6 * slot + b if b < 6 else first_lens + 3 * lens + b - 6
@@ -159,7 +160,7 @@ def back_substitute(geometry: tuple, layout: tuple, loss_scale: float, solved: t
     rotations, translations, lenses, lens_of, points = geometry
     cameras, indices, offsets, starts, slots, first_lens = layout
     change, inverses, gradients = solved
-    jacobian, residual, rest = np.zeros((2, POINT)), np.zeros(2), np.zeros(3)
+    jacobian, residual, rest = np.zeros((2, POINT_COLUMN_END)), np.zeros(2), np.zeros(3)
     for p in range(len(starts) - 1):
         for k in range(3):
             rest[k] = gradients[p, k]
@@ -175,9 +176,9 @@ def back_substitute(geometry: tuple, layout: tuple, loss_scale: float, solved: t
                 for a in range(6):
                     if slots[c] >= 0:
                         along += jacobian[row, a] * change[6 * slots[c] + a]
-                for a in range(6, OWN):
+                for a in range(6, CAMERA_COLUMNS):
                     along += jacobian[row, a] * change[first_lens + 3 * lens + a - 6]
                 for k in range(3):
-                    rest[k] -= weight * jacobian[row, OWN + k] * along
+                    rest[k] -= weight * jacobian[row, CAMERA_COLUMNS + k] * along
         for k in range(3):
             shifts[p, k] = inverses[p, k, 0] * rest[0] + inverses[p, k, 1] * rest[1] + inverses[p, k, 2] * rest[2]

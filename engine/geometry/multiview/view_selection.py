@@ -15,7 +15,7 @@ from engine.geometry.camera import Camera
 
 BEST_ANGLE = 25.0
 """Degrees between two lines of sight at which stereo is most exact for what still looks alike: by trial on films, where 10 erred by a fifth more."""
-NARROWER, WIDER = 6.0, 12.0
+LOWER_ANGLE_SPREAD_DEGREES, UPPER_ANGLE_SPREAD_DEGREES = 6.0, 12.0
 """Degrees of the angle's spread below and above the best."""
 DISTINCT_DEGREES = 6.0
 """Degrees at which two sources tell different things."""
@@ -38,7 +38,7 @@ def shared_sight(
     for first in range(len(cameras)):
         of = seen[first]
         angles = np.degrees(np.arccos(np.clip((sight[first, of] * sight[:, of]).sum(axis=-1), -1, 1)))
-        width = np.where(angles < BEST_ANGLE, NARROWER, WIDER)
+        width = np.where(angles < BEST_ANGLE, LOWER_ANGLE_SPREAD_DEGREES, UPPER_ANGLE_SPREAD_DEGREES)
         value = np.exp(-((angles - BEST_ANGLE) ** 2) / (2 * width**2)) * seen[:, of]
         score[first] = value.sum(axis=1) / max(int(of.sum()), 1)
         score[first, first] = 0

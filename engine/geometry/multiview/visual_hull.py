@@ -22,11 +22,11 @@ COARSE_CELLS = 40
 """Cells along the longest side of the grid in which the body is looked for first."""
 CUBE_SIDE = 1.6
 """Side of the cube in which a body is looked for, in mean distances of the cameras from where they look."""
-WRONG_SILHOUETTES = 0.08
+MAX_MISSED_SILHOUETTES_SHARE = 0.08
 """Share of the silhouettes that see a voxel and may leave it out: segmentation errs in single frames."""
 MIN_SIGHTINGS = 0.15
 """Share of the views that must have a voxel in their picture: what fewer see is not known to be there."""
-NORMALS_BLUR = 1.5
+NORMAL_BLUR_VOXELS = 1.5
 """Voxels of the Gaussian by which occupancy is blurred before it tells normals."""
 RAY_STEP = 0.5
 """Steps along a line of sight, in voxels."""
@@ -56,7 +56,7 @@ class VisualHull:
         normals there, out of the body."""
         filled = np.pad(self.occupied, 1)
         outer = np.argwhere(filled & ~ndimage.binary_erosion(filled))
-        blurred = ndimage.gaussian_filter(filled.astype(np.float32), NORMALS_BLUR)
+        blurred = ndimage.gaussian_filter(filled.astype(np.float32), NORMAL_BLUR_VOXELS)
         slope = np.stack([np.gradient(blurred, axis=axis) for axis in range(3)], axis=-1)
         normals = -slope[tuple(outer.T)].astype(np.float64)
         normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
@@ -126,11 +126,13 @@ def _carved(
     cells = np.ceil((box[1] - box[0]) / spacing).astype(int) + 2
     origin = (box[0] + box[1]) / 2 - spacing * (cells - 1) / 2
     seen, missed = np.zeros(cells, np.uint16), np.zeros(cells, np.uint16)
-    may_miss = int(WRONG_SILHOUETTES * len(cameras))
+    may_miss = int(MAX_MISSED_SILHOUETTES_SHARE * len(cameras))
     for distance, camera in zip(outside, cameras, strict=True):
         reach = np.sqrt(0.75) * spacing * camera.focal  # a voxel's corner is as far from its centre
         _vote(origin, spacing, camera.projection, distance, margin, reach, may_miss, seen, missed)
-    return VisualHull((seen >= MIN_SIGHTINGS * len(cameras)) & (missed <= WRONG_SILHOUETTES * seen), origin, spacing)
+    return VisualHull(
+        (seen >= MIN_SIGHTINGS * len(cameras)) & (missed <= MAX_MISSED_SILHOUETTES_SHARE * seen), origin, spacing
+    )
 
 
 @njit(parallel=True, boundscheck=False, error_model="numpy")

@@ -16,7 +16,7 @@ from engine.geometry.registration.rigid import Similarity, fit_similarity
 
 SAMPLE_SIZE = 3
 """Pairs that make a similarity of space."""
-SAMPLES = 1000
+CONSENSUS_SAMPLES = 1000
 """Samples: with a third of the pairs right, one of all right ones is missed once in 10 to the 16."""
 REFINEMENTS = 5
 """Fits to all pairs that agree, one after the other."""
@@ -44,7 +44,7 @@ def similarity_by_consensus(
     within = tolerance, tolerance * _spread(a) / max(_spread(b), 1e-300)
     random = np.random.default_rng(seed)
     best: Consensus | None = None
-    for _ in range(SAMPLES):
+    for _ in range(CONSENSUS_SAMPLES):
         chosen = random.choice(len(a), SAMPLE_SIZE, replace=False)
         found = _judged(a, b, chosen, within)
         if found is not None and (best is None or found.agreed.sum() > best.agreed.sum()):

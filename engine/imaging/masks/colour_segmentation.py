@@ -17,7 +17,7 @@ from engine.geometry.graph_cut import alpha_expansion, grid_edges
 
 MIXTURE_GAUSSIANS = 5
 """Gaussians in a mixture: the K of GrabCut."""
-MIN_SAMPLES = 10 * MIXTURE_GAUSSIANS
+MIN_MIXTURE_PIXELS = 10 * MIXTURE_GAUSSIANS
 """Pixels of which a mixture says something about their area."""
 MAX_SAMPLES = 1500
 """Pixels, evenly spread, from which a mixture is found."""
@@ -50,9 +50,9 @@ class ColourMixture:
     def fit(cls, colours: NDArray[np.floating]) -> ColourMixture:
         """The mixture of some colours (N, 3), found as GrabCut does: they are clustered, and each cluster is a Gaussian.
 
-        Raises ValueError if there are fewer than `MIN_SAMPLES`.
+        Raises ValueError if there are fewer than `MIN_MIXTURE_PIXELS`.
         """
-        if len(colours) < MIN_SAMPLES:
+        if len(colours) < MIN_MIXTURE_PIXELS:
             raise ValueError(f"{len(colours)} colours are too few for a mixture of {MIXTURE_GAUSSIANS}")
         some = np.ascontiguousarray(colours[:: max(1, len(colours) // MAX_SAMPLES)], np.float32)
         criteria = (cv2.TERM_CRITERIA_COUNT, 10, 0.0)

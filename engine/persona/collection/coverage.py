@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from engine.perception.expression.measures import FACE_MEASURES, MEASURES, REST_SPREAD, measure
 from engine.persona.collection.photo_face import PhotoFace
 
-MIN_SHOWN = 1.0
+MIN_EXPRESSION_SPREADS = 1.0
 """`REST_SPREAD` of a measure, from the person's own median, from which on a photograph shows what the measure tells."""
 MIN_PHOTOS_OF_EXPRESSION = 8
 """So many photographs at least are mixed in a texture: of fewer, other expressions show through."""
@@ -37,7 +37,7 @@ def shown_expressions(faces: Sequence[PhotoFace]) -> dict[str, int]:
     counts = {}
     for name, (measures, sign) in EXPRESSIONS.items():
         told = sign * beyond[:, [MEASURES.index(one) for one in measures]].mean(axis=1)
-        counts[name] = int((told > MIN_SHOWN).sum())
+        counts[name] = int((told > MIN_EXPRESSION_SPREADS).sum())
     return counts
 
 

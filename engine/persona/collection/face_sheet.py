@@ -14,7 +14,7 @@ from engine.export.still import write_still
 from engine.persona.collection.photo_face import PhotoFace
 from engine.persona.collection.photos import Photos
 
-TILE = 96
+TILE_PIXELS = 96
 """Pixels of a face's picture."""
 COLUMNS = 16
 FACE_MARGIN = 1.3
@@ -32,12 +32,12 @@ def write_faces(
 ) -> list[Path]:
     """Leave `faces.json`, a list of all faces by their numbers, and `faces.jpg`, their pictures in rows of `COLUMNS`."""
     rows = max(-(-len(faces) // COLUMNS), 1)
-    sheet = np.full((rows * TILE, COLUMNS * TILE, 3), 255, np.uint8)
+    sheet = np.full((rows * TILE_PIXELS, COLUMNS * TILE_PIXELS, 3), 255, np.uint8)
     told = []
     for number, (face, reason, distance, look) in enumerate(zip(faces, reasons, distances, looks, strict=True)):
         row, column = divmod(number, COLUMNS)
-        sheet[row * TILE : (row + 1) * TILE, column * TILE : (column + 1) * TILE] = _picture(
-            photos.picture(face.photo), face.mesh
+        sheet[row * TILE_PIXELS : (row + 1) * TILE_PIXELS, column * TILE_PIXELS : (column + 1) * TILE_PIXELS] = (
+            _picture(photos.picture(face.photo), face.mesh)
         )
         told.append(
             {
@@ -54,7 +54,7 @@ def write_faces(
             }
         )
     skipped = [{"file": one.name, "code": one.code} for one in photos.skipped]
-    document = {"tile": TILE, "columns": COLUMNS, "faces": told, "skipped": skipped}
+    document = {"tile": TILE_PIXELS, "columns": COLUMNS, "faces": told, "skipped": skipped}
     (folder / "faces.json").write_text(json.dumps(document) + "\n")
     write_still(folder / "faces.jpg", sheet, synthetic)
     return [folder / "faces.json", folder / "faces.jpg"]
@@ -62,9 +62,9 @@ def write_faces(
 
 def _picture(rgb: NDArray[np.uint8], mesh: NDArray[np.float32]) -> NDArray[np.uint8]:
     low, high = mesh[:, :2].min(axis=0), mesh[:, :2].max(axis=0)
-    scale = TILE / (FACE_MARGIN * float((high - low).max()))
-    shift = (TILE - 1) / 2 - scale * (low + high) / 2
+    scale = TILE_PIXELS / (FACE_MARGIN * float((high - low).max()))
+    shift = (TILE_PIXELS - 1) / 2 - scale * (low + high) / 2
     matrix = np.array([[scale, 0, shift[0]], [0, scale, shift[1]]])
     flags = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
-    found = cv2.warpAffine(rgb, matrix, (TILE, TILE), flags=flags, borderMode=cv2.BORDER_REPLICATE)
+    found = cv2.warpAffine(rgb, matrix, (TILE_PIXELS, TILE_PIXELS), flags=flags, borderMode=cv2.BORDER_REPLICATE)
     return np.asarray(found, np.uint8)

@@ -14,7 +14,7 @@ MIN_PHOTOS_OF_LOOK = 20
 """Of fewer no persona can be made once some are of no use."""
 MIN_DISTANCE = 0.42
 """Between the means of two looks, in shares of the distance below which faces are one person's: smiles and light are less apart."""
-SEEDS = 8
+KMEANS_SEEDS = 8
 """Beginnings of k-means, of which the one is taken that leaves least."""
 
 
@@ -24,7 +24,9 @@ def looks(descriptors: Sequence[NDArray[np.floating]], same: float) -> tuple[int
     below which faces are one person's."""
     rows = np.asarray(descriptors, np.float64)
     for count in range(min(MAX_LOOKS, len(rows) // MIN_PHOTOS_OF_LOOK), 1, -1):
-        labels = min((_k_means(rows, count, seed) for seed in range(SEEDS)), key=lambda found: _left(rows, found))
+        labels = min(
+            (_k_means(rows, count, seed) for seed in range(KMEANS_SEEDS)), key=lambda found: _left(rows, found)
+        )
         sizes = np.bincount(labels, minlength=count)
         if sizes.min() >= MIN_PHOTOS_OF_LOOK and _least_apart(rows, labels) >= MIN_DISTANCE * same:
             place = np.argsort(np.argsort(-sizes, kind="stable"))

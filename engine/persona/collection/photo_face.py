@@ -23,10 +23,10 @@ MAX_FACES_OF_PHOTO = 12
 JUDGED_EYE_DISTANCE = 40.0
 """Pixels between the eyes at which blur is told: a large face is shrunk to it, so that what is told is of the face and not of the
 file's size."""
-NEAR_WIDTHS, LEAST_BESIDE = 2.5, 0.4
+NEAR_WIDTHS, MIN_NEIGHBOUR_SHARE = 2.5, 0.4
 """Its widths within which another face is beside a face, and the share of them that the other has at least."""
 CHIP = ARCFACE_LAYOUT
-EYES = ((33, 133), (263, 362))
+EYE_CORNERS = ((33, 133), (263, 362))
 
 
 @dataclass(frozen=True)
@@ -70,20 +70,20 @@ def faces_of(rgb: NDArray[np.uint8], photo: int, describe: FaceDescriptor) -> li
 
 
 def _beside(meshes: Sequence[NDArray[np.floating]]) -> list[int]:
-    """How many of the others are near each face (478, 3), and as large as `LEAST_BESIDE` of it."""
+    """How many of the others are near each face (478, 3), and as large as `MIN_NEIGHBOUR_SHARE` of it."""
     if not meshes:
         return []
     middles = np.array([mesh[:, :2].mean(axis=0) for mesh in meshes])
     widths = np.array([float(np.ptp(mesh[:, 0])) for mesh in meshes])
     near = np.linalg.norm(middles[:, None] - middles[None], axis=-1) < NEAR_WIDTHS * widths[:, None]
-    near &= widths[None] > LEAST_BESIDE * widths[:, None]
+    near &= widths[None] > MIN_NEIGHBOUR_SHARE * widths[:, None]
     return [int(count) - 1 for count in near.sum(axis=1)]
 
 
 def _face(
     rgb: NDArray[np.uint8], photo: int, mesh: NDArray[np.float32], widest: float, describe: FaceDescriptor
 ) -> PhotoFace:
-    right, left = (mesh[list(eye)].mean(axis=0) for eye in EYES)
+    right, left = (mesh[list(eye)].mean(axis=0) for eye in EYE_CORNERS)
     pose = head_pose(mesh, (rgb.shape[1], rgb.shape[0]))
     # eyes of a turned face are seen nearer to each other than they are
     distance = float(np.linalg.norm(left[:2] - right[:2])) / max(np.cos(pose.yaw), 0.5)

@@ -19,7 +19,7 @@ from engine.persona.collection.photo_face import as_looked_at
 
 MAX_PHOTOS = 800
 """Of a collection: three hundred are more than enough."""
-QUALITY = 95
+JPEG_QUALITY = 95
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ def read_photos(paths: Sequence[Path], limits: Limits, tick: Callable[[float], N
     names: list[str] = []
     years: list[int | None] = []
     skipped: list[SkippedFile] = []
-    with tempfile.TemporaryDirectory(prefix="galatea-") as folder, FilmStripWriter(QUALITY) as writer:
+    with tempfile.TemporaryDirectory(prefix="galatea-") as folder, FilmStripWriter(JPEG_QUALITY) as writer:
         files = list(_files(paths, Path(folder)))
         if len(files) > MAX_PHOTOS:
             raise InputError(

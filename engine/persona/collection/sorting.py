@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from engine.persona.collection.person import Belonging
 from engine.persona.collection.photo_face import PhotoFace
 
-MAX_YAW, MAX_PITCH = 35.0, 30.0
+MAX_YAW_DEGREES, MAX_PITCH_DEGREES = 35.0, 30.0
 """Degrees: beyond, one side of the face, or its forehead or chin, is not seen."""
-MIN_EYE_DISTANCE = 22.0
+MIN_EYE_DISTANCE_PIXELS = 22.0
 """Pixels: in smaller faces lids and teeth are a pixel or two."""
-MAX_BLUR = 0.62
+MAX_FACE_BLUR = 0.62
 """Of `PhotoFace.blur`."""
 DUPLICATE_CORRELATION, DUPLICATE_DISTANCE = 0.98, 0.25
 """Of chips and of descriptors, at once: the same picture, in another size or another file."""
@@ -69,11 +69,11 @@ def _reason(face: PhotoFace, belongs: str, number: int, choice: Choice) -> Reaso
         return "somebody_else" if belongs == "other" else "uncertain"
     if choice.years is not None and not (face.year and choice.years[0] <= face.year <= choice.years[1]):
         return "other_years"
-    if abs(face.yaw) > MAX_YAW or abs(face.pitch) > MAX_PITCH:
+    if abs(face.yaw) > MAX_YAW_DEGREES or abs(face.pitch) > MAX_PITCH_DEGREES:
         return "turned"
-    if face.eye_distance < MIN_EYE_DISTANCE:
+    if face.eye_distance < MIN_EYE_DISTANCE_PIXELS:
         return "tiny"
-    return "blurred" if face.blur > MAX_BLUR else None
+    return "blurred" if face.blur > MAX_FACE_BLUR else None
 
 
 def _duplicates(faces: Sequence[PhotoFace]) -> list[int]:

@@ -10,7 +10,7 @@ from engine.perception.landmarks import LEFT_EYE, LIPS_OUTER, RIGHT_EYE
 from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
 from engine.persona.texture.texture_frame import TextureFrame
 
-NOSE = (98, 327, 2, 1, 4, 19, 94, 97, 326, 129, 358, 48, 278)
+NOSE_VERTICES = (98, 327, 2, 1, 4, 19, 94, 97, 326, 129, 358, 48, 278)
 """Its tip and wings: nostrils that are a pixel off would be doubled."""
 RIM_RAMP = (4.0, 16.0)
 """Pixels of a frame 194 wide from the face's rim, between which the skin begins and is whole."""
@@ -23,7 +23,7 @@ def retouched_skin(frame: TextureFrame) -> NDArray[np.float32]:
     rim."""
     inside = cv2.distanceTransform(frame.face.astype(np.uint8), cv2.DIST_L2, 3) * (REFERENCE_WIDTH / frame.size[1])
     skin = np.clip((inside - RIM_RAMP[0]) / (RIM_RAMP[1] - RIM_RAMP[0]), 0, 1)
-    for contour, reach in ((RIGHT_EYE, EYES), (LEFT_EYE, EYES), (NOSE, WINGS), (LIPS_OUTER, LIPS)):
+    for contour, reach in ((RIGHT_EYE, EYES), (LEFT_EYE, EYES), (NOSE_VERTICES, WINGS), (LIPS_OUTER, LIPS)):
         skin = skin * (1 - _grown(frame, contour, reach))
     return np.asarray(skin, np.float32)
 

@@ -10,12 +10,12 @@ from engine.face_animation.eyes.eyeball import EYE_VERTICES, prepare_eyes
 from engine.face_animation.eyes.eyeball import Eyeball as EyeLayer
 from engine.face_animation.mouth.lip_contours import LUMINANCE_WEIGHTS
 from engine.face_animation.skin_colour import skin_colour
-from engine.persona.eyes.eyeball import CAP
+from engine.persona.eyes.eyeball import CAP_RADIANS
 from engine.persona.persona import Persona
 
-TEXTURE_SIZE = 192
+TEXTURE_SIZE_TEXELS = 192
 """Pixels of its side."""
-MIN_EYE_WIDTH = 28.0
+MIN_EYE_WIDTH_PIXELS = 28.0
 """Pixels of a photograph's eye whose iris is more than a blot."""
 SIDES = ("Right", "Left")
 """In the order of `prepare_eyes`."""
@@ -33,7 +33,7 @@ def eye_textures(persona: Persona, radii: dict[str, float]) -> dict[str, NDArray
         if photo is None:
             continue
         found = prepare_eyes(photo.rgb, photo.mesh)
-        if all(eye is not None and eye.width >= MIN_EYE_WIDTH for eye in found):
+        if all(eye is not None and eye.width >= MIN_EYE_WIDTH_PIXELS for eye in found):
             gain = float(skin @ LUMINANCE_WEIGHTS) / max(
                 float(skin_colour(photo.rgb, photo.mesh) @ LUMINANCE_WEIGHTS), 1
             )
@@ -50,7 +50,7 @@ def _both(
         seen = number if found[number] is not None else 1 - number
         eye = found[seen]
         if eye is None:
-            out[side] = np.full((TEXTURE_SIZE, TEXTURE_SIZE, 3), 128, np.uint8)
+            out[side] = np.full((TEXTURE_SIZE_TEXELS, TEXTURE_SIZE_TEXELS, 3), 128, np.uint8)
             continue
         iris = mesh[EYE_VERTICES[seen][1][0], :2] - eye.corner
         out[side] = texture_of(eye, iris, radii[side] * eye.width, gain)
@@ -59,16 +59,16 @@ def _both(
 
 def texture_of(eye: EyeLayer, iris: NDArray[np.floating], radius: float, gain: float) -> NDArray[np.uint8]:
     """`iris` (2,) : its middle in the layer, pixels. `radius` : of the eyeball, pixels of the layer."""
-    places = (np.arange(TEXTURE_SIZE) + 0.5) / TEXTURE_SIZE * 2 - 1
+    places = (np.arange(TEXTURE_SIZE_TEXELS) + 0.5) / TEXTURE_SIZE_TEXELS * 2 - 1
     x, y = np.meshgrid(places, places)
     share = np.hypot(x, y)
-    angle = np.minimum(share, 1) * CAP
+    angle = np.minimum(share, 1) * CAP_RADIANS
     reach = radius * np.sin(angle) / np.maximum(share, 1e-6)
     at = (iris[0] + reach * x).astype(np.float32), (iris[1] + reach * y).astype(np.float32)
     whole, disk, alpha = (
         np.asarray(cv2.remap(layer, *at, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32)
         for layer in (eye.white, eye.iris, eye.iris_alpha)
     )
-    light = 1 - (1 - WHITE_EDGE) * (angle / CAP) ** 2
+    light = 1 - (1 - WHITE_EDGE) * (angle / CAP_RADIANS) ** 2
     colours = (whole * light[..., None].astype(np.float32)) + alpha[..., None] * (disk - whole * light[..., None])
     return np.clip(np.rint(gain * colours), 0, 255).astype(np.uint8)

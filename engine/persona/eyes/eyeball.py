@@ -15,10 +15,10 @@ from scipy.spatial.transform import Rotation
 from engine.body.face.face_capture import MAX_GAZE_TRAVEL
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
-EYES = {"Left": (LEFT_EYE, LEFT_IRIS), "Right": (RIGHT_EYE, RIGHT_IRIS)}
-LARGER = 1.12
+EYE_VERTICES = {"Left": (LEFT_EYE, LEFT_IRIS), "Right": (RIGHT_EYE, RIGHT_IRIS)}
+BALL_OPENING_RATIO = 1.12
 """Than the opening is wide: its rim is never seen."""
-CAP = np.radians(80)
+CAP_RADIANS = np.radians(80)
 """Of the ball, about the iris, that there is."""
 RINGS, SECTORS = 20, 40
 RIM_DEPTH = 0.1
@@ -56,21 +56,21 @@ class Eyeball:
 
 def eyeball(face: NDArray[np.floating], side: str, lids: NDArray[np.floating]) -> Eyeball:
     """That of one side of a `face` (478, 3) from the front: just behind all of `lids` (K, 3), wherever lids are when they move."""
-    contour, iris = EYES[side]
+    contour, iris = EYE_VERTICES[side]
     rim = np.asarray(face, np.float64)[list(contour)]
     width = float(np.linalg.norm(rim[8] - rim[0]))
-    radius = LARGER * width / 2
+    radius = BALL_OPENING_RATIO * width / 2
     middle = (rim[:, :2].min(axis=0) + rim[:, :2].max(axis=0)) / 2
-    near = np.linalg.norm(lids[:, :2] - middle, axis=1) < radius / LARGER
+    near = np.linalg.norm(lids[:, :2] - middle, axis=1) < radius / BALL_OPENING_RATIO
     bulge = np.sqrt(radius**2 - ((lids[near, :2] - middle) ** 2).sum(axis=1))
     centre = np.array([*middle, float((lids[near, 2] + bulge).max())])
     look = np.asarray(face, np.float64)[iris[0], :2] - middle
     pole = np.array([*look, -np.sqrt(max(radius**2 - float(look @ look), 1e-9))]) / radius
-    across, down = np.linspace(0, CAP, RINGS), np.linspace(0, 2 * np.pi, SECTORS + 1)
+    across, down = np.linspace(0, CAP_RADIANS, RINGS), np.linspace(0, 2 * np.pi, SECTORS + 1)
     angle, turn = (one.ravel() for one in np.meshgrid(across, down, indexing="ij"))
     local = np.column_stack([np.sin(angle) * np.cos(turn), np.sin(angle) * np.sin(turn), -np.cos(angle)])
     towards = Rotation.align_vectors(pole[None], np.array([[0.0, 0.0, -1.0]]))[0]
-    uv = 0.5 + 0.5 * (angle / CAP)[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
+    uv = 0.5 + 0.5 * (angle / CAP_RADIANS)[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
     return Eyeball(centre, radius, centre + radius * towards.apply(local), _grid(), uv.astype(np.float32), side, width)
 
 

@@ -16,11 +16,11 @@ from engine.face_animation.mouth.lip_contours import LUMINANCE_WEIGHTS
 from engine.persona.light.low_frequencies import low_frequencies
 from engine.persona.persona import Persona
 
-DIRECTIONS: Mapping[str, tuple[float, float]] = {"left": (-1.0, 0.0), "right": (1.0, 0.0)}
+LIGHT_DIRECTIONS: Mapping[str, tuple[float, float]] = {"left": (-1.0, 0.0), "right": (1.0, 0.0)}
 """Of a picture, x and y down. Lights from above and below differ by so little in collections that they change nothing to be seen."""
-STRONGEST_SHARE, LEAST_PHOTOS = 0.1, 8
+STRONGEST_SHARE, MIN_PHOTOS = 0.1, 8
 """Of the photographs, those that are lit most from a side, and how many at least."""
-DARK = 8.0
+RATIO_OFFSET_LEVELS = 8.0
 """Grey levels that are added on both sides of a ratio, so that black is no division by nothing."""
 MIN_BELIEF = 0.01
 
@@ -34,7 +34,7 @@ class DirectedLight(NamedTuple):
 
 
 def directed_light(persona: Persona, direction: str) -> DirectedLight:
-    """The light from a side, one of `DIRECTIONS`, in the mean of the photographs that show it most."""
+    """The light from a side, one of `LIGHT_DIRECTIONS`, in the mean of the photographs that show it most."""
     frame = persona.frame
     face = frame.face
     normals = frame.interpolated(frame.normals)[face]
@@ -44,12 +44,12 @@ def directed_light(persona: Persona, direction: str) -> DirectedLight:
     for colours, belief in zip(persona.colours, persona.belief, strict=True):
         weights = face * (belief.astype(np.float32) / 255)
         own = low_frequencies(colours.astype(np.float32), weights, frame.scale)
-        logs.append(np.log((own + DARK) / (average + DARK)))
+        logs.append(np.log((own + RATIO_OFFSET_LEVELS) / (average + RATIO_OFFSET_LEVELS)))
         trust = weights[face][:, None] + MIN_BELIEF
         light = (logs[-1][face] @ LUMINANCE_WEIGHTS)[:, None]
         told = np.linalg.lstsq(basis * trust, light * trust, rcond=None)[0][:2, 0]
-        strengths.append(float(told @ DIRECTIONS[direction]))
-    count = min(max(LEAST_PHOTOS, round(STRONGEST_SHARE * len(logs))), len(logs))
+        strengths.append(float(told @ LIGHT_DIRECTIONS[direction]))
+    count = min(max(MIN_PHOTOS, round(STRONGEST_SHARE * len(logs))), len(logs))
     chosen = np.argsort(strengths)[::-1][:count]
     share = np.maximum(np.array(strengths)[chosen], 1e-3)
     mean = np.average(np.array(logs)[chosen], axis=0, weights=share)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 GRID_STEP = 6
 """Pixels of the texture for one at which its light is told."""
-SIGMA = 0.3
+LIGHT_SIGMA_EYE_DISTANCES = 0.3
 """Eye distances: what is coarser is light."""
 MIN_WEIGHT = 0.01
 """Of the weight of pixels that do not count, so that light goes on where none does."""
@@ -20,7 +20,7 @@ def low_frequencies(
     """(H, W, 3) those of a texture (H, W, 3) with eyes `eye_distance` pixels apart, told where `mask` (H, W) counts."""
     height, width = texture.shape[:2]
     size = max(width // GRID_STEP, 1), max(height // GRID_STEP, 1)
-    sigma = SIGMA * eye_distance * size[0] / width
+    sigma = LIGHT_SIGMA_EYE_DISTANCES * eye_distance * size[0] / width
     weights = np.asarray(mask + MIN_WEIGHT, np.float32)
     weighted = cv2.resize(texture * weights[..., None], size, interpolation=cv2.INTER_AREA)
     total = cv2.resize(weights, size, interpolation=cv2.INTER_AREA)

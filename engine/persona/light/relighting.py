@@ -14,7 +14,7 @@ from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.face_tessellation import face_triangles, opening_triangles
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, eye_distance
 from engine.persona.collection.face_photo import FacePhoto
-from engine.persona.light.directions import DARK, DIRECTIONS, DirectedLight, directed_light
+from engine.persona.light.directions import LIGHT_DIRECTIONS, RATIO_OFFSET_LEVELS, DirectedLight, directed_light
 from engine.persona.light.low_frequencies import low_frequencies
 from engine.persona.persona import Persona
 from engine.persona.texture.texture_frame import sampled
@@ -23,7 +23,7 @@ GAIN_RANGE = (0.4, 2.5)
 """By which light may change."""
 LIGHT_FALLOFF = 1.3
 """Eye distances from the face at which a third of its change is left: hair and neck go along, a wall behind them does not."""
-LEAST_STRENGTH = 0.12
+MIN_STRENGTH = 0.12
 """Of a light from a side (`DirectedLight.strength`) that is seen to come from there."""
 RIM_LIGHT_WIDTH = 0.35
 """Eye distances over which what is beside the face takes the light of its rim."""
@@ -36,10 +36,10 @@ def regenerated(persona: Persona, number: int) -> NDArray[np.uint8]:
 
 
 def in_light(persona: Persona, light: str) -> tuple[Persona, float]:
-    """The persona in the `average` light of its photographs, or in that from one of `DIRECTIONS`, and how strong that is; the photograph that
-    acts is brought into it, too."""
+    """The persona in the `average` light of its photographs, or in that from one of `LIGHT_DIRECTIONS`, and how strong
+    that is; the photograph that acts is brought into it, too."""
     even = np.ones((*persona.frame.size, 3), np.float32)
-    directed = directed_light(persona, light) if light in DIRECTIONS else DirectedLight(even, 1.0)
+    directed = directed_light(persona, light) if light in LIGHT_DIRECTIONS else DirectedLight(even, 1.0)
     portrait = persona.portrait
     if portrait is not None:
         becomes = regenerated(persona, portrait.number) * directed.gain
@@ -58,14 +58,16 @@ def relit(persona: Persona, photo: FacePhoto, texture: NDArray[np.floating]) -> 
     own = sampled(photo.rgb, frame.lookup(photo.mesh))
     believed = frame.face * persona.belief[photo.number].astype(np.float32) / 255
     was, becomes = (low_frequencies(one, believed, frame.scale) for one in (own, texture.astype(np.float32)))
-    gain = np.clip((becomes + DARK) / (was + DARK), *GAIN_RANGE)
+    gain = np.clip((becomes + RATIO_OFFSET_LEVELS) / (was + RATIO_OFFSET_LEVELS), *GAIN_RANGE)
     found = cv2.remap(gain, at[..., 0], at[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     known = at[..., 0] >= 0
     unit = float(eye_distance(photo.mesh[:, :2]))
     beside = cv2.GaussianBlur(nearest_values(np.asarray(found, np.float32), known), (0, 0), RIM_LIGHT_WIDTH * unit)
     away = cv2.distanceTransform((~known).astype(np.uint8), cv2.DIST_L2, 3) / (LIGHT_FALLOFF * unit)
     gains = 1 + np.exp(-(away**2))[..., None] * (np.asarray(beside) - 1)
-    return np.asarray((photo.rgb + np.float32(DARK)) * gains - np.float32(DARK), np.float32)
+    return np.asarray(
+        (photo.rgb + np.float32(RATIO_OFFSET_LEVELS)) * gains - np.float32(RATIO_OFFSET_LEVELS), np.float32
+    )
 
 
 def over_photo(persona: Persona, photo: FacePhoto) -> NDArray[np.float32] | None:

@@ -18,12 +18,12 @@ from engine.geometry.adjacency import neighbours
 from engine.perception.face_tessellation import face_triangles
 from engine.perception.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE
 
-VERTICES = 478
+MESH_VERTICES = 478
 REST_GAP = 0.01
 """Eye distances: openings that are narrower at rest are shut then, and stay as they are."""
 ANCHOR_STIFFNESS = 0.3
 """How much a vertex is held in its place, beside a bending of one: half of a correction is gone a few vertices away."""
-HEAVY = 4.0
+LOWER_LID_WEIGHT = 4.0
 """How much more lower lids and upper lips are held: lids shut from above, and jaws from below."""
 
 
@@ -59,11 +59,11 @@ def _openings() -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]
         for place in range(1, len(contour) // 2)
     ]
     upper, lower = np.array(pairs).T
-    beside = neighbours(face_triangles(), VERTICES)
+    beside = neighbours(face_triangles(), MESH_VERTICES)
     bending = sp.diags_array(beside.sum(axis=1)) - beside
-    weight = np.full(VERTICES, ANCHOR_STIFFNESS**2)
-    weight[np.concatenate([upper[: len(LIPS_INNER) // 2 - 1], lower[len(LIPS_INNER) // 2 - 1 :]])] *= HEAVY
-    gaps = np.zeros((len(pairs), VERTICES))
+    weight = np.full(MESH_VERTICES, ANCHOR_STIFFNESS**2)
+    weight[np.concatenate([upper[: len(LIPS_INNER) // 2 - 1], lower[len(LIPS_INNER) // 2 - 1 :]])] *= LOWER_LID_WEIGHT
+    gaps = np.zeros((len(pairs), MESH_VERTICES))
     gaps[np.arange(len(pairs)), lower], gaps[np.arange(len(pairs)), upper] = 1, -1
     easy = splu(sp.csc_array(bending @ bending + sp.diags_array(weight))).solve(np.ascontiguousarray(gaps.T))
     return upper, lower, np.asarray(easy @ np.linalg.inv(gaps @ easy), np.float64)

@@ -13,9 +13,9 @@ from engine.persona.puppet import Puppet
 from engine.persona.results.face_units import FaceUnits
 from engine.render.rasteriser import depth_map
 
-PIXELS = 64
+PIXELS_PER_EYE_DISTANCE = 64
 """Of an eye distance, in the pictures in which it is looked at."""
-HALF = 2.5
+HALF_EXTENT_EYE_DISTANCES = 2.5
 """Eye distances from between the eyes that these show."""
 SKIN_CLEARANCE = 0.015
 """Eye distances by which everything stays behind the skin: a millimetre."""
@@ -33,7 +33,7 @@ class BehindSkin:
         needed = np.zeros(len(vertices))
         for units, depths in zip(self._faces, self._depths, strict=True):
             places = vertices + sum((moved[unit] for unit in units if unit in moved), np.zeros((1, 3)))
-            columns, rows = np.rint((places[:, :2] + HALF) * PIXELS).astype(int).T
+            columns, rows = np.rint((places[:, :2] + HALF_EXTENT_EYE_DISTANCES) * PIXELS_PER_EYE_DISTANCE).astype(int).T
             inside = (rows >= 0) & (rows < len(depths)) & (columns >= 0) & (columns < len(depths))
             skin = np.where(inside, depths[rows.clip(0, len(depths) - 1), columns.clip(0, len(depths) - 1)], np.inf)
             covered = np.isfinite(skin)
@@ -50,10 +50,10 @@ class BehindSkin:
     def _depths(self) -> list[NDArray[np.float32]]:
         """(H, W) of each face, infinite where there is no skin."""
         rest = self._puppet.vertices(self._puppet.persona.neutral)
-        side = round(2 * HALF * PIXELS)
+        side = round(2 * HALF_EXTENT_EYE_DISTANCES * PIXELS_PER_EYE_DISTANCE)
         found = []
         for units in self._faces:
             skin = rest + self._puppet.finer(self._units.doing(dict.fromkeys(units, 1.0)) + np.zeros((478, 3)))
-            skin[:, :2] = (skin[:, :2] + HALF) * PIXELS
+            skin[:, :2] = (skin[:, :2] + HALF_EXTENT_EYE_DISTANCES) * PIXELS_PER_EYE_DISTANCE
             found.append(depth_map(skin, self._puppet.surface.triangles, (side, side)))
         return found

@@ -16,11 +16,13 @@ from engine.export.still import write_still
 from engine.persona.persona import Persona
 from engine.persona.results.face_units import EXPRESSIONS, FaceUnits
 
-NAMES = ("smile", "surprise", "anger", "sadness", "open_mouth")
+TEXTURED_EXPRESSIONS = ("smile", "surprise", "anger", "sadness", "open_mouth")
 """Of `EXPRESSIONS`, those whose textures differ clearly."""
 
 
-def expression_textures(persona: Persona, units: FaceUnits, names: Sequence[str] = NAMES) -> NDArray[np.uint8]:
+def expression_textures(
+    persona: Persona, units: FaceUnits, names: Sequence[str] = TEXTURED_EXPRESSIONS
+) -> NDArray[np.uint8]:
     """(1 + E, H, W, 3) the neutral face's texture, and those of the expressions, as the collection shows them."""
     faces = [persona.neutral, *(persona.neutral + units.doing(EXPRESSIONS[name]) for name in names)]
     return persona.synthesis(persona.weights(np.array(faces)))
@@ -31,7 +33,10 @@ def write_expression_textures(folder: Path, textures: NDArray[np.uint8], synthet
     are: a texture is blended in by how far its units are moved, each as a share of what is told there."""
     picture, document = folder / "puppet_textures.jpg", folder / "puppet_textures.json"
     write_still(picture, np.ascontiguousarray(np.concatenate(list(textures), axis=1)), synthetic)
-    told = [{"name": "neutral", "units": {}}, *({"name": name, "units": dict(EXPRESSIONS[name])} for name in NAMES)]
+    told = [
+        {"name": "neutral", "units": {}},
+        *({"name": name, "units": dict(EXPRESSIONS[name])} for name in TEXTURED_EXPRESSIONS),
+    ]
     size = [textures.shape[2], textures.shape[1]]
     document.write_text(json.dumps({"model": "puppet.glb", "size": size, "textures": told}, indent=1) + "\n")
     return picture, document

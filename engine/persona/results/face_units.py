@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.joint_names import SIDES
 from engine.persona.motion.deformation_transfer import DeformationTransfer
-from engine.persona.motion.mesh_units import EYES, lids_met, load_mesh_units
+from engine.persona.motion.mesh_units import EYE_VERTICES, lids_met, load_mesh_units
 from engine.persona.motion.performance import FRAME_SIZE
 from engine.persona.persona import Persona
 from engine.persona.puppet import FACE_VERTICES
@@ -23,7 +23,7 @@ def _both(unit: str, weight: float) -> dict[str, float]:
 
 OPEN_JAW, LIPS_CLOSED = "jawOpen", "mouthClose"
 """Lips that close over an open jaw: the second says nothing alone."""
-LEAST_SHOWN = 0.03
+MIN_UNIT_MOTION_EYE_DISTANCES = 0.03
 """Eye distances, two millimetres: a unit that moves nothing farther shows nothing."""
 EXPRESSIONS: Mapping[str, Mapping[str, float]] = {
     "smile": {**_both("mouthSmile", 0.8), **_both("cheekSquint", 0.5)},
@@ -59,8 +59,8 @@ def face_units(persona: Persona) -> FaceUnits:
     movements[closed] += known.moved[jaw]
     moved = transfer.of_frames(movements)
     moved[closed] -= moved[jaw]
-    for side, contour in EYES.items():
+    for side, contour in EYE_VERTICES.items():
         blink = known.names.index(f"eyeBlink{side}")
         moved[blink] = lids_met(persona.neutral, moved[blink], contour)
-    shown = np.linalg.norm(moved[:, :FACE_VERTICES], axis=-1).max(axis=1) > LEAST_SHOWN
+    shown = np.linalg.norm(moved[:, :FACE_VERTICES], axis=-1).max(axis=1) > MIN_UNIT_MOTION_EYE_DISTANCES
     return FaceUnits(tuple(name for name, one in zip(known.names, shown, strict=True) if one), moved[shown])

@@ -22,14 +22,14 @@ from engine.face_animation.mouth.modelled.mouth_parts import (
 from engine.face_animation.skin_colour import skin_colour
 from engine.perception.landmarks import LIPS_INNER
 from engine.persona.eyes.eye_texture import eye_textures
-from engine.persona.eyes.eyeball import EYES, eyeball, lid_rim
+from engine.persona.eyes.eyeball import EYE_VERTICES, eyeball, lid_rim
 from engine.persona.mouth.persona_mouth import puppet_mouth
 from engine.persona.mouth.teeth_sheet import COLUMNS, teeth_sheet
 from engine.persona.puppet import Puppet
 from engine.persona.results.behind_skin import BehindSkin
 from engine.persona.results.face_units import OPEN_JAW, FaceUnits
 
-BACK = np.array([0.0, 0.0, 1.0])
+BACKWARD_AXIS = np.array([0.0, 0.0, 1.0])
 EVEN_COLUMNS = 4
 """Of a sheet of teeth to either side, over which its arch is bent."""
 JAW_MOVES = ("jawForward", "jawLeft", "jawRight")
@@ -37,7 +37,7 @@ JAW_MOVES = ("jawForward", "jawLeft", "jawRight")
 BAG_DEEPER = 1.5
 LAYER_GAP = np.array([0, 0, 2e-3])
 """Eye distances behind the skin at which what is tied to it begins: at one place with it, both would be shaded as one surface."""
-RIM_SHARE = 0.5
+LID_RIM_LIGHT = 0.5
 """Of the skin's light, that the rims of lids have, which lie in their shade."""
 
 
@@ -69,15 +69,15 @@ def _eyes(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
     skins = np.concatenate([relief[None], relief + finer])
     near = np.linalg.norm(relief[:, :2], axis=1) < 1.2
     lids = skins[:, near].reshape(-1, 3)
-    balls = {side: eyeball(persona.neutral, side, lids) for side in EYES}
+    balls = {side: eyeball(persona.neutral, side, lids) for side in EYE_VERTICES}
     textures = eye_textures(persona, {side: ball.radius / ball.width for side, ball in balls.items()})
-    shade = np.rint(RIM_SHARE * skin_colour(persona.average, persona.frame.places[:478])).astype(np.uint8)
+    shade = np.rint(LID_RIM_LIGHT * skin_colour(persona.average, persona.frame.places[:478])).astype(np.uint8)
     parts = []
     for side, ball in balls.items():
         looks = {f"eyeLook{way}{side}": ball.turned(way) for way in ("In", "Out", "Up", "Down")}
         name = f"{side.lower()}_eye"
         parts.append(InnerPart(name, ball.vertices, ball.triangles, ball.uv, textures[side], looks))
-        contour = list(EYES[side][0])
+        contour = list(EYE_VERTICES[side][0])
         rim, triangles = lid_rim(relief[contour] + LAYER_GAP)
         moves = {unit: np.tile(moved[contour], (2, 1)) for unit, moved in zip(units.names, units.moved, strict=True)}
         flat = np.broadcast_to(shade, (8, 8, 3)).copy()
@@ -104,7 +104,7 @@ def _mouth(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
         upper = InnerPart("upper_teeth", _set_back(row.vertices, skin, {}), row.triangles, row.uv, colours.upper)
     else:
         sheet = teeth_sheet(mouth.photo)
-        bent = sheet.vertices + _evenly(skin.needed(sheet.vertices, {}))[:, None] * BACK
+        bent = sheet.vertices + _evenly(skin.needed(sheet.vertices, {}))[:, None] * BACKWARD_AXIS
         upper = InnerPart("upper_teeth", *sheet._replace(vertices=bent))
     row, flesh = modelled_teeth(at, False), tongue(at)
     lower = _set_back(row.vertices, skin, with_jaw(row.vertices))
@@ -130,7 +130,7 @@ def _set_back(
     vertices: NDArray[np.float64], skin: BehindSkin, moved: Mapping[str, NDArray[np.float64]]
 ) -> NDArray[np.float64]:
     """As a solid: as far as the vertex that needs it most."""
-    return np.asarray(vertices + skin.needed(vertices, moved).max() * BACK, np.float64)
+    return np.asarray(vertices + skin.needed(vertices, moved).max() * BACKWARD_AXIS, np.float64)
 
 
 def _evenly(needed: NDArray[np.float64]) -> NDArray[np.float64]:

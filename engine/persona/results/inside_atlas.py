@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from engine.persona.results.inner_parts import InnerPart
 
-LEAST_HEIGHT = 64
+MIN_TEXTURE_HEIGHT_PIXELS = 64
 """Pixels that a texture has on it: lower ones are enlarged, since smaller pictures of it run into one another."""
-INSET = 2.0
+UV_INSET_PIXELS = 2.0
 """Pixels of a texture at each of its edges that are not used, for the same reason."""
 
 
@@ -24,7 +24,11 @@ def inside_atlas(parts: Sequence[InnerPart]) -> tuple[NDArray[np.uint8], list[ND
     for part, texture in zip(parts, textures, strict=True):
         tall, wide = texture.shape[:2]
         rows.append(np.pad(texture, ((0, 0), (0, width - wide), (0, 0)), mode="edge"))
-        at = INSET + np.asarray(part.uv, np.float64) * (np.array([wide, tall]) - 2 * INSET) + (0, top)
+        at = (
+            UV_INSET_PIXELS
+            + np.asarray(part.uv, np.float64) * (np.array([wide, tall]) - 2 * UV_INSET_PIXELS)
+            + (0, top)
+        )
         places.append((at / (width, height)).astype(np.float32))
         top += tall
     return np.concatenate(rows), places
@@ -33,8 +37,8 @@ def inside_atlas(parts: Sequence[InnerPart]) -> tuple[NDArray[np.uint8], list[ND
 def _large(texture: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """(h, w, 4) with alpha."""
     whole = texture if texture.shape[2] == 4 else np.dstack([texture, np.full(texture.shape[:2], 255, np.uint8)])
-    scale = LEAST_HEIGHT / whole.shape[0]
+    scale = MIN_TEXTURE_HEIGHT_PIXELS / whole.shape[0]
     if scale <= 1:
         return whole
-    size = round(whole.shape[1] * scale), LEAST_HEIGHT
+    size = round(whole.shape[1] * scale), MIN_TEXTURE_HEIGHT_PIXELS
     return np.asarray(cv2.resize(whole, size, interpolation=cv2.INTER_LINEAR), np.uint8)

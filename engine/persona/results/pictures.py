@@ -15,7 +15,7 @@ from engine.persona.puppet import Puppet
 from engine.persona.results.face_units import FaceUnits
 from engine.persona.results.shown_expressions import ShownExpression, fitted_face
 
-ANGLES = (-45.0, -20.0, 0.0, 20.0, 45.0)
+VIEW_YAWS_DEGREES = (-45.0, -20.0, 0.0, 20.0, 45.0)
 """Degrees from which the face is shown, figure 9: below zero it looks to the picture's left."""
 HEADROOM = 1.2
 """Of the neutral face's extent, that a picture of it has."""
@@ -67,14 +67,18 @@ def gallery(studio: Studio, shown: Sequence[ShownExpression]) -> list[NDArray[np
 
 
 def angles(studio: Studio, shown: Sequence[ShownExpression]) -> NDArray[np.uint8]:
-    """Figure 9: the face at rest and as it does each of the expressions, a row each, from all of `ANGLES`."""
+    """Figure 9: the face at rest and as it does each of the expressions, a row each, from all of `VIEW_YAWS_DEGREES`."""
     persona = studio.persona
     faces = [persona.neutral, *(one.face for one in shown)]
     weights = [persona.weights(persona.neutral[None]), *(one.weights[None] for one in shown)]
     textures = persona.synthesis(np.concatenate(weights))
     return sheet(
-        [studio.picture(face, texture, yaw) for face, texture in zip(faces, textures, strict=True) for yaw in ANGLES],
-        len(ANGLES),
+        [
+            studio.picture(face, texture, yaw)
+            for face, texture in zip(faces, textures, strict=True)
+            for yaw in VIEW_YAWS_DEGREES
+        ],
+        len(VIEW_YAWS_DEGREES),
     )
 
 

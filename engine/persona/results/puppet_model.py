@@ -22,7 +22,7 @@ from engine.persona.results.inside_atlas import inside_atlas
 
 EYE_DISTANCE = 0.063
 """Metres between the middles of the eyes: people's mean, since no photograph tells how large somebody is."""
-NECK = (0.0, -0.9, 1.3)
+NECK_PIVOT_EYE_DISTANCES = (0.0, -0.9, 1.3)
 """About where a head turns, in eye distances from between the eyes, in the axes of pictures."""
 ROUGHNESS = 0.5
 """Of eyes, teeth and tongue, which are moist."""
@@ -42,7 +42,7 @@ def write_puppet(path: Path, persona: Persona, units: FaceUnits, texture: NDArra
     atlas, places = inside_atlas(inside)
     parts = [_skin(puppet, units, texture), *inside]
     starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
-    head = (np.array([NECK]) @ metres).astype(np.float32)
+    head = (np.array([NECK_PIVOT_EYE_DISTANCES]) @ metres).astype(np.float32)
     mesh = SkinnedMesh(
         Skeleton(("Head",), np.array([-1], np.int32), head),
         (np.concatenate([part.vertices for part in parts]) @ metres).astype(np.float32),

@@ -16,23 +16,23 @@ from engine.persona.persona import Persona
 from engine.persona.results.face_units import EXPRESSIONS, FaceUnits
 from engine.persona.texture.expression_weights import expression_points
 
-LEAST_DONE = 0.4
+MIN_EXPRESSION_STRENGTH = 0.4
 """Of an expression as `EXPRESSIONS` has it, that a photograph near it does."""
-LEAST_LIKENESS = 0.4
+MIN_LIKENESS = 0.4
 """Cosine between what its points do and what the expression does, of a photograph near it."""
-LEAST_OF_MOST = 0.6
+MIN_BEST_LIKENESS_SHARE = 0.6
 """Of its likeness to what it is most like: who smiles with narrow eyes is not angry."""
-ALIKE = 0.8
+MIN_SAME_EXPRESSION_COSINE = 0.8
 """Cosine from which on two expressions are of a kind, as surprise and an open mouth are."""
 REGIONS = (slice(0, 10), slice(31, 51))
 """Brows and lips, of the points: an expression that moves both is done by both."""
-LEAST_MOVED = 0.02
+MIN_REGION_MOTION_EYE_DISTANCES = 0.02
 """Eye distances by which an expression moves the points of a region, in the mean square's root, if it moves it."""
-RIDGE = 0.02
+UNIT_COST = 0.02
 """Eye distances of all points together, that a unit at its full costs: what one unit tells is not told by many."""
-BENDING = 1e-3
+SPLINE_BENDING = 1e-3
 """How smooth the spline is: upper and lower lip touch, and are moved apart."""
-MOST_PHOTOS = 16
+MAX_PHOTOS = 16
 """Of those near an expression that say what it is, the strongest first."""
 
 
@@ -51,7 +51,7 @@ def photos_near(persona: Persona, units: FaceUnits) -> Mapping[str, tuple[int, .
     """The photographs near each of `EXPRESSIONS`, the strongest first."""
     share, likeness, _ = _done(persona, units, persona.points)
     most = likeness.max(axis=0)
-    near = (share > LEAST_DONE) & (likeness > np.maximum(LEAST_LIKENESS, LEAST_OF_MOST * most))
+    near = (share > MIN_EXPRESSION_STRENGTH) & (likeness > np.maximum(MIN_LIKENESS, MIN_BEST_LIKENESS_SHARE * most))
     return {
         name: tuple(sorted(np.flatnonzero(one).tolist(), key=lambda photo: -strong[photo]))
         for name, one, strong in zip(EXPRESSIONS, near, share, strict=True)
@@ -65,10 +65,10 @@ def shown_expressions(persona: Persona, units: FaceUnits) -> list[ShownExpressio
     for name, photos in photos_near(persona, units).items():
         if len(photos) < MIN_PHOTOS_OF_EXPRESSION:
             continue
-        points = persona.points[list(photos[:MOST_PHOTOS])].astype(np.float64).mean(axis=0)
+        points = persona.points[list(photos[:MAX_PHOTOS])].astype(np.float64).mean(axis=0)
         _, likeness, alike = _done(persona, units, points[None])
         own = list(EXPRESSIONS).index(name)
-        if likeness[alike[own] < ALIKE, 0].max() > likeness[own, 0]:
+        if likeness[alike[own] < MIN_SAME_EXPRESSION_COSINE, 0].max() > likeness[own, 0]:
             continue
         face = fitted_face(persona, units, points)
         out.append(ShownExpression(name, photos, face, persona.weights_of_points(points[None])[0]))
@@ -88,7 +88,7 @@ def _done(
     for region in REGIONS:
         own = np.einsum("epk,npk->en", wanted[:, region], done[:, region])
         size = (wanted[:, region] ** 2).sum(axis=(1, 2))
-        moved = np.sqrt(size / wanted[:, region].shape[1]) > LEAST_MOVED
+        moved = np.sqrt(size / wanted[:, region].shape[1]) > MIN_REGION_MOTION_EYE_DISTANCES
         share[moved] = np.minimum(share[moved], own[moved] / size[moved, None])
     across = [_directions(one.reshape(len(one), -1)) for one in (wanted, done)]
     return share, across[0] @ across[1].T, across[0] @ across[0].T
@@ -104,7 +104,7 @@ def fitted_face(persona: Persona, units: FaceUnits, points: NDArray[np.floating]
     own = expression_points(face[None])[0]
     known = np.concatenate([own, face[list(FACE_OVAL), :2]])
     left = np.concatenate([points - own, np.zeros((len(FACE_OVAL), 2))])
-    bend = RBFInterpolator(known, left, kernel="thin_plate_spline", smoothing=BENDING)
+    bend = RBFInterpolator(known, left, kernel="thin_plate_spline", smoothing=SPLINE_BENDING)
     face[:, :2] += bend(face[:, :2])
     return np.asarray(face)
 
@@ -113,7 +113,7 @@ def fitted_units(persona: Persona, units: FaceUnits, points: NDArray[np.floating
     """The mixture of units, none above its full, that moves the neutral face's points nearest to `points` (51, 2)."""
     rest = expression_points(persona.neutral[None])
     basis = (expression_points(persona.neutral + units.moved) - rest).reshape(len(units.names), -1)
-    system = np.concatenate([basis.T, RIDGE * np.eye(len(basis))])
+    system = np.concatenate([basis.T, UNIT_COST * np.eye(len(basis))])
     wanted = np.concatenate([(points - rest[0]).ravel(), np.zeros(len(basis))])
     weights = np.minimum(nnls(system, wanted)[0], 1)
     return {name: float(weight) for name, weight in zip(units.names, weights, strict=True) if weight > 0}

@@ -18,9 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.filling.pull_push import pull_push
-from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, UNSEEDED, ColourMixture, ContrastGraph, colour_costs
+from engine.imaging.masks.colour_segmentation import (
+    MIN_MIXTURE_PIXELS,
+    UNSEEDED,
+    ColourMixture,
+    ContrastGraph,
+    colour_costs,
+)
 from engine.imaging.masks.mask_pieces import pieces_touching
-from engine.perception.landmarks import BROWS, LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, fiducials
+from engine.perception.landmarks import BROW_POINTS, LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, fiducials
 from engine.persona.texture.aligned_photos import AlignedPhotos
 from engine.persona.texture.texture_frame import TextureFrame
 
@@ -77,7 +83,7 @@ class BareSkin:
         skins = ColourMixture.fit(lab[skin]).widened(LIGHT_VARIANCE)
         usual = np.quantile(skins.negative_log_likelihood(lab[skin]), SKIN_QUANTILE)
         others = lab[around][skins.negative_log_likelihood(lab[around]) > usual]
-        if len(others) < MIN_SAMPLES:  # all about the face is skin
+        if len(others) < MIN_MIXTURE_PIXELS:  # all about the face is skin
             return np.zeros(area.shape, np.bool_)
         mixtures = (skins, ColourMixture.fit(others).widened(LIGHT_VARIANCE))
         costs = np.minimum(colour_costs(mixtures, lab[area]), MAX_COST)
@@ -94,7 +100,7 @@ class BareSkin:
         face, from the brows down; and the brows."""
         frame, (height, width) = self.frame, self.frame.size
         places = frame.places[:478, :2]
-        brows = np.split(fiducials(frame.places[:478])[BROWS, :2], 2)
+        brows = np.split(fiducials(frame.places[:478])[BROW_POINTS, :2], 2)
         hairy = _grown(_hulls(brows, frame.size), FEATURE_MARGIN * width)
         features = _hulls([places[list(one)] for one in (LEFT_EYE, RIGHT_EYE, LIPS_OUTER)], frame.size)
         features = hairy | _grown(features, FEATURE_MARGIN * width)

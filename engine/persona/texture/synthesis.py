@@ -25,7 +25,7 @@ CAP_PERCENTILE = 80
 REDESCENT = 2.0
 """The power with which the confidence falls again where a photograph has more than that, beside how much finer it is all over: a hair is left
 out, and not only held back."""
-MIN_CONFIDENCE = 0.05
+DETAIL_FLOOR_LEVELS = 0.05
 """Grey levels: where no photograph has any detail, all count alike."""
 MIN_PIXEL_BELIEF = 1e-3
 MAX_BATCH = 32
@@ -97,12 +97,14 @@ def _confidence(bands: NDArray[np.float32], unit: float) -> NDArray[np.float32]:
     """(N, h, w) how much detail each photograph has at each pixel of a band (N, h, w, 3), L^alpha of equation 2."""
     grey = np.abs(bands @ np.array([0.299, 0.587, 0.114], np.float32))
     told = np.array([cv2.GaussianBlur(one, (0, 0), CONFIDENCE_SIGMA * unit) for one in grey])
-    capped = np.minimum(told, np.percentile(told, CAP_PERCENTILE, axis=0)) + MIN_CONFIDENCE
-    sharpness = np.median((told + MIN_CONFIDENCE) / (told.mean(axis=0) + MIN_CONFIDENCE), axis=(1, 2), keepdims=True)
+    capped = np.minimum(told, np.percentile(told, CAP_PERCENTILE, axis=0)) + DETAIL_FLOOR_LEVELS
+    sharpness = np.median(
+        (told + DETAIL_FLOOR_LEVELS) / (told.mean(axis=0) + DETAIL_FLOOR_LEVELS), axis=(1, 2), keepdims=True
+    )
     told /= sharpness
-    most = np.percentile(told, CAP_PERCENTILE, axis=0) + MIN_CONFIDENCE
-    capped *= np.minimum(1, most / np.maximum(told, MIN_CONFIDENCE)) ** REDESCENT
-    return np.asarray(np.maximum(capped, MIN_CONFIDENCE) ** ALPHA, np.float32)
+    most = np.percentile(told, CAP_PERCENTILE, axis=0) + DETAIL_FLOOR_LEVELS
+    capped *= np.minimum(1, most / np.maximum(told, DETAIL_FLOOR_LEVELS)) ** REDESCENT
+    return np.asarray(np.maximum(capped, DETAIL_FLOOR_LEVELS) ** ALPHA, np.float32)
 
 
 def _shrunk(weights: NDArray[np.floating], shape: Sequence[int]) -> NDArray[np.float32]:

@@ -21,7 +21,7 @@ from engine.render.rasteriser import Raster, rasterise
 
 RIM_SCALE = 1.22
 """Of the oval, about its middle: as far around the face hair and neck are shown."""
-MARGIN_PIXELS = 2.0
+FRAME_MARGIN_PIXELS = 2.0
 FACING_COSINES = (0.15, 0.45)
 """Of the angle to the camera between which what a photograph shows of the surface begins to count, and counts in full."""
 _OVAL = np.array(FACE_OVAL)
@@ -74,7 +74,7 @@ def texture_frame(mesh: NDArray[np.floating], size: tuple[int, int]) -> TextureF
     whole = with_rim(np.asarray(mesh, np.float64))
     low, high = whole[:, :2].min(axis=0), whole[:, :2].max(axis=0)
     extent = np.array(size[::-1], np.float64)
-    scale = float(((extent - 1 - 2 * MARGIN_PIXELS) / (high - low)).min())
+    scale = float(((extent - 1 - 2 * FRAME_MARGIN_PIXELS) / (high - low)).min())
     places = whole * scale
     places[:, :2] += (extent - 1) / 2 - scale * (low + high) / 2
     triangles = np.concatenate([face_triangles(), opening_triangles(), _rim_triangles(len(mesh))])

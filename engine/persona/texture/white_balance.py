@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-MAX_GAIN = 2.5
+MAX_CHANNEL_GAIN = 2.5
 """Of a channel, either way: what asks for more is another light, or no colour at all."""
 GREY_SPREAD = 2.0
 """Grey levels that the mean chroma of a photograph in black and white differs from grey, at most."""
@@ -27,7 +27,7 @@ def balanced(colours: NDArray[np.uint8], belief: NDArray[np.floating], face: NDA
     means = np.array([weight @ photo[face] / weight.sum() for weight, photo in zip(weights, colours, strict=True)])
     coloured = ~is_grey(colours)
     common = np.median(means[coloured] if coloured.any() else means, axis=0)
-    gains = np.clip(common / np.maximum(means, 1), 1 / MAX_GAIN, MAX_GAIN).astype(np.float32)
+    gains = np.clip(common / np.maximum(means, 1), 1 / MAX_CHANNEL_GAIN, MAX_CHANNEL_GAIN).astype(np.float32)
     out = np.empty_like(colours)
     for photo, gain, target in zip(colours, gains, out, strict=True):
         target[:] = np.clip(np.rint(photo * gain), 0, 255)

@@ -24,9 +24,9 @@ MIN_REST_FRAMES = 6
 """Frames of these, at least: a slow camera takes longer."""
 REMEMBERED_SECONDS = 4.0
 """Seconds after which a frame counts no more."""
-PATIENCE_SECONDS = 5.0
+MAX_WAIT_SECONDS = 5.0
 """Seconds of a face that never is calm after which its calmest frames have to do: some mouths are never shut."""
-MAX_YAW, MAX_PITCH = np.deg2rad((18.0, 20.0))
+MAX_YAW_RADIANS, MAX_PITCH_RADIANS = np.deg2rad((18.0, 20.0))
 """Radians by which the head may be turned aside, or up and down. Cameras stand above screens, or below them."""
 MIN_LID_OPENING = 0.13
 """Gap between an eye's lids, over its width, below which it is shut, as of a target."""
@@ -84,7 +84,7 @@ class RestCalibration:
             self._seen.popleft()
         calm = [one for one in self._seen if one.unrest < 1]
         lasted = min(sum(one.span for one in calm) / REST_SECONDS, len(calm) / MIN_REST_FRAMES)
-        fraction = float(min(max(lasted, self._waited / PATIENCE_SECONDS), 1.0))
+        fraction = float(min(max(lasted, self._waited / MAX_WAIT_SECONDS), 1.0))
         rest = None
         if lasted >= 1:
             rest = median_look([one.look for one in calm])
@@ -120,7 +120,7 @@ def _unrest(look: FaceCrop, speed: float) -> dict[Obstacle, float]:
     values = measure(look.mesh[None].astype(float))[0]
     yaw, pitch, mouth = (float(values[MEASURES.index(name)]) for name in ("yaw", "pitch", "mouth_open"))
     return {
-        "turned": max(abs(yaw) / MAX_YAW, abs(pitch) / MAX_PITCH),
+        "turned": max(abs(yaw) / MAX_YAW_RADIANS, abs(pitch) / MAX_PITCH_RADIANS),
         "eyes_shut": MIN_LID_OPENING / max(float(values[LID_MEASURES].min()), 1e-3),
         "mouth_open": mouth / MAX_MOUTH_OPENING,
         "moving": speed / MAX_SPEED,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from engine.avatar.capture.floor_mosaic import SPACING, FloorView, floor_mosaic
+from engine.avatar.capture.floor_mosaic import MOSAIC_SPACING_METRES, FloorView, floor_mosaic
 from tests.avatar.capture.standing_scene import FOOT, filmed, floor_colours
 
 TURNS = np.arange(16) * np.pi / 8
@@ -14,7 +14,7 @@ def test_the_floor_has_its_colours_and_height_and_nothing_beneath_a_foot() -> No
     assert floor is not None
     assert abs(floor.height - 0.006) <= 0.003
     rows, columns = np.indices(floor.colours.shape[:2])
-    x, z = floor.corner[0] + SPACING * columns, floor.corner[1] + SPACING * rows
+    x, z = floor.corner[0] + MOSAIC_SPACING_METRES * columns, floor.corner[1] + MOSAIC_SPACING_METRES * rows
     beneath = (np.abs(x) < 0.03) & (np.abs(z) < 0.1)
     assert np.isnan(floor.colours[beneath]).all()
     beside = (np.abs(x) < 0.2) & (np.abs(z) < 0.2) & ~((np.abs(x) < 0.07) & (np.abs(z) < 0.15))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from engine.avatar.landmarks.back_projection import BELIEVED, back_projected, completed, onto_cloud
+from engine.avatar.landmarks.back_projection import MAX_LANDMARK_DISTANCE_METRES, back_projected, completed, onto_cloud
 from engine.avatar.landmarks.in_frames import FrameLandmarks
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.landmarks.view_choice import chosen_views, frontality, most_frontal
@@ -91,7 +91,7 @@ def test_landmarks_lie_on_the_cloud_that_has_them(views: list[tuple[Camera, Fram
 
 def test_one_view_is_believed_where_it_is_surer_and_not_far_from_the_others() -> None:
     at = np.array([0.0, 1.0, 0.0])
-    ahead = np.array([0.0, 0.0, BELIEVED])
+    ahead = np.array([0.0, 0.0, MAX_LANDMARK_DISTANCE_METRES])
     near, far = at + ahead / 2, at + 2 * ahead
     face = np.full((68, 3), np.nan)
     face[:2] = at

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.hand_pose import CoarseBody, with_hands
 from engine.avatar.registration.models import HumanModels
-from engine.body.fitting.articulated_hand import ANGLES, TURNED_LANDMARKS, ArticulatedHand
+from engine.body.fitting.articulated_hand import HAND_ANGLE_COUNT, TURNED_LANDMARKS, ArticulatedHand
 
 WRIST = np.array([0.4, -0.3, 0.2])
 SCALE = 0.8
@@ -28,7 +28,7 @@ def held(models: HumanModels, person: KnownPerson, angles: np.ndarray) -> tuple[
 
 
 def fist() -> np.ndarray:
-    angles = np.zeros((1, ANGLES))
+    angles = np.zeros((1, HAND_ANGLE_COUNT))
     angles[0, :5] = [0.2, -0.1, 0.2, 0.3, 0.5]
     angles[0, 5:] = np.tile([0.05, 0.9, 1.2, 0.75], 4)
     return angles[0]
@@ -61,7 +61,7 @@ def test_a_small_hand_that_is_half_closed_is_held_so(models: HumanModels, person
 
 
 def test_a_few_landmarks_are_no_hand(models: HumanModels, person: KnownPerson) -> None:
-    body, seen = held(models, person, np.zeros(ANGLES))
+    body, seen = held(models, person, np.zeros(HAND_ANGLE_COUNT))
     hands = np.full((2, 21, 3), np.nan)
     hands[0, [0, 4, 5, 8]] = seen[[0, 4, 5, 8]]
     found = with_hands(models, person.parameters, SpatialLandmarks({}, hands=hands))

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.texture.labels import UNSEEN, best_views, stitched
+from engine.avatar.texture.labels import UNSEEN_LABEL, best_views, stitched
 from engine.avatar.texture.view_samples import ViewSamples, sample_views
 from engine.avatar.texture.views import FrameView
 from engine.geometry.camera import Camera
@@ -32,7 +32,7 @@ def middles(ball: Ball) -> NDArray:
 def test_of_frames_from_as_far_the_most_frontal_is_best(ball: Ball) -> None:
     cameras = ring(8)
     found = best_views(*looked_at(ball, cameras))
-    seen = np.flatnonzero((found.labels != UNSEEN) & (np.abs(middles(ball)[:, 1]) < 0.3))
+    seen = np.flatnonzero((found.labels != UNSEEN_LABEL) & (np.abs(middles(ball)[:, 1]) < 0.3))
     angle = np.arctan2(middles(ball)[seen, 0], middles(ball)[seen, 2])
     nearest = np.round(angle / (np.pi / 4)).astype(int) % 8
     assert len(seen) > 1000 and (found.labels[seen] == nearest).mean() > 0.97
@@ -52,7 +52,7 @@ def test_steep_frames_serve_where_there_is_no_other(ball: Ball) -> None:
     back = np.array([0, 0, 4.0]) - middles(ball)
     degrees = np.degrees(np.arccos((back * middles(ball)).sum(1) / np.linalg.norm(back, axis=1) / 0.999))
     assert (found.labels[degrees < 60] == 0).all()
-    assert (found.labels[degrees > 68] == UNSEEN).all()
+    assert (found.labels[degrees > 68] == UNSEEN_LABEL).all()
 
 
 def test_where_frames_disagree_labels_avoid_seams(ball: Ball, ball_cameras: list[Camera]) -> None:

@@ -12,8 +12,15 @@ import pytest
 from made_face import BROWN, SKIN, WHITE, painted, placed, shut
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes.eyeball import MIN_EYE_WIDTH, prepare_eyes
-from engine.face_animation.eyes.eyes import LEAST_VERGENCE, conjugate, draw_eye, gaze_offsets, held_along, held_looks
+from engine.face_animation.eyes.eyeball import MIN_EYE_WIDTH_PIXELS, prepare_eyes
+from engine.face_animation.eyes.eyes import (
+    MIN_VERGENCE_EYE_WIDTHS,
+    conjugate,
+    draw_eye,
+    gaze_offsets,
+    held_along,
+    held_looks,
+)
 from engine.face_animation.motion_transfer.lids_and_lips import LID_PAIRS
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
@@ -208,7 +215,7 @@ def test_eyes_look_the_same_way_but_where_they_are_crossed() -> None:
     one_errs = np.array([[[0.12, -0.04], [-0.06, 0.0]]])
     np.testing.assert_allclose(conjugate(one_errs), [[[0.09, -0.02], [-0.09, 0.02]]])
     crossed = np.array([[[0.2, 0.0], [0.2, 0.0]]])
-    np.testing.assert_allclose(conjugate(crossed), crossed - np.array([LEAST_VERGENCE, 0.0]))
+    np.testing.assert_allclose(conjugate(crossed), crossed - np.array([MIN_VERGENCE_EYE_WIDTHS, 0.0]))
 
 
 def test_an_eye_that_is_held_holds_the_other(picture: NDArray, mesh: NDArray) -> None:
@@ -224,7 +231,7 @@ def test_an_eye_that_is_held_holds_the_other(picture: NDArray, mesh: NDArray) ->
 
 
 def test_small_and_shut_eyes_of_a_picture_have_no_layer(mesh: NDArray) -> None:
-    tiny = placed(MIN_EYE_WIDTH, (180, 140))
+    tiny = placed(MIN_EYE_WIDTH_PIXELS, (180, 140))
     assert prepare_eyes(painted(tiny, SIZE), tiny) == (None, None)
     closed = shut(mesh, 0.05)
     assert prepare_eyes(painted(closed, SIZE), closed) == (None, None)

@@ -13,8 +13,8 @@ from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_
 from engine.face_animation.motion_transfer.head_room import (
     FREE_SHARE,
     LARGEST_TURN,
-    LEAST_TURN,
-    MOST_STRETCH,
+    MAX_STRETCH_RATIO,
+    MIN_TURN_RADIANS,
     SIDE_SLANT,
     head_room,
     hold_back,
@@ -92,7 +92,7 @@ def test_a_face_that_turns_back_stretches_its_far_side_by_so_much(turned: float)
     """A patch that slants by an angle is as wide as its cosine; it cannot be wider than seen from the front."""
     own = np.deg2rad(turned)
     stretch = np.cos(SIDE_SLANT + own - turn_back(own)) / np.cos(SIDE_SLANT + own)
-    assert stretch == pytest.approx(min(MOST_STRETCH, 1 / np.cos(SIDE_SLANT + own)))
+    assert stretch == pytest.approx(min(MAX_STRETCH_RATIO, 1 / np.cos(SIDE_SLANT + own)))
 
 
 @pytest.mark.parametrize("turned", [-40.0, -20.0, 0.0, 20.0, 60.0])
@@ -105,4 +105,4 @@ def test_turns_end_where_the_picture_shows_no_more(turned: float) -> None:
         held = side * np.array([cv2.Rodrigues(r)[0][1, 0] for r in limit_rotation(rotations, (0.0, own))])
         assert (np.diff(held) > -1e-6).all()
         most = min(turn_back(abs(own)), LARGEST_TURN) if side * own < 0 else LARGEST_TURN - abs(own)
-        assert held[-1] <= max(most, LEAST_TURN) + 1e-6
+        assert held[-1] <= max(most, MIN_TURN_RADIANS) + 1e-6

@@ -11,7 +11,7 @@ from scipy.stats import multivariate_normal
 
 from engine.geometry.graph_cut import energy
 from engine.imaging.masks.colour_segmentation import (
-    MIN_SAMPLES,
+    MIN_MIXTURE_PIXELS,
     MIN_VARIANCE,
     UNSEEDED,
     ColourMixture,
@@ -61,7 +61,7 @@ def test_what_is_fitted_has_the_mean_and_the_covariance_of_the_colours() -> None
 
 
 def test_one_colour_alone_has_a_mixture_in_which_it_is_the_likeliest() -> None:
-    mixture = ColourMixture.fit(np.tile(RED, (MIN_SAMPLES, 1)))
+    mixture = ColourMixture.fit(np.tile(RED, (MIN_MIXTURE_PIXELS, 1)))
     costs = mixture.negative_log_likelihood(np.array([RED, np.add(RED, 2), BLUE]))
     assert costs[0] == pytest.approx(1.5 * np.log(2 * np.pi * MIN_VARIANCE) - np.log(mixture.weights.sum()))
     assert costs[0] < costs[1] < costs[2]
@@ -69,7 +69,7 @@ def test_one_colour_alone_has_a_mixture_in_which_it_is_the_likeliest() -> None:
 
 def test_too_few_colours_say_nothing() -> None:
     with pytest.raises(ValueError, match="49 colours are too few"):
-        ColourMixture.fit(np.zeros((MIN_SAMPLES - 1, 3)))
+        ColourMixture.fit(np.zeros((MIN_MIXTURE_PIXELS - 1, 3)))
 
 
 def test_in_another_light_what_is_a_little_off_is_likelier() -> None:

@@ -11,7 +11,7 @@ import pytest
 from engine.media.image import read_image
 from engine.persona.persona import Persona
 from engine.persona.results.face_units import EXPRESSIONS, FaceUnits
-from engine.persona.results.pictures import ANGLES, Studio, angles, average_light, regenerated
+from engine.persona.results.pictures import VIEW_YAWS_DEGREES, Studio, angles, average_light, regenerated
 from engine.persona.results.writing import GALLERY_COLUMNS, PICTURE_SIZE, write_results
 
 GREEN = (0, 200, 0)
@@ -28,8 +28,8 @@ def is_face(picture: np.ndarray) -> np.ndarray:
 
 def test_the_face_looks_where_its_angle_says(studio: Studio) -> None:
     sheet = angles(studio, [])
-    assert sheet.shape == (144, 120 * len(ANGLES), 3)
-    tiles = [sheet[:, 120 * k : 120 * (k + 1)] for k in range(len(ANGLES))]
+    assert sheet.shape == (144, 120 * len(VIEW_YAWS_DEGREES), 3)
+    tiles = [sheet[:, 120 * k : 120 * (k + 1)] for k in range(len(VIEW_YAWS_DEGREES))]
     areas = [is_face(tile).sum() for tile in tiles]
     assert areas[2] == max(areas) and areas[0] < 0.95 * areas[2] > areas[4]
     mirrored = tiles[0][:, ::-1]

@@ -14,7 +14,11 @@ from engine.media.image import read_image
 from engine.persona.persona import Persona
 from engine.persona.puppet import Puppet
 from engine.persona.results.behind_skin import BehindSkin
-from engine.persona.results.expression_textures import NAMES, expression_textures, write_expression_textures
+from engine.persona.results.expression_textures import (
+    TEXTURED_EXPRESSIONS,
+    expression_textures,
+    write_expression_textures,
+)
 from engine.persona.results.face_units import EXPRESSIONS, FaceUnits
 from engine.persona.results.inner_parts import inner_parts
 from engine.persona.results.inside_atlas import inside_atlas
@@ -100,8 +104,8 @@ def test_textures_of_expressions_lie_side_by_side(persona: Persona, units: FaceU
     textures = expression_textures(persona, units)
     picture, document = write_expression_textures(tmp_path, textures, True)
     told = json.loads(document.read_text())
-    assert [one["name"] for one in told["textures"]] == ["neutral", *NAMES]
-    assert told["textures"][1]["units"] == EXPRESSIONS[NAMES[0]]
+    assert [one["name"] for one in told["textures"]] == ["neutral", *TEXTURED_EXPRESSIONS]
+    assert told["textures"][1]["units"] == EXPRESSIONS[TEXTURED_EXPRESSIONS[0]]
     width, height = told["size"]
     sheet = read_image(picture).rgb
     assert sheet.shape == (height, width * len(told["textures"]), 3) and picture.stat().st_size < 3_000_000

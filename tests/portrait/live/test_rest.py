@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from engine.face_animation.motion_transfer.lids_and_lips import LID_PAIRS
 from engine.perception.face_track.face_crop import CROP_SHAPE, FaceCrop, crop_place
 from engine.perception.head_pose import canonical_face
-from engine.portrait.live.rest import PATIENCE_SECONDS, Calibration, RestCalibration, median_look
+from engine.portrait.live.rest import MAX_WAIT_SECONDS, Calibration, RestCalibration, median_look
 
 EYE_DISTANCE = 60.0
 
@@ -66,9 +66,9 @@ def test_what_is_not_calm_makes_no_rest_and_says_why(mesh: NDArray[np.float64], 
 def test_of_a_face_that_never_is_calm_the_calmest_frames_are_the_rest_after_a_while() -> None:
     less, fps = face(), 20
     less[14, 1] += 0.15 * EYE_DISTANCE
-    found = calibrated([less if k % 3 == 0 else speaking() for k in range(int((PATIENCE_SECONDS + 1) * fps))], fps)
+    found = calibrated([less if k % 3 == 0 else speaking() for k in range(int((MAX_WAIT_SECONDS + 1) * fps))], fps)
     first = next(k for k, one in enumerate(found) if one.rest is not None)
-    assert first == pytest.approx(PATIENCE_SECONDS * fps, abs=2)
+    assert first == pytest.approx(MAX_WAIT_SECONDS * fps, abs=2)
     rest = found[first].rest
     assert rest is not None
     np.testing.assert_allclose(rest.mesh, less, atol=1e-3)

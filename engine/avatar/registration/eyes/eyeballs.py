@@ -6,12 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-LID_GAP = 0.0004
+LID_GAP_METRES = 0.0004
 """Metres that lids stay before the eyeball."""
 
 
 def before_eyeball(
-    eyeball: NDArray[np.float64], points: NDArray[np.float64], gap: float = LID_GAP
+    eyeball: NDArray[np.float64], points: NDArray[np.float64], gap: float = LID_GAP_METRES
 ) -> NDArray[np.float64]:
     """The points (N, 3), those inside of an eyeball (E, 3), or nearer than `gap`, moved out to so far before it."""
     middle, radius = sphere(eyeball)

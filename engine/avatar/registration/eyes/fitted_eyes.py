@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.landmarks.spatial import LID_LANDMARKS
 from engine.avatar.registration.eyes.eye_outline import EyeOutline, outline_of_landmarks, outline_of_rim, within
-from engine.avatar.registration.eyes.eyeballs import LID_GAP, before_eyeball, sphere
+from engine.avatar.registration.eyes.eyeballs import LID_GAP_METRES, before_eyeball, sphere
 from engine.avatar.registration.template_skin.lid_rims import lid_rim
 from engine.avatar.registration.template_skin.skin import EYE_PARTS, Skin, grown
 from engine.avatar.registration.template_skin.smooth_field import smooth_field
@@ -27,17 +27,17 @@ IRIS_RADIUS, IRIS_RADII = 0.00585, (0.0052, 0.0072)
 """Metres: the radius of a human iris, and between which one is believed that is measured."""
 MAX_OFF = np.array([0.003, 0.002])
 """Metres, outwards and up, by which an eyeball stands off its usual place between the lids at most: what is more is a gaze."""
-HORIZON = 0.94
+HORIZON_RADII = 0.94
 """Radii off the axis of gaze beyond which an eyeball's surface falls too steeply for lids to lie on it."""
 LID_RINGS = 7
 """Rings of vertices about a rim that go with it: over fewer lids are crumpled that stand elsewhere than the fit has left them."""
 SOCKET_REACH = 1.3
 """Radii of the template's eyeball about its middle within which skin that is not seen is its socket ..."""
-SOCKET = 0.93
+SOCKET_RADII = 0.93
 """... and where it is put: in the eyeball, so that it shows neither between this and the lids nor through these."""
-INNER_CORNERS = {"left_eye": 42, "right_eye": 39}
+INNER_CORNER_LANDMARKS = {"left_eye": 42, "right_eye": 39}
 """Face landmarks."""
-OUTWARDS = {"left_eye": 1.0, "right_eye": -1.0}
+OUTWARD_SIGNS = {"left_eye": 1.0, "right_eye": -1.0}
 """Along the template's x."""
 
 
@@ -62,7 +62,7 @@ def with_sockets(template: Template, skin: Skin, vertices: NDArray[np.float64]) 
         away = template.vertices[inner] - middle
         far = np.linalg.norm(away, axis=1)
         near = far < SOCKET_REACH * radius
-        within_ball = middle + SOCKET * radius * away[near] / far[near, None]
+        within_ball = middle + SOCKET_RADII * radius * away[near] / far[near, None]
         out[inner[near]] = fit_similarity(ball, vertices[at])(within_ball)
     return out
 
@@ -135,7 +135,7 @@ def with_eyes(
         rims[eye.part] = np.column_stack([across, depth + ahead]) @ eye.axes
         ball = template.vertices[template.vertices_of(eye.part)].astype(np.float64)
         own_middle, own_radius = sphere(ball)
-        turned = (ball - own_middle) / own_radius * [OUTWARDS[eye.part], 1, 1] @ eye.axes
+        turned = (ball - own_middle) / own_radius * [OUTWARD_SIGNS[eye.part], 1, 1] @ eye.axes
         out[template.vertices_of(eye.part)] = np.array([*middle_across, depth]) @ eye.axes + radius * turned
     out[skin.vertices] = _lids(template, skin, before, out, head, {eye.part: eye.rim for eye in eyes}, rims)
     return FittedEyes(out, _iris_radius(seen) if measured else IRIS_RADIUS, measured)
@@ -154,9 +154,9 @@ def _eye(
     ball = template.vertices[at].astype(np.float64)
     middle, radius = sphere(ball)
     turn = head.rotation @ fit_similarity(ball, before[at]).rotation
-    mirrored = np.array([OUTWARDS[part], 1, 1])
+    mirrored = np.array([OUTWARD_SIGNS[part], 1, 1])
     rim = lid_rim(template, part)
-    corner = skin.vertices[skin.face_points[INNER_CORNERS[part]]]
+    corner = skin.vertices[skin.face_points[INNER_CORNER_LANDMARKS[part]]]
     own, inner = ((template.vertices[k] - middle) / radius * mirrored for k in (rim, corner))
     axes = turn.T * mirrored[:, None]
     if np.isfinite(seen).all():
@@ -180,8 +180,8 @@ def _off_usual_place(eyes: list[_Eye]) -> list[NDArray[np.float64]]:
 
 def _ahead(off: NDArray[np.float64], radius: float) -> NDArray[np.float64]:
     """(N,) how far ahead of an eyeball's middle lids lie on it that are so far `off` (N, 2) its axis."""
-    across = np.minimum(np.linalg.norm(off, axis=1), HORIZON * radius)
-    return np.asarray(np.sqrt((radius + LID_GAP) ** 2 - across**2))
+    across = np.minimum(np.linalg.norm(off, axis=1), HORIZON_RADII * radius)
+    return np.asarray(np.sqrt((radius + LID_GAP_METRES) ** 2 - across**2))
 
 
 def _iris_radius(seen: NDArray[np.floating]) -> float:

@@ -21,12 +21,12 @@ RIGID_PARTS = (
 """Parts that are no skin, each moved as a whole from the template to the person."""
 MARGIN_RINGS = 2
 """Rings of triangles about what any unit moves; the outermost vertices stay."""
-TARSUS, FOLD = 0.07, 0.2
+TARSUS_EYE_WIDTHS, LID_FOLD_EYE_WIDTHS = 0.07, 0.2
 """Widths of an eye from the rims of its lids to where the stiff part of a lid ends, which goes down as a whole, and to its fold, out of
 which the skin between comes."""
 RIM_NEIGHBOURS = 3
 """Vertices of a rim whose motion, weighted by nearness, the lid goes along with."""
-SCREENING = 0.015
+SCREENING_METRES = 0.015
 """Metres over which triangles say how the face moves; farther apart, vertices go as far as the template's do. By triangles alone
 what a narrow mouth's corners lose in width pulls the whole lip along, and upper teeth never show."""
 
@@ -73,7 +73,7 @@ def _blink(template: Template, skin: Skin, rest: NDArray[np.float64], name: str,
     away, near = np.asarray(found[0]), np.asarray(found[1])
     shares = 1 / np.maximum(away, 1e-6) ** 2
     shares /= shares.sum(1, keepdims=True)
-    unfolded = np.clip((FOLD - away[:, 0] / width) / (FOLD - TARSUS), 0, 1)
+    unfolded = np.clip((LID_FOLD_EYE_WIDTHS - away[:, 0] / width) / (LID_FOLD_EYE_WIDTHS - TARSUS_EYE_WIDTHS), 0, 1)
     along = np.einsum("sk,skc->sc", shares, moved[loop[near]]) * (unfolded**2 * (3 - 2 * unfolded))[:, None]
     lids = (unfolded > 0) & ~skin.regions["inner"]
     along[told] = moved[told]
@@ -107,7 +107,9 @@ class _Patch:
         held = np.concatenate([self._stay, told])
         self._source = template.vertices[self.vertices].astype(np.float64)
         self._rest = rest[self.vertices]
-        self._transfer = DeformationTransfer(self._source, faces, self._rest, faces, held=held, screening=SCREENING)
+        self._transfer = DeformationTransfer(
+            self._source, faces, self._rest, faces, held=held, screening=SCREENING_METRES
+        )
         self._head = head_change(skin, template.vertices[skin.vertices].astype(np.float64), rest[skin.vertices])
 
     def __call__(

@@ -22,7 +22,7 @@ MOUTH_SURROUNDINGS = 0.045
 """Metres of the template about the middle of the teeth within which visible skin says how large they are, and how deep they lie."""
 LIPS_MEET = (62, 66)
 """Face landmarks: the middle of the lips' inner edges."""
-INCISORS = 0.02
+INCISOR_DEPTH_METRES = 0.02
 """Metres of the template behind the foremost of the teeth within which they are incisors."""
 INCISORS_SHOWN = 0.004
 """Metres by which the edge of the upper incisors lies below where the lips meet: what shows of them as lips part."""
@@ -90,7 +90,7 @@ def _in_mouth(
     near = shown & (np.linalg.norm(own[skin.vertices] - teeth.mean(0), axis=1) < MOUTH_SURROUNDINGS)
     around = fit_similarity(own[skin.vertices[near]], after[near])
     linear = around.scale * head.rotation
-    incisors = upper[upper[:, 2] > upper[:, 2].max() - INCISORS]
+    incisors = upper[upper[:, 2] > upper[:, 2].max() - INCISOR_DEPTH_METRES]
     edge = np.array([teeth[:, 0].mean(), incisors[:, 1].min(), incisors[:, 2].max()])
     lip = after[skin.face_points[list(LIPS_MEET)]].mean(0)
     _, up, ahead = head.rotation.T

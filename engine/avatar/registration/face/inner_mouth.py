@@ -10,12 +10,12 @@ from engine.avatar.registration.template_skin.smooth_field import smooth_field
 from engine.geometry.closest_points import closest_points
 from engine.geometry.winding_number import winding_numbers
 
-LINING_DEPTH = 0.006
+LINING_DEPTH_METRES = 0.006
 """Metres below the visible skin down to which what is not seen goes with it, and keeps its depth; what is deeper goes along
 smoothly."""
-MIN_DEPTH = 0.0015
+MIN_SKIN_DEPTH_METRES = 0.0015
 """Metres that the inside stays below the visible skin, at least, but where it comes up to its rim."""
-RIM_SHARE = 0.5
+MIN_TEMPLATE_DEPTH_SHARE = 0.5
 """Of the depth that it has in the template, which it keeps at least where that is less."""
 CLAMPING_ROUNDS = 3
 """In which what sticks out is brought below the skin that is nearest then."""
@@ -33,10 +33,10 @@ def inner_skin(skin: Skin, before: NDArray[np.floating], after: NDArray[np.float
     moved = now - was
     moved[inner] = nearest.beneath(nearest.distance, now, hull) - nearest.beneath(nearest.distance, was, hull)
     pull = np.zeros(len(inner))
-    pull[inner] = np.exp(-((nearest.distance / LINING_DEPTH) ** 2))
+    pull[inner] = np.exp(-((nearest.distance / LINING_DEPTH_METRES) ** 2))
     out = was + smooth_field(skin.triangles, inner, moved, pull)
     out[~inner] = now[~inner]
-    least = np.minimum(MIN_DEPTH, RIM_SHARE * nearest.distance)
+    least = np.minimum(MIN_SKIN_DEPTH_METRES, MIN_TEMPLATE_DEPTH_SHARE * nearest.distance)
     for _ in range(CLAMPING_ROUNDS):
         out[inner] = brought_inside(out[inner], out, hull, least)
     return out

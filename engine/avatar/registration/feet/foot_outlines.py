@@ -20,7 +20,7 @@ OUTLINE_REACH = 0.12
 """Metres around a foot within which its outline may be."""
 COVER_PIXELS = 2
 """From what else a view shows of the body, within which an outline is not the foot's alone."""
-MIN_PIXELS = 12
+MIN_OUTLINE_PIXELS = 12
 """Of a view about a foot, along both sides: fewer tell nothing."""
 
 Moved = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
@@ -78,7 +78,7 @@ def foot_sights(
         height, width = one.camera.size
         left, top = np.clip(np.floor(seen.min(0)), 0, [width, height]).astype(int).tolist()
         right, bottom = np.clip(np.ceil(seen.max(0)) + 1, 0, [width, height]).astype(int).tolist()
-        if min(right - left, bottom - top) < MIN_PIXELS:
+        if min(right - left, bottom - top) < MIN_OUTLINE_PIXELS:
             continue
         camera = one.camera.cropped(left, top, (bottom - top, right - left))
         pixel = float(camera.depth(foot.mean(0))) / camera.focal

@@ -15,7 +15,7 @@ from engine.geometry.adjacency import edge_table
 
 UPPER_LID = 0.25
 """Radii of the eyeball above its middle beyond which what is near to it is of the upper lid."""
-NEAREST = 1.02, 1.08
+RIM_RADII_RANGE = 1.02, 1.08
 """Radii of the eyeball about its middle between which the lid's rim lies there."""
 
 
@@ -32,7 +32,7 @@ def lid_rim(template: Template, part: str) -> NDArray[np.intp]:
     skin = np.unique(quads)
     away = (template.vertices[skin] - middle) / radius
     reach = np.linalg.norm(away, axis=1)
-    above = (away[:, 1] > UPPER_LID) & (away[:, 2] > 0) & (reach > NEAREST[0]) & (reach < NEAREST[1])
+    above = (away[:, 1] > UPPER_LID) & (away[:, 2] > 0) & (reach > RIM_RADII_RANGE[0]) & (reach < RIM_RADII_RANGE[1])
     if not above.any():
         raise ValueError(f"no lid lies about {part}")
     first = int(skin[above][np.argmax(away[above, 2])])

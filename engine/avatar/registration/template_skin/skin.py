@@ -27,7 +27,7 @@ from engine.render.rasteriser import rasterise
 
 FACE_RADII = np.array([0.085, 0.106, 0.106])
 """Metres about the tip of the nose, x, y and z, within which the head is face."""
-VIEWS, VIEW_DISTANCE, VIEW_SIZE = 120, 0.6, 700
+VISIBILITY_VIEWS, VIEW_DISTANCE, VIEW_SIZE = 120, 0.6, 700
 """From how many sides, from how far away (metres), and how large (pixels), a head is looked at to find what is seen of it."""
 LIP_UNITS = ("mouthRollLower", "mouthRollUpper", "mouthFunnel", "mouthPucker", "mouthPressLeft", "mouthPressRight")
 """Face units that move lips and the skin above and below, where a moustache or a beard grows ..."""
@@ -181,8 +181,8 @@ def _visible(template: Template, space: BodySpace, triangles: NDArray[np.integer
     half = (VIEW_SIZE - 1) / 2
     lens = Camera((0.0, 0.0, 0.0), VIEW_SIZE * 1.6, (half, half), (VIEW_SIZE, VIEW_SIZE))
     seen = np.zeros(len(everything), np.bool_)
-    for k in range(VIEWS):  # along a spiral of equal areas
-        rise = 0.98 * (1 - (2 * k + 1) / VIEWS)
+    for k in range(VISIBILITY_VIEWS):  # along a spiral of equal areas
+        rise = 0.98 * (1 - (2 * k + 1) / VISIBILITY_VIEWS)
         turn = k * np.pi * (3 - np.sqrt(5))
         level = np.sqrt(1 - rise**2)
         aside = np.array([level * np.sin(turn), rise, level * np.cos(turn)])

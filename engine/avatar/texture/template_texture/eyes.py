@@ -26,7 +26,7 @@ IRIS_BAND, WHITE_BAND = (1.15 * PUPIL_RADIUS, 0.9 * IRIS_RADIUS), (1.15 * IRIS_R
 """Metres from the axis of gaze between which samples are of the iris, and of the white; a pixel of the frame less."""
 MAX_MARGIN = 0.25 * IRIS_RADIUS
 """Metres: the most that a pixel counts, so that something is left of an iris filmed from afar."""
-MIN_SAMPLES = 40
+MIN_EYE_SAMPLES = 40
 """Below which an eye's colours stay the template's."""
 WHITE_TAILS, WHITE_CHROMA = (0.5, 0.92), 22.0
 """Quantiles of lightness between which samples of the white count: lids, lashes and their shadow are darker, highlights lighter; and
@@ -96,9 +96,9 @@ def persons_eyes(
     off = eyes.off_axis
     out = colours.copy()
     on_iris, on_white = (off > PUPIL_RADIUS) & (off < IRIS_RADIUS), off >= IRIS_RADIUS
-    if len(iris) >= MIN_SAMPLES:
+    if len(iris) >= MIN_EYE_SAMPLES:
         out[on_iris] = _toned(colours[on_iris], iris)
-    if len(white) >= MIN_SAMPLES:
+    if len(white) >= MIN_EYE_SAMPLES:
         out[on_white] = _toned(colours[on_white], white)
     # the rims of iris and pupil are soft: there the new colours come in by and by
     soft = np.clip((off - PUPIL_RADIUS) / (0.15 * PUPIL_RADIUS), 0, 1)[:, None].astype(np.float32)

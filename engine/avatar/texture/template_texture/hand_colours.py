@@ -18,7 +18,7 @@ CHEEK_RADIUS = 0.022
 """Metres about the middles of cheeks and nose within which a face is bare skin: below the lids, above the lips."""
 SKIN_HUES = (15.0, 85.0)
 """Degrees in CIELAB's a and b between which skin lies, of whatever tone; in warm and in cold light."""
-SKIN_CHROMA = 5.0
+MIN_CHROMA = 5.0
 """In CIELAB, below which a colour has no hue."""
 MIN_FACE_SHARE = 0.5
 """Of what a face shows there that has to be of such hues: else a mask or a helmet covers it."""
@@ -89,7 +89,7 @@ def toned(colours: NDArray[np.floating], tone: NDArray[np.floating]) -> NDArray[
 def _of_skin_s_hue(colours: NDArray[np.uint8]) -> NDArray[np.bool_]:
     lab = to_lab(colours)
     hue = np.degrees(np.arctan2(lab[:, 2], lab[:, 1]))
-    return np.asarray((hue > SKIN_HUES[0]) & (hue < SKIN_HUES[1]) & (np.hypot(lab[:, 1], lab[:, 2]) > SKIN_CHROMA))
+    return np.asarray((hue > SKIN_HUES[0]) & (hue < SKIN_HUES[1]) & (np.hypot(lab[:, 1], lab[:, 2]) > MIN_CHROMA))
 
 
 def _glove(told: NDArray[np.float32], texels: int, sleeve: NDArray[np.float32] | None) -> bool:

@@ -30,11 +30,11 @@ TONE_LENGTH = 0.008
 """Metres over which the difference of filmed and painted colours is a matter of tone, and not of detail."""
 RIM_LENGTH = 0.004
 """Metres over which details pass from filmed to painted ones."""
-RING = 0.005
+SLEEVE_RING_METRES = 0.005
 """Metres along the hand in which it is looked whether a sleeve covers it ..."""
 CUFF_SLANT = 0.005
 """... and by how much a cuff reaches farther on one side."""
-UNTOLD = 1e-4
+UNSEEN_AREA_WEIGHT = 1e-4
 """Of an area that frames do not show, against one that they do: what holds a tone where they show nothing."""
 
 
@@ -95,7 +95,10 @@ def joined_hand(
     detail = _details(hand, stiff, skin | sleeve, np.where(sleeve, 1.0, sharp))
     whole = hand.spread(hand.areas)
     cover = _smooth(
-        stiff, hand.spread(hand.areas * shown) + UNTOLD * whole, hand.spread(hand.areas * sleeve), RIM_LENGTH
+        stiff,
+        hand.spread(hand.areas * shown) + UNSEEN_AREA_WEIGHT * whole,
+        hand.spread(hand.areas * sleeve),
+        RIM_LENGTH,
     )
     like = skin_likeness(to_lab(filmed), tone) * skin[number]
     change = _change_of_tone(hand, stiff, texels, number, np.asarray(filmed, np.float64) - painted, like)
@@ -123,7 +126,9 @@ def _change_of_tone(
     told = texels.shares * (like * each[number])[:, None]
     mass = np.bincount(corners.ravel(), told.ravel(), size)
     pulls = np.stack([np.bincount(corners.ravel(), (told * off[:, [k]]).ravel(), size) for k in range(3)], 1)
-    return _smooth(laplacian, mass + UNTOLD * hand.spread(areas), np.asarray(pulls, np.float64), TONE_LENGTH)
+    return _smooth(
+        laplacian, mass + UNSEEN_AREA_WEIGHT * hand.spread(areas), np.asarray(pulls, np.float64), TONE_LENGTH
+    )
 
 
 def _details(
@@ -145,10 +150,10 @@ def _means(colours: NDArray[np.number], number: NDArray[np.intp], count: int) ->
 def _sleeve_length(hand: HandSurface, shown: NDArray[np.bool_], skin: NDArray[np.bool_]) -> float:
     """Metres past the wrist to where a sleeve, or a glove, may reach: it goes all around, so most of what frames have `shown` (T,) up to
     there is no `skin` (T,), ring for ring."""
-    ring = np.maximum(hand.along / RING, 0).astype(np.intp)
+    ring = np.maximum(hand.along / SLEEVE_RING_METRES, 0).astype(np.intp)
     seen = np.bincount(ring, hand.areas * shown)
     bare = np.flatnonzero((np.bincount(ring, hand.areas * skin) >= seen / 2) & (seen > 0))
-    return float(RING * (bare[0] if len(bare) else len(seen)) + CUFF_SLANT)
+    return float(SLEEVE_RING_METRES * (bare[0] if len(bare) else len(seen)) + CUFF_SLANT)
 
 
 def _smooth(

@@ -14,14 +14,14 @@ from engine.media.tone_mapping import srgb_code
 from engine.perception.hands import HAND_JOINTS
 from engine.performances.modelling.skin import BASE_REFLECTANCE, BLOOD_ABSORBANCE, MELANIN_ABSORBANCE
 
-BLOOD, MELANIN = 0.30, 0.30
+BACK_BLOOD, BACK_MELANIN = 0.30, 0.30
 """Pigments of the hand's back, in the units of `engine.performances.modelling.skin`."""
 NAIL_LENGTH, NAIL_WIDTH = 0.52, 0.72
 """Of a fingertip's last phalanx: how much of its length, and of its width, the nail takes."""
 CREASE_WIDTH = 0.0009
 """Metres: standard deviation across a crease at a joint."""
 
-HOLLOW = 0.2
+FINGER_ROOT_PIGMENT = 0.2
 """By how much both pigments seem more at the roots of fingers, on their sides."""
 
 
@@ -78,8 +78,8 @@ def painted_hand(
     facing = normals @ bones.back
     grain = _noise(places, 0.0012, seed) + 0.7 * _noise(places, 0.006, seed + 1)
     palm = _ramp(-facing, -0.1, 0.5)
-    blood = BLOOD + 0.04 * grain + 0.28 * palm
-    melanin = MELANIN + 0.03 * _noise(places, 0.003, seed + 2) - 0.16 * palm
+    blood = BACK_BLOOD + 0.04 * grain + 0.28 * palm
+    melanin = BACK_MELANIN + 0.03 * _noise(places, 0.003, seed + 2) - 0.16 * palm
     nearest, along, across = _beside_bones(bones, places)
     nail = np.zeros(len(places))
     rim = np.zeros(len(places))
@@ -98,8 +98,8 @@ def painted_hand(
         blood[own] += 0.22 * knuckle
         # between fingers less light comes in
         hollow = _ramp(1 - np.abs(towards), 0.4, 1.0) * _ramp(1.6 - along[own] - bone.number, 0.0, 1.6)
-        melanin[own] += HOLLOW * hollow
-        blood[own] += HOLLOW * hollow
+        melanin[own] += FINGER_ROOT_PIGMENT * hollow
+        blood[own] += FINGER_ROOT_PIGMENT * hollow
         if bone.number == 3:
             width = max(float(np.quantile(np.abs(across[own]), 0.98)), 1e-6) if len(own) else 1e-6
             inside = _nail(along[own], across[own] / width, towards)

@@ -11,25 +11,25 @@ from engine.geometry.camera import Camera
 from engine.render.rasteriser import rasterise
 from engine.render.sampling import bilinear
 
-LIGHTS = 24
+LIGHT_DIRECTION_COUNT = 24
 """Directions from which light comes, evenly over the half of the sky before the face, more of it from above."""
 LIGHT_DISTANCE, LIGHT_PICTURE, LIGHT_WIDTH = 0.5, 240, 0.06
 """Metres to a light, and the pixels and the metres at the eye that its picture of the face is wide."""
-SLACK = 8e-4
+OCCLUSION_TOLERANCE_METRES = 8e-4
 """Metres behind the surface at which a point still has a light."""
 FROM_ABOVE = 0.3
 """What light from level with the eye counts beside that from straight above, less that."""
-DARKEST = 0.5
+MIN_LIGHT_SHARE = 0.5
 """What is left of the light where none of the sky is seen: skin lets some through, and the ball shines back."""
-LASHES, LASH_REACH = 0.45, 0.0016
+LASH_SHADE, LASH_REACH = 0.45, 0.0016
 """Of the light, what lashes take right beneath the upper lid, and metres below it at which they take a third of that."""
-FADING, SEEN_STEP = 0.0015, 16
+HIDDEN_SHADOW_FADE_METRES, SEEN_STEP = 0.0015, 16
 """Metres over which a shadow ends where lids hide an eyeball, and each how many of the seen points are asked for the nearest."""
-END = 4.0
+SHADOW_END_LENGTHS = 4.0
 """Such lengths away nothing is left of a shadow."""
 RIM_STEPS = 12
 """Places between two vertices of a rim from which it is measured."""
-HIDDEN_SHARE = 0.05
+MIN_SEEN_LIGHT_SHARE = 0.05
 """Of the most light that any point has, below which a point is hidden behind a lid."""
 
 
@@ -52,17 +52,19 @@ def lid_shadow(surface: ChartedSurface, points: NDArray[np.float64], gaze: NDArr
         depth = rasterise(camera.project(surface.vertices), near, camera.size, perspective=True).depth
         depth = np.where(np.isfinite(depth), depth, 2 * LIGHT_DISTANCE).astype(np.float32)
         pixels = camera.project(points)
-        lit = pixels[:, 2] <= bilinear(depth[..., None], pixels)[:, 0] + SLACK
+        lit = pixels[:, 2] <= bilinear(depth[..., None], pixels)[:, 0] + OCCLUSION_TOLERANCE_METRES
         total += lit * np.maximum(normals @ direction, 0) * (direction[1] + FROM_ABOVE)
-    seen = total > HIDDEN_SHARE * total.max()
+    seen = total > MIN_SEEN_LIGHT_SHARE * total.max()
     if not seen.any():
         return np.ones(len(points), np.float32)
-    shade = DARKEST + (1 - DARKEST) * total / total.max()
+    shade = MIN_LIGHT_SHARE + (1 - MIN_LIGHT_SHARE) * total / total.max()
     out = np.minimum(shade / shade[seen].mean(), 1)
     known = np.flatnonzero(seen)[::SEEN_STEP]
-    away, nearest = cKDTree(points[known]).query(points[~seen], distance_upper_bound=END * FADING)
+    away, nearest = cKDTree(points[known]).query(
+        points[~seen], distance_upper_bound=SHADOW_END_LENGTHS * HIDDEN_SHADOW_FADE_METRES
+    )
     taken = np.append(1 - out[known], 0)[nearest]
-    out[~seen] = 1 - taken * np.exp(-away / FADING)
+    out[~seen] = 1 - taken * np.exp(-away / HIDDEN_SHADOW_FADE_METRES)
     return np.asarray(out, np.float32)
 
 
@@ -82,15 +84,15 @@ def lash_shadow(
     share = np.arange(RIM_STEPS) / RIM_STEPS
     line = (loop[:, None] + share[:, None] * (np.roll(loop, -1, 0) - loop)[:, None]).reshape(-1, 2)
     upper = line[line[:, 1] >= np.interp(line[:, 0], ends[:, 0], ends[:, 1])]
-    away = cKDTree(upper).query(seen, distance_upper_bound=END * LASH_REACH)[0]
+    away = cKDTree(upper).query(seen, distance_upper_bound=SHADOW_END_LENGTHS * LASH_REACH)[0]
     ahead = (points - middle) @ gaze > 0
-    return np.asarray(np.where(ahead, 1 - LASHES * np.exp(-away / LASH_REACH), 1), np.float32)
+    return np.asarray(np.where(ahead, 1 - LASH_SHADE * np.exp(-away / LASH_REACH), 1), np.float32)
 
 
 def _sky(gaze: NDArray[np.float64]) -> NDArray[np.float64]:
     """(L, 3) unit vectors of the half of the sphere about where a face looks, those from below left out."""
-    k = np.arange(2 * LIGHTS) + 0.5
-    height = 1 - k / LIGHTS
+    k = np.arange(2 * LIGHT_DIRECTION_COUNT) + 0.5
+    height = 1 - k / LIGHT_DIRECTION_COUNT
     turn = np.pi * (1 + np.sqrt(5)) * k
     level = np.sqrt(np.maximum(1 - height**2, 0))
     around = np.stack([level * np.cos(turn), height, level * np.sin(turn)], 1)

@@ -32,13 +32,13 @@ ABOUT_EYE = 0.5
 """Widths of an eye from the rim of its lower lid within which the skin below has the lids' colour, in the median ..."""
 LID_FADING = 0.2
 """... and from the upper's rim to where shut lids have that of the skin above, which is in the shade of the brow."""
-LASHES, LASH_WIDTH = 0.5, 0.0007
+LASH_SHADE, LASH_WIDTH = 0.5, 0.0007
 """Of the light, what lashes take along a shut lid's rim, and metres over which that fades."""
 RIM_STEPS = 8
 """Places between two vertices of a rim from which it is measured."""
 WRIST_LENGTH, CUFF_LENGTH = 0.03, 0.004
 """Metres past the wrist over which what the arm's colours are filled with becomes the hand's: along bare skin, and where a sleeve ends."""
-SLEEVE = (-0.025, 0.0)
+SLEEVE_WINDOW_METRES = (-0.025, 0.0)
 """Metres past the wrist between which it is looked what the arm wears ..."""
 ARM_RADIUS = 0.08
 """... and about it."""
@@ -114,7 +114,7 @@ def place_lids(
         tone = np.median(flat[about.texels], axis=0)
         away = loop.query(lids.blend(places, surface.triangles))[0]
         share = np.clip(away / (LID_FADING * width), 0, 1)[:, None]
-        skin_light = (1 - LASHES * np.exp(-away / LASH_WIDTH))[:, None]
+        skin_light = (1 - LASH_SHADE * np.exp(-away / LASH_WIDTH))[:, None]
         lids.put(texture, skin_light * (tone + share * (flat[lids.texels] - tone)))
 
 
@@ -157,4 +157,4 @@ def _before_wrist(bones: HandBones, places: NDArray[np.float64]) -> NDArray[np.b
     offset = places - bones.wrist
     along = offset @ bones.along
     beside = np.linalg.norm(offset - along[:, None] * bones.along, axis=1)
-    return np.asarray((along > SLEEVE[0]) & (along < SLEEVE[1]) & (beside < ARM_RADIUS))
+    return np.asarray((along > SLEEVE_WINDOW_METRES[0]) & (along < SLEEVE_WINDOW_METRES[1]) & (beside < ARM_RADIUS))

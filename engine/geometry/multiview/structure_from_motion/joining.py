@@ -16,14 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from engine.geometry.multiview.bundle import MIN_DEPTH, Bundle, Observations
+from engine.geometry.multiview.bundle import MIN_POINT_DEPTH, Bundle, Observations
 from engine.geometry.multiview.bundle_adjustment import Freedom, adjust
 from engine.geometry.multiview.structure_from_motion.mapping import Reconstruction
 from engine.geometry.registration.rigid import Similarity
 
 SIGMA = 1.5
 """Pixels by which a right observation is off at most, of pictures 1000 pixels long ..."""
-LEAST_SIGMA = 1.0
+MIN_SIGMA_PIXELS = 1.0
 """... and of small ones, in which features are not found more finely."""
 FIRST_MEDIANS = 2.0
 """So many times the median error the first round believes ..."""
@@ -31,11 +31,11 @@ SHARPENING = 0.7
 """... and each round so much of what the last one did."""
 LAST_ROUNDS = 5
 """Of Gauss and Newton that believe `SIGMA`."""
-BEHIND = 1e9
+BEHIND_CAMERA_PIXELS = 1e9
 """Pixels by which what is behind a camera is off: it does not count."""
 LOSSES = (6.0, 1.0)
 """Pixels of the robust loss with which both are adjusted together, one after the other: places in common are far off first."""
-MOST_STEPS, CONVERGED = 15, 1e-4
+MAX_STEPS, CONVERGED = 15, 1e-4
 """Steps of each, and the relative decrease at which it ends before."""
 DAMPING = 1e-9
 """Share of its diagonal that is added to each system."""
@@ -74,7 +74,7 @@ def join_by_pixels(
     sides = _side(first, pairs[:, 0]), _side(second, pairs[:, 1])
     back = start.inverse()
     points = first.bundle.points[pairs[:, 0]].astype(np.float64)
-    least = max(SIGMA * length / 1000, LEAST_SIGMA)
+    least = max(SIGMA * length / 1000, MIN_SIGMA_PIXELS)
     sigma = FIRST_MEDIANS * float(np.median(np.linalg.norm(_seen(sides[1], back(points))[0], axis=1)))
     while sigma > least:
         back, points = _step(sides, back, points, sigma)
@@ -121,7 +121,7 @@ def adjust_together(
     )
     free = Freedom(np.concatenate([first.registered, second.registered]), (True, True, True))
     for loss in LOSSES:
-        both = adjust(both, seen, free, loss, MOST_STEPS, CONVERGED).bundle
+        both = adjust(both, seen, free, loss, MAX_STEPS, CONVERGED).bundle
     count = len(here.rotations)
     parts = []
     for found, cameras, lenses, points in (
@@ -194,11 +194,11 @@ def _moves(away: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _seen(side: _Side, places: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """How far (O, 2) pixels the points at `places` (M, 3) are seen from where they were, and how that changes with the places
-    (O, 2, 3); what is behind a camera is `BEHIND` off, and does not change."""
+    (O, 2, 3); what is behind a camera is `BEHIND_CAMERA_PIXELS` off, and does not change."""
     bundle = side.bundle
     turns = bundle.rotations[side.camera]
     at = np.einsum("oij,oj->oi", turns, places[side.pair]) + bundle.translations[side.camera]
-    before = at[:, 2] > MIN_DEPTH
+    before = at[:, 2] > MIN_POINT_DEPTH
     deep = np.where(before, at[:, 2], 1.0)[:, None]
     flat = at[:, :2] / deep
     focal, k1, k2 = bundle.lenses[bundle.lens_of[side.camera]].T
@@ -208,5 +208,5 @@ def _seen(side: _Side, places: NDArray[np.float64]) -> tuple[NDArray[np.float64]
     growth = focal * (2 * k1 + 4 * k2 * square)
     by_flat = stretch[:, None, None] * np.eye(2) + growth[:, None, None] * flat[:, :, None] * flat[:, None, :]
     by_eye = np.concatenate([by_flat, -(by_flat @ flat[:, :, None])], axis=2) / deep[:, :, None]
-    off[~before], by_eye[~before] = BEHIND, 0.0
+    off[~before], by_eye[~before] = BEHIND_CAMERA_PIXELS, 0.0
     return off, by_eye @ turns

@@ -18,7 +18,7 @@ from engine.geometry.multiview.structure_from_motion.triangulation import triang
 
 MAX_ERRORS = (8.0, 5.0, 3.0, 3.0)
 """Pixels that an observation may be off in each round, of pictures 1000 pixels long."""
-MIN_SEEN = 25
+MIN_VISIBLE_POINTS = 25
 """Points of the part by which a camera is solved; with fewer it stays where it was."""
 
 
@@ -36,7 +36,7 @@ def refine(
     part: NDArray[np.bool_],
     length: float,
     prior: PosePrior | None = None,
-    min_seen: int = MIN_SEEN,
+    min_seen: int = MIN_VISIBLE_POINTS,
 ) -> Refinement:
     """The cameras of `found`, solved on some of its tracks alone, by the lenses that they have.
 

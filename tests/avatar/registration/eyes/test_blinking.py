@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from engine.avatar.registration.eyes.blinking import BLINKS, before_the_eye, meeting_rims
 from engine.avatar.registration.eyes.eyeballs import sphere
-from engine.avatar.registration.face.expressions import FOLD
+from engine.avatar.registration.face.expressions import LID_FOLD_EYE_WIDTHS
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.models import HumanModels
 
@@ -37,7 +37,7 @@ def test_what_is_above_the_fold_of_a_lid_stays_in_a_blink(
     rest = fitted.rest[skin.vertices].astype(np.float64)
     rim = rest[skin.regions[f"{BLINKS[blink]}_rim"]]
     away = cKDTree(rim).query(rest)[0]
-    beyond = (away > FOLD * np.ptp(rim, axis=0).max()) & ~skin.regions["inner"]
+    beyond = (away > LID_FOLD_EYE_WIDTHS * np.ptp(rim, axis=0).max()) & ~skin.regions["inner"]
     assert not fitted.expressions[blink][skin.vertices[beyond]].any()
 
 

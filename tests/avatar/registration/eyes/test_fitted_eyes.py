@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from engine.avatar.landmarks.spatial import LID_LANDMARKS
 from engine.avatar.registration.eyes.eye_outline import outline_of_rim
-from engine.avatar.registration.eyes.eyeballs import LID_GAP, sphere
+from engine.avatar.registration.eyes.eyeballs import LID_GAP_METRES, sphere
 from engine.avatar.registration.eyes.fitted_eyes import (
-    INNER_CORNERS,
+    INNER_CORNER_LANDMARKS,
     IRIS_RADIUS,
-    OUTWARDS,
+    OUTWARD_SIGNS,
     FittedEyes,
     with_eyes,
     with_sockets,
@@ -38,9 +38,9 @@ def landmarks(models: HumanModels, vertices: NDArray[np.float64]) -> NDArray[np.
     """(2, 21, 3) as frames would have them: lids on the rims, irises 6 mm large before the eyeballs."""
     found = []
     for part in EYE_PARTS:
-        mirrored = np.array([OUTWARDS[part], 1, 1])
+        mirrored = np.array([OUTWARD_SIGNS[part], 1, 1])
         rim = vertices[lid_rim(models.template, part)] * mirrored
-        corner = vertices[models.skin.vertices[models.skin.face_points[INNER_CORNERS[part]]]] * mirrored
+        corner = vertices[models.skin.vertices[models.skin.face_points[INNER_CORNER_LANDMARKS[part]]]] * mirrored
         outline = outline_of_rim(rim[:, :2], corner[:2])
         share = np.linspace(0, 1, 9)
         low, high = outline.lids(share)
@@ -89,7 +89,7 @@ def test_lids_lie_on_the_ball_however_it_was_fitted(models: HumanModels, person:
         middle, radius = sphere(found.vertices[models.template.vertices_of(part)])
         away = np.linalg.norm(found.vertices[lid_rim(models.template, part)] - middle, axis=1)
         assert away.min() > radius
-        assert np.median(away) == pytest.approx(radius + LID_GAP, abs=2e-4)
+        assert np.median(away) == pytest.approx(radius + LID_GAP_METRES, abs=2e-4)
         assert np.linalg.norm(shown - middle, axis=1).min() > radius
 
 
