@@ -40,6 +40,8 @@ ARTIFACTS = {
 
 QUICK: dict[str, Any] = {"fps": 12, "triangles": 15_000}
 """Films and surfaces as coarse as what is asked of them allows."""
+UNSEEN = QUICK | {"size": (96, 128)}
+"""The same where nobody looks at the film's pictures."""
 
 
 @pytest.fixture(scope="module")
@@ -126,7 +128,7 @@ def test_a_pose_by_hand_shows_in_the_reposed_picture(picture: Path, woken: Path,
 
 def test_a_motion_of_ones_own(picture: Path, cache: Path, media: Callable[[str], Path], tmp_path: Path) -> None:
     out = wake_up(
-        picture, tmp_path / "out", media("mocap/cmu_jumping_jacks.bvh"), seconds=1, cache=cache, **QUICK
+        picture, tmp_path / "out", media("mocap/cmu_jumping_jacks.bvh"), seconds=1, cache=cache, **UNSEEN
     ).folder
     names = [clip["name"] for clip in Glb(out / "character.glb").json["animations"]]
     assert names[:4] == ["pictured", "step_out", "motion", "motion_in_place"]
@@ -139,7 +141,7 @@ def test_a_walk_in_place_of_a_few_frames_leads_out_of_the_picture(
 ) -> None:
     """As far as the picture has room; the character keeps the loop, and out of its file it leads there again."""
     motion = media("mocap/makehuman_walk_cycle.bvh")
-    asked = QUICK | {"fps": 30}  # as files of motion are read
+    asked = UNSEEN | {"fps": 30}  # as files of motion are read
     for folder, clip in (("first", None), ("again", "motion_in_place")):
         out = wake_up(picture, tmp_path / folder, motion, seconds=4, motion_clip=clip, cache=cache, **asked).folder
         motion = out / "character.glb"
@@ -157,7 +159,7 @@ def test_a_walk_in_place_of_a_few_frames_leads_out_of_the_picture(
 def test_one_animation_of_several_is_played(picture: Path, woken: Path, cache: Path, tmp_path: Path) -> None:
     """A character's own clip, taken from its file, moves it as before: turned joint for turned joint."""
     own = woken / "character.glb"
-    out = wake_up(picture, tmp_path / "out", own, seconds=1, motion_clip="walk", cache=cache, **QUICK).folder
+    out = wake_up(picture, tmp_path / "out", own, seconds=1, motion_clip="walk", cache=cache, **UNSEEN).folder
     before, after = read_gltf_motion(woken / "character.glb", "walk"), read_gltf_motion(out / "character.glb", "motion")
     arm = before.names.index("LeftArm")  # legs are bent a little anew, so that feet stand
     assert len(after.rotations) == len(before.rotations)
@@ -199,7 +201,7 @@ def test_who_is_cut_off_at_the_waist_is_refused_unless_that_is_wanted(
     assert (error.code, error.correctable) == ("not_full_body", ("partial", "joints"))
     assert "both hips" in error.detail and "“partial”" in error.detail
     assert "accept a person who is cut off or hidden below the chest" in error.detail, "the option as the page names it"
-    out = wake_up(tmp_path / "cut.png", tmp_path / "out", seconds=1, partial=True, **QUICK).folder
+    out = wake_up(tmp_path / "cut.png", tmp_path / "out", seconds=1, partial=True, **UNSEEN).folder
     report = json.loads((out / "report.json").read_text())
     assert [one["code"] for one in report["warnings"]] == ["not_full_body"]
     assert report["quality"]["silhouette_iou"] > 0.985
@@ -263,7 +265,7 @@ def test_a_real_picture(media: Callable[[str], Path], tmp_path: Path) -> None:
 
 def test_a_childs_drawing_wakes_up_unaided_as_a_flat_cut_out(media: Callable[[str], Path], tmp_path: Path) -> None:
     drawing = media("fullbody/drawing_child_boy.png")
-    out = wake_up(drawing, tmp_path / "out", seconds=1, joints={"LeftElbow": (390, 240)}, **QUICK).folder
+    out = wake_up(drawing, tmp_path / "out", seconds=1, joints={"LeftElbow": (390, 240)}, **UNSEEN).folder
     report = json.loads((out / "report.json").read_text())
     assert "figure_drawn" in [one["code"] for one in report["warnings"]]
     assert report["quality"]["silhouette_iou"] > 0.98
@@ -281,7 +283,7 @@ def test_of_several_each_stands_where_they_are_in_the_picture(tmp_path: Path) ->
     write_image(tmp_path / "photo.png", np.concatenate([one, wall], 1))
     told: list[Progress] = []
     out = wake_up(
-        tmp_path / "photo.png", tmp_path / "out", progress=told.append, seconds=1, person_index="all", **QUICK
+        tmp_path / "photo.png", tmp_path / "out", progress=told.append, seconds=1, person_index="all", **UNSEEN
     ).folder
     skeleton = json.loads((out / "skeleton.json").read_text())
     first, second = skeleton["woken"]
