@@ -20,13 +20,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.avatar_colours import colour_errors
-from benchmarks.avatar_sheet import avatar_sheet
-from benchmarks.contact_sheet import write_sheet
+from benchmarks.avatar_figures.colours import colour_errors
+from benchmarks.avatar_figures.sheet import avatar_sheet
+from benchmarks.presentation.contact_sheet import write_sheet
+from benchmarks.presentation.tables import machine, table
 from benchmarks.scan_studio.distance import Distances, MeasuredSurface, above, below, between_surfaces, measured_surface
 from benchmarks.scan_studio.rigged_glb import TexturedPart, read_in_clip
 from benchmarks.scan_studio.truth import Truth, read_truth
-from benchmarks.tables import machine, table
 from engine.avatar.mesh import surface_of
 from engine.avatar.options import AvatarOptions
 from engine.avatar.pipeline import make_avatar

@@ -25,10 +25,10 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.character_steps import options_for, pictures
+from benchmarks.character_figures.steps import options_for, pictures
+from benchmarks.character_figures.stretching import stretched
 from benchmarks.known_truth.written_character import Written, outline, read_written
-from benchmarks.stretching import stretched
-from benchmarks.tables import machine, table
+from benchmarks.presentation.tables import machine, table
 from engine.character import KIND
 from engine.character.film.person import Person
 from engine.character.options import CharacterOptions

@@ -21,8 +21,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.character_steps import wake
-from benchmarks.tables import machine, table
+from benchmarks.character_figures.steps import wake
+from benchmarks.presentation.tables import machine, table
 from engine.character.film.cast_shadow import ground_shadow
 from engine.character.film.film import film, film_size
 from engine.character.film.motions import MotionChoice, choose_motion

@@ -28,11 +28,11 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from benchmarks.character_steps import options_for, pictures
-from benchmarks.contact_sheet import Picture, Row, at_height, contact_sheet, write_sheet
+from benchmarks.character_figures.steps import options_for, pictures
+from benchmarks.presentation.contact_sheet import Picture, Row, at_height, contact_sheet, write_sheet
+from benchmarks.presentation.tables import machine, mean_row, table
 from benchmarks.scan_studio.photographed import Truth, cases, feet, photograph
 from benchmarks.scan_studio.rigged_people import ENDS
-from benchmarks.tables import machine, mean_row, table
 from engine.character.figure.figure import Choice, Figure, find_figure
 from engine.character.figure.silhouette import Silhouette, cut_out
 from engine.character.fit.template_fit import FittedBody, load_human

@@ -25,8 +25,8 @@ from PIL import Image
 from benchmarks.character_truth import people
 from benchmarks.known_truth.known_person import PICTURE_SIZE, draw_into
 from benchmarks.known_truth.known_places import places
+from benchmarks.presentation.tables import machine, table
 from benchmarks.shared_media import media
-from benchmarks.tables import machine, table
 from engine.character.figure.figure import Choice, find_figure
 from engine.character.figure.silhouette import cut_out
 from engine.errors import InputError

@@ -27,16 +27,16 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from benchmarks.character_steps import Woken, wake
-from benchmarks.contact_sheet import Row, at_height, contact_sheet, write_sheet
+from benchmarks.character_figures.steps import Woken, wake
 from benchmarks.known_truth.known_person import PICTURE_SIZE, Person, draw_into
 from benchmarks.known_truth.known_places import places
 from benchmarks.known_truth.scanned_bodies import texture_painter
+from benchmarks.presentation.contact_sheet import Row, at_height, contact_sheet, write_sheet
+from benchmarks.presentation.tables import machine, mean_row, table
 from benchmarks.scan_studio.pictured_poses import POSES
 from benchmarks.scan_studio.rigged_people import ENDS, METRES, held_pose, read_rigged
 from benchmarks.scan_studio.scanned_people import RIGGED
 from benchmarks.shared_media import media
-from benchmarks.tables import machine, mean_row, table
 from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.character.fit.rest_skeleton import rest_skeleton
 from engine.character.fit.template_fit import load_human

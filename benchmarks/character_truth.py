@@ -25,15 +25,15 @@ from numpy.typing import NDArray
 from PIL import Image
 from scipy.ndimage import gaussian_filter1d
 
+from benchmarks.character_figures.truth_sheet import write_truth_sheet
 from benchmarks.known_truth.comparison import Comparison, MadeSurfaces
 from benchmarks.known_truth.dressed_template import DRESSED_LOOKS, dress
 from benchmarks.known_truth.known_person import PICTURE_SIZE, KnownPicture, Person, draw_into
 from benchmarks.known_truth.known_places import places
 from benchmarks.known_truth.scanned_bodies import read_scan
 from benchmarks.known_truth.surface_distance import align, compare, sample_outside
+from benchmarks.presentation.tables import machine, table
 from benchmarks.shared_media import media
-from benchmarks.tables import machine, table
-from benchmarks.truth_sheet import write_truth_sheet
 from engine.character.figure.figure import Choice, Figure, find_figure
 from engine.character.figure.silhouette import Silhouette, cut_out
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template

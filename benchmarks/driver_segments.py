@@ -24,8 +24,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.presentation.tables import machine, table
 from benchmarks.shared_media import media, write_clip
-from benchmarks.tables import machine, table
 from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.video import read_video

@@ -1,4 +1,4 @@
-"""What strangers can do to a service by what they send: every request of `benchmarks.strangers`, one after the other,
+"""What strangers can do to a service by what they send: every request of `benchmarks.service_figures.strangers`, one after the other,
 while somebody else asks `/healthz` again and again.
 
     python -m benchmarks.hostile_bodies
@@ -20,9 +20,9 @@ from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from urllib.parse import urlsplit
 
+from benchmarks.presentation.tables import machine, table
 from benchmarks.service import service
-from benchmarks.strangers import Sent, strangers
-from benchmarks.tables import machine, table
+from benchmarks.service_figures.strangers import Sent, strangers
 
 ASK_SECONDS = 0.02
 PATIENCE_SECONDS = 300.0

@@ -29,8 +29,8 @@ import psutil
 import uvloop
 from httpx import URL
 
+from benchmarks.presentation.tables import machine, table
 from benchmarks.service import ROOT, portrait
-from benchmarks.tables import machine, table
 
 OPENING_SECONDS = 5.0
 ASKING_SECONDS = 0.2

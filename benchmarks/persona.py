@@ -12,7 +12,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from benchmarks.persona_figures import correspondence, flicker, held_out, shape, speed
-from benchmarks.tables import machine
+from benchmarks.presentation.tables import machine
 
 TABLES = ("speed", "held_out", "shape", "correspondence", "flicker")
 

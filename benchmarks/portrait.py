@@ -12,7 +12,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from benchmarks.portrait_figures import fidelity, memory, mouths_and_eyes, solidity, speed, steadiness, turn
-from benchmarks.tables import machine
+from benchmarks.presentation.tables import machine
 
 TABLES = ("speed", "fidelity", "ablations", "stillness", "lag", "turn", "solidity", "pair", "mouths", "memory")
 

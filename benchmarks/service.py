@@ -29,7 +29,7 @@ import numpy as np
 import psutil
 import uvloop
 
-from benchmarks.tables import machine, table
+from benchmarks.presentation.tables import machine, table
 
 ROOT = Path(__file__).parent.parent
 OPTIONS = {"size": [128, 160], "trim": [0, 0.2]}

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.persona_figures.known_heads import SIDE, KnownHead, from_before, photographs, template_person
-from benchmarks.tables import table
+from benchmarks.presentation.tables import table
 from engine.persona.learning import learn_persona
 from engine.persona.persona import Persona
 from engine.persona.texture.aligned_photos import align_photos

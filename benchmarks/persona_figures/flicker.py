@@ -15,8 +15,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.presentation.tables import table
 from benchmarks.shared_media import media
-from benchmarks.tables import table
 from engine.errors import InputError
 from engine.media.video import read_video
 from engine.perception.faces import FaceTracker

@@ -23,8 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import RBFInterpolator
 
+from benchmarks.presentation.tables import table
 from benchmarks.shared_media import media
-from benchmarks.tables import table
 from engine.geometry.registration.rigid import fit_similarity
 from engine.media.limits import Limits
 from engine.perception.expression.features import frontalise

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.persona_figures.known_heads import KnownHead, from_before, head_scan, photographs, template_person
-from benchmarks.tables import table
+from benchmarks.presentation.tables import table
 from engine.geometry.registration.rigid import fit_similarities, fit_similarity
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, RIGID_VERTICES

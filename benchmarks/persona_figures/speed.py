@@ -12,8 +12,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.presentation.tables import table
 from benchmarks.shared_media import media
-from benchmarks.tables import table
 from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.image import read_image

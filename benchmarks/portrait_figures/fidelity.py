@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
-from benchmarks.acting import Acting, read_driver, read_target
-from benchmarks.contact_sheet import Row, contact_sheet, evenly, write_sheet
+from benchmarks.portrait_figures.acting import Acting, read_driver, read_target
+from benchmarks.presentation.contact_sheet import Row, contact_sheet, evenly, write_sheet
+from benchmarks.presentation.tables import mean_row, table
 from benchmarks.shared_media import driving_clips, media, tool, write_clip
-from benchmarks.tables import mean_row, table
 from engine.face_animation.animation import Parts
 from engine.face_animation.motion_transfer.alignment import align
 from engine.face_animation.motion_transfer.control_points import carry_fiducials

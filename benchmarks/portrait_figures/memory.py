@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.portrait_figures.speed import PICTURE_SIZE, SMALL_CLIP, portrait
+from benchmarks.presentation.tables import table
 from benchmarks.shared_media import ROOT, media
-from benchmarks.tables import table
 from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.video import probe_video, read_video

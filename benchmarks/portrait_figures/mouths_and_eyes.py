@@ -11,9 +11,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.acting import Acting, read_driver, read_target
+from benchmarks.portrait_figures.acting import Acting, read_driver, read_target
+from benchmarks.presentation.tables import table
 from benchmarks.shared_media import driving_clips, media
-from benchmarks.tables import table
 from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget, draw_in_order
 from engine.face_animation.creases.fine_details import RatioStrip
 from engine.face_animation.eyes.eyes import iris_positions

@@ -8,11 +8,11 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.acting import Acting, read_driver, read_target
 from benchmarks.known_truth.head_scan import project_scan, read_head_scan, render_head
+from benchmarks.portrait_figures.acting import Acting, read_driver, read_target
 from benchmarks.portrait_figures.turn import HEAD_ZOOM, PICTURE_SIZE, REST_FRAMES
+from benchmarks.presentation.tables import table
 from benchmarks.shared_media import media, tool, write_clip
-from benchmarks.tables import table
 from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget
 from engine.face_animation.motion_transfer.contour import rim_distance
 from engine.face_animation.motion_transfer.control_motion import ControlMotion

@@ -11,9 +11,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.acting import Acting, read_driver, read_target
+from benchmarks.portrait_figures.acting import Acting, read_driver, read_target
+from benchmarks.presentation.tables import table
 from benchmarks.shared_media import driving_clips, media, write_clip
-from benchmarks.tables import table
 from engine.media.image import read_image
 from engine.media.video import probe_video, read_video
 from engine.perception.faces import FaceTracker

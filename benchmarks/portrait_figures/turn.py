@@ -9,11 +9,11 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.acting import Acting, read_driver, read_target
-from benchmarks.contact_sheet import Row, contact_sheet, write_sheet
 from benchmarks.known_truth.head_scan import read_head_scan, render_head
+from benchmarks.portrait_figures.acting import Acting, read_driver, read_target
+from benchmarks.presentation.contact_sheet import Row, contact_sheet, write_sheet
+from benchmarks.presentation.tables import table
 from benchmarks.shared_media import media, tool, write_clip
-from benchmarks.tables import table
 from engine.face_animation.warping.layers import Layers
 from engine.portrait.options import PortraitOptions
 

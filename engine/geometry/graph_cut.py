@@ -4,7 +4,7 @@ Source: Y. Boykov, O. Veksler, R. Zabih, Fast approximate energy minimization vi
 V. Kolmogorov, R. Zabih, What energy functions can be minimized via graph cuts?, PAMI 2004 (how a move becomes a graph).
 
 Flows are SciPy's. Labels of 39,760 triangles out of 75 views take 21 s on two cores that others use as well
-(`benchmarks/graph_cut.py`), 11 s of it in 495 flows; ortools was three times as fast on a grid, which would save a third, and is
+(`benchmarks/engine_figures/graph_cut.py`), 11 s of it in 495 flows; ortools was three times as fast on a grid, which would save a third, and is
 80 MB: it is not used.
 """
 

@@ -13,8 +13,8 @@ from running import Running
 from servers import PostgresServer
 
 from benchmarks.hostile_bodies import send
-from benchmarks.strangers import Sent, document, nested, picture, strangers
-from benchmarks.strangers import texts as queries_and_paths
+from benchmarks.service_figures.strangers import Sent, document, nested, picture, strangers
+from benchmarks.service_figures.strangers import texts as queries_and_paths
 
 ROOT = Path(__file__).parent.parent.parent
 SETTINGS = {"kinds": "tiny_kind:KIND,engine.kinds:KINDS", "worker": False}

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.character_steps import BY_HAND
+from benchmarks.character_figures.steps import BY_HAND
 from engine.character import KIND
 from engine.character.figure.figure import Choice, find_figure
 from engine.character.figure.placed_joints import (

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks.character_steps import Woken, wake
+from benchmarks.character_figures.steps import Woken, wake
 from engine.character.film.cast_shadow import find_cast_shadow, ground_shadow
 from engine.character.rig.measures import picture_camera, pose
 from engine.character.sample import sample_picture

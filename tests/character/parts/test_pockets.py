@@ -12,7 +12,7 @@ import pytest
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
-from benchmarks.character_steps import wake
+from benchmarks.character_figures.steps import wake
 from benchmarks.known_truth.dressed_template import Look, Turns, dress
 from benchmarks.known_truth.known_person import draw_into
 from benchmarks.known_truth.known_places import places

@@ -10,7 +10,7 @@ from scipy import sparse
 from scipy.spatial.transform import Rotation
 from template_character import template_character
 
-from benchmarks.stretching import stretched
+from benchmarks.character_figures.stretching import stretched
 from engine.character.rig.measures import pose
 from engine.character.rig.relaxing import SurfaceGraph, relaxed, stiffened_weights
 from engine.character.rig.rigging import Character, at_rest

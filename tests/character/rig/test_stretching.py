@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.character_steps import wake
-from benchmarks.stretching import all_edges, stretched
+from benchmarks.character_figures.steps import wake
+from benchmarks.character_figures.stretching import all_edges, stretched
 from engine.character.sample import sample_picture
 from engine.media.image import write_image
 from engine.motion.library import CLIPS

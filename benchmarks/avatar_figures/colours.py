@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.avatar_texture import textured_truth
+from benchmarks.avatar_figures.texture import textured_truth
 from benchmarks.scan_studio.colour import film_colour_error
 from benchmarks.scan_studio.drawing import TexturedMesh, textured_mesh
 from benchmarks.scan_studio.rigged_glb import TexturedPart

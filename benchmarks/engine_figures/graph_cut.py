@@ -1,6 +1,6 @@
 """How long labels of a surface take: 40,000 nodes, 75 labels, a cost for each edge and pair of labels.
 
-    python -m benchmarks.graph_cut [--nodes 40000] [--labels 75] [--sweeps 6]
+    python -m benchmarks.engine_figures.graph_cut [--nodes 40000] [--labels 75] [--sweeps 6]
 
 Made as the textures of a person are, filmed by 75 cameras in a ring: triangles of a sphere, of which each is seen by the
 cameras within 45 degrees of its normal. The data say how well, times the area. Seams say how far the views' colours are

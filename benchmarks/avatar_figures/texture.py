@@ -1,6 +1,6 @@
 """How good the avatar's texture is on films of known people, with their true shape and cameras: the texture stage alone.
 
-    python -m benchmarks.avatar_texture FOLDER [--size 4096] [--body 75] [--head 50] [--sheet OUT.png]
+    python -m benchmarks.avatar_figures.texture FOLDER [--size 4096] [--body 75] [--head 50] [--sheet OUT.png]
 
 FOLDER is what `python -m benchmarks.scan_studio` made of a subject. The cameras are those of the person: the sway of the body is
 taken out, that of the arms, motion blur, exposure and balance are not. Prints CIELAB root mean square errors of the textured
@@ -22,7 +22,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.contact_sheet import Row, contact_sheet, write_sheet
+from benchmarks.presentation.contact_sheet import Row, contact_sheet, write_sheet
 from benchmarks.scan_studio.truth import Truth, read_truth
 from engine.avatar.texture.avatar_texture import AvatarTexture, avatar_texture
 from engine.avatar.texture.stitching import StitchedTexture, stitch_texture

@@ -1,6 +1,6 @@
 """Contact sheets of portraits to look at.
 
-    python -m benchmarks.portrait_sheet -o DIR [--clips NAME...] [--portraits NAME...] [--options JSON]
+    python -m benchmarks.portrait_figures.sheet -o DIR [--clips NAME...] [--portraits NAME...] [--options JSON]
 
 One PNG for each driver: above what it does, under it every portrait of the test media, first at rest, then at the same six
 moments. And `performances.png`: built-in performances beside real people in the same state, each over what a portrait makes
@@ -19,9 +19,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.contact_sheet import PAPER_GREY_LEVEL, Row, contact_sheet, fitted, write_sheet
+from benchmarks.presentation.contact_sheet import PAPER_GREY_LEVEL, Row, contact_sheet, fitted, write_sheet
+from benchmarks.presentation.tables import machine
 from benchmarks.shared_media import driving_clips, media
-from benchmarks.tables import machine
 from engine.errors import InputError
 from engine.media.image import read_image
 from engine.media.video import read_video

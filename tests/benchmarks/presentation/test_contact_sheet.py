@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.contact_sheet import (
+from benchmarks.presentation.contact_sheet import (
     GAP_PIXELS,
     PAPER_GREY_LEVEL,
     TITLE_PIXELS,

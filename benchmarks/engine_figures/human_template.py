@@ -1,6 +1,6 @@
 """The human template: how long it takes to load and to pose, and how much of what tells bodies apart its space of shapes holds.
 
-    python -m benchmarks.human_template
+    python -m benchmarks.engine_figures.human_template
 
 Each time is the least of five, after one that is not counted: files lie in the system's memory, code is compiled.
 """
@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from benchmarks.tables import machine, table
+from benchmarks.presentation.tables import machine, table
 from engine.body import makehuman
 from engine.body.body_space import load_body_space
 from engine.body.cache import CACHE_FORMAT, cache_folder

@@ -1,6 +1,6 @@
 """Contact sheets to look at: a row for each picture, of what was found in it and of the character from all sides.
 
-    python -m benchmarks.character_sheet PICTURE... -o SHEET.png [--options JSON]
+    python -m benchmarks.character_figures.sheet PICTURE... -o SHEET.png [--options JSON]
 
 From left to right: the picture, its mask, its labels; the character as pictured, from the front, the side and behind; four
 frames of the walk, two of the dance, one of the wave.
@@ -16,9 +16,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.character_steps import Woken, wake
-from benchmarks.contact_sheet import Row, at_height, contact_sheet, write_sheet
-from benchmarks.tables import machine
+from benchmarks.character_figures.steps import Woken, wake
+from benchmarks.presentation.contact_sheet import Row, at_height, contact_sheet, write_sheet
+from benchmarks.presentation.tables import machine
 from engine.character.figure.strokes import LABEL_COLOURS
 from engine.character.rig.measures import measure, pose
 from engine.geometry.camera import Camera

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.avatar_colours import pictures
-from benchmarks.contact_sheet import Row, contact_sheet
+from benchmarks.avatar_figures.colours import pictures
+from benchmarks.presentation.contact_sheet import Row, contact_sheet
 from benchmarks.scan_studio.drawing import draw_over, empty_depths, textured_mesh
 from benchmarks.scan_studio.rigged_glb import TexturedPart
 from engine.geometry.camera import Camera
