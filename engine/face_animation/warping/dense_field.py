@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.face_animation.warping.contour_rings import contour_rings, rings_end
+from engine.face_animation.warping.round_cheeks import points_between
 from engine.face_animation.warping.warp_mesh import WarpMesh
 from engine.imaging.warping.delaunay import delaunay
 from engine.perception.landmarks import FACE_OVAL
@@ -96,6 +97,11 @@ def build_warp_mesh(
     corners[: len(on_face)], weights[: len(on_face)] = np.arange(len(on_face))[:, None], (1, 0, 0)
     matrix = np.zeros((len(vertices), len(control)), np.float32)
     np.add.at(matrix, (np.arange(len(vertices))[:, None], used[corners]), weights.astype(np.float32))
+    between, follow = points_between(face, on_face)
+    vertices = np.concatenate([vertices, between])
+    rounded = np.zeros((len(between), len(control)), np.float32)
+    rounded[:, on_face] = follow.toarray()
+    matrix = np.concatenate([matrix, rounded])
     if smoothing != "none":
         radii = (
             disk_radii(face, vertices, shape)
