@@ -63,15 +63,16 @@ def occlusion_pixels(
     """Pixels of the limb (H, W) beside which another part shows that is not `near`, in metres, on the body's surface.
     `places`: those of each part at rest (`rest_places`)."""
     found = np.zeros(labels.shape, np.bool_)
-    for other, theirs in enumerate(places):
-        if other == limb:
-            continue
-        for dy, dx in ((0, 1), (0, -1), (1, 0), (-1, 0)):
-            moved = np.roll(theirs, (-dy, -dx), (0, 1))
-            beside = np.roll(labels, (-dy, -dx), (0, 1)) == other
+    rows, columns = np.nonzero(labels == limb)
+    for dy, dx in ((0, 1), (0, -1), (1, 0), (-1, 0)):
+        at = (rows + dy) % labels.shape[0], (columns + dx) % labels.shape[1]
+        beside = labels[at]
+        for other in set(range(len(places))) & set(np.unique(beside).tolist()) - {limb}:
+            here = beside == other
+            own = rows[here], columns[here]
             with np.errstate(invalid="ignore"):
-                far = np.linalg.norm(places[limb] - moved, axis=-1) > near
-            found |= (labels == limb) & beside & far
+                far = np.linalg.norm(places[limb][own] - places[other][at[0][here], at[1][here]], axis=-1) > near
+            found[own] |= far
     return found if found.sum() >= MIN_BORDER_PIXELS else np.zeros_like(found)
 
 
