@@ -13,6 +13,7 @@ from engine.geometry.joint_names import SIDES
 from engine.imaging.resample import resized, size_within
 from engine.perception.body import BODY_LANDMARKS, Body
 from engine.perception.people import find_people
+from engine.perception.solutions import kept_networks
 
 EXAMINED_FRAMES = 12
 """Frames of a clip in which people are looked for, spread over it."""
@@ -60,6 +61,7 @@ class PeopleShown:
         return bool((inside & (body.confidence[at] > KNEE_CONFIDENCE)).any())
 
 
+@kept_networks()
 def look_for_people(frames: Sequence[NDArray[np.uint8]]) -> PeopleShown:
     """The people, two at most, in a few of a clip's frames (H, W, 3) uint8, spread over it."""
     width, height = size_within(frames[0].shape, POSE_SIDE)

@@ -15,6 +15,7 @@ from engine.geometry.camera import Camera
 from engine.geometry.texture_atlas import unwrap
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import rasterise
+from engine.render.texture_bake import texel_raster
 
 Colours = Callable[[NDArray], NDArray]
 
@@ -46,6 +47,12 @@ def ring(count: int, distance: float = 4.0, height: float = 0.0, size: int = 200
     lens = Camera((0, 0, 1), 1.6 * size, ((size - 1) / 2, (size - 1) / 2), (size, size))
     angles = 2 * np.pi * np.arange(count) / count
     return [lens.aimed([distance * np.sin(a), height, distance * np.cos(a)], [0, 0, 0]) for a in angles]
+
+
+def known_colours(ball: Ball, size: int) -> NDArray:
+    """The texture (S, S, 3) of a ball of `waves`."""
+    raster = texel_raster(ball.surface.atlas, size)
+    return waves(interpolate(ball.surface.vertices, ball.surface.triangles, raster))
 
 
 @pytest.fixture(scope="session")

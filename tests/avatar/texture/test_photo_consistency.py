@@ -11,7 +11,7 @@ from engine.avatar.texture.stitching import stitch_texture
 from engine.avatar.texture.view_samples import sample_views
 from engine.avatar.texture.views import FrameView
 from engine.geometry.camera import Camera
-from tests.avatar.texture.conftest import Ball
+from tests.avatar.texture.conftest import Ball, known_colours
 
 SIZE = 256
 RUG = (230, 20, 20)
@@ -28,10 +28,10 @@ def with_rug(view: FrameView, camera: Camera) -> FrameView:
 def test_what_one_frame_shows_beside_all_others_is_not_taken(ball: Ball, ball_cameras: list[Camera]) -> None:
     views = [ball.view(camera) for camera in ball_cameras]
     spoilt = [with_rug(views[0], ball_cameras[0]), *views[1:]]
-    found, clean = (stitch_texture(ball.surface, some, SIZE) for some in (spoilt, views))
-    away = np.abs(found.texture.astype(float) - clean.texture)[clean.seen]
+    found = stitch_texture(ball.surface, spoilt, SIZE)
+    away = np.abs(found.texture.astype(float) - known_colours(ball, SIZE))[found.seen]
     assert np.quantile(away, 0.995) < 25  # the patch would be two in a hundred of all
-    assert (found.seen == clean.seen).mean() > 0.995
+    assert found.seen[found.raster.triangle >= 0].mean() > 0.995
 
 
 def test_frames_that_agree_are_all_kept_and_so_is_what_few_show(ball: Ball, ball_cameras: list[Camera]) -> None:
