@@ -51,7 +51,7 @@ def picture(surface: TemplateSurface, camera: Camera) -> NDArray[np.uint8]:
 @pytest.fixture(scope="module")
 def found(surface: TemplateSurface) -> AvatarTexture:
     lens = Camera((0, 0, 1), 600, (159.5, 219.5), (440, 320))
-    body = [lens.aimed([2.6 * np.sin(a), 0.3, 2.6 * np.cos(a)], [0, 0, 0]) for a in np.arange(6) * np.pi / 3]
+    body = [lens.aimed([2.6 * np.sin(a), 0.3, 2.6 * np.cos(a)], [0, 0, 0]) for a in np.arange(4) * np.pi / 2]
     head = [lens.aimed([0.6 * np.sin(a), 0.75, 0.6 * np.cos(a)], [0, 0.72, 0]) for a in (-0.4, 0.0, 0.4)]
     views = [FrameView(each, lambda each=each: picture(surface, each)) for each in (*body, *head)]
     return avatar_texture(surface, load_rig(HUMAN_RIG), surface.rest, views, SIZE)

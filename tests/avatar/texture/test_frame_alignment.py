@@ -67,13 +67,13 @@ def moved(ball: Ball, view: FrameView) -> NDArray[np.float32]:
 
 
 def test_what_is_right_stays(ball: Ball) -> None:
-    views = [ball.view(camera) for camera in cameras()]
+    views = [ball.view(camera) for camera in cameras()[:4]]
     for view in aligned(ball.surface, views, np.ones((len(views), 3))):
         assert np.abs(moved(ball, view)).max() < 0.6
 
 
 def test_where_nothing_tells_it_does_not_move(ball: Ball) -> None:
-    views = [ball.view(camera, lambda points: np.full_like(points, 128)) for camera in cameras()]
+    views = [ball.view(camera, lambda points: np.full_like(points, 128)) for camera in cameras()[:3]]
     for view in aligned(ball.surface, views, np.ones((len(views), 3))):
         assert view.shift is not None and np.abs(view.shift.nodes).max() < 0.5
 
@@ -90,7 +90,7 @@ def test_a_frame_that_shows_something_else_moves_no_further_than_is_allowed_and_
 def test_the_outline_is_drawn_onto_a_surface_that_stands_out(ball: Ball) -> None:
     """The surface is 11% larger than what was filmed, and all of one colour: only masks tell."""
     views = []
-    for camera in cameras():
+    for camera in cameras()[:3]:
         near = replace(camera, focal=camera.focal * 0.9)
         mask = np.any(ball.picture(near) != 250, axis=2)
         views.append(FrameView(camera, partial(np.full, (SIDE, SIDE, 3), 128, np.uint8), partial(np.asarray, mask)))
