@@ -1,4 +1,8 @@
-"""The commands of job kinds: they run in-process, leave results, and complain in one line."""
+"""The commands of job kinds: they run in-process, leave results, and complain in one line.
+
+What is wrong in an order is told before anything is done, by the command alone (`told`); what is done, and what goes
+wrong meanwhile, by the program as it is called from a shell (`galatea`).
+"""
 
 from __future__ import annotations
 
@@ -13,6 +17,7 @@ from pathlib import Path
 import av
 import numpy as np
 import pytest
+from click.testing import CliRunner, Result
 
 from engine.character.sample import sample_picture
 from engine.media.image import write_image
@@ -20,7 +25,9 @@ from engine.media.video import read_video
 from engine.perception.faces import find_faces
 from engine.perception.landmarks import mouth_opening
 from engine.performances import video
+from service.catalogue.registry import load_kinds
 from service.settings import Settings
+from shell.kind_command import kind_command
 
 ROOT = Path(__file__).parent.parent.parent
 PICTURE = b"\x89PNG\r\n\x1a\n" + bytes(100)
@@ -41,6 +48,12 @@ def galatea(environment: dict[str, str], *arguments: str | Path) -> subprocess.C
     return subprocess.run(command, env=environment, capture_output=True, text=True)
 
 
+def told(kind: str, *arguments: str | Path) -> Result:
+    """What a kind's command says, and ends with, of an order that it does not get to work on."""
+    found = load_kinds(["tiny_kind:KIND" if kind == "tiny" else "engine.kinds:KINDS"])[kind]
+    return CliRunner().invoke(kind_command(found), list(map(str, arguments)))
+
+
 def test_results_and_report_are_left(tmp_path: Path, environment: dict[str, str]) -> None:
     (tmp_path / "a.png").write_bytes(PICTURE)
     out = tmp_path / "deep" / "out"
@@ -59,7 +72,7 @@ def test_files_that_correct_are_options(tmp_path: Path, environment: dict[str, s
     ended = galatea(environment, "tiny", tmp_path / "a.png", "--mask", tmp_path / "mask.png", "-o", tmp_path / "out")
     assert ended.returncode == 0, ended.stderr
     assert json.loads((tmp_path / "out/report.json").read_text())["inputs"]["mask"] == len(PICTURE) + 7
-    shown = galatea(environment | {"GALATEA_KINDS": "engine.kinds:KINDS"}, "character", "--help").stdout
+    shown = told("character", "--help").stdout
     assert "--mask IMAGE" in shown and "--labels IMAGE" in shown
 
 
@@ -67,8 +80,8 @@ def test_options_are_flags_and_these_count_more(tmp_path: Path, environment: dic
     (tmp_path / "a.png").write_bytes(PICTURE)
     order = ("tiny", tmp_path / "a.png", "-o", tmp_path / "out", "--options", '{"seconds": 60}')
     assert galatea(environment, *order, "--seconds", "0.1").returncode == 0
-    ended = galatea(environment, *order, "--seconds", "soon")
-    assert ended.returncode == 2 and ended.stderr.startswith("Error: --seconds: "), ended.stderr
+    ended = told(*order, "--seconds", "soon")
+    assert ended.exit_code == 2 and ended.stderr.startswith("Error: --seconds: "), ended.stderr
 
 
 @pytest.mark.parametrize(
@@ -85,13 +98,10 @@ def test_options_are_flags_and_these_count_more(tmp_path: Path, environment: dic
         ("--follow", "noes", "--follow: Input should be 'eyes', 'mouth', 'brows' or 'head'"),
     ],
 )
-def test_a_flag_of_the_wrong_form_is_told_the_right_one(
-    tmp_path: Path, environment: dict[str, str], flag: str, said: str, complaint: str
-) -> None:
+def test_a_flag_of_the_wrong_form_is_told_the_right_one(tmp_path: Path, flag: str, said: str, complaint: str) -> None:
     (tmp_path / "a.png").write_bytes(PICTURE)
-    order = ("portrait", tmp_path / "a.png", "--driver", "wink", "-o", tmp_path / "out", flag, said)
-    ended = galatea(environment | {"GALATEA_KINDS": "engine.kinds:KINDS"}, *order)
-    assert (ended.returncode, ended.stderr) == (2, f"Error: {complaint}\n")
+    ended = told("portrait", tmp_path / "a.png", "--driver", "wink", "-o", tmp_path / "out", flag, said)
+    assert (ended.exit_code, ended.stderr) == (2, f"Error: {complaint}\n")
 
 
 def test_options_come_from_a_file_too(tmp_path: Path, environment: dict[str, str]) -> None:
@@ -116,12 +126,12 @@ def test_options_come_from_a_file_too(tmp_path: Path, environment: dict[str, str
     ],
 )
 def test_bad_input_ends_with_one_clear_line(
-    tmp_path: Path, environment: dict[str, str], image: str, options: str, said: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, image: str, options: str, said: str
 ) -> None:
     (tmp_path / "a.png").write_bytes(PICTURE)
-    command = [sys.executable, "-m", "shell.main", "tiny", image, "-o", "out", "--options", options]
-    ended = subprocess.run(command, env=environment, cwd=tmp_path, capture_output=True, text=True)
-    assert ended.returncode == 2
+    monkeypatch.chdir(tmp_path)
+    ended = told("tiny", image, "-o", "out", "--options", options)
+    assert ended.exit_code == 2
     assert ended.stdout == ""
     (line,) = ended.stderr.splitlines()
     assert line.startswith(f"Error: {said}")
@@ -209,18 +219,15 @@ def test_the_moments_of_a_video(tmp_path: Path, environment: dict[str, str]) -> 
         "wink.jpg",
     ]
     assert [one["name"] for one in json.loads((tmp_path / "moments.json").read_text())["moments"]] == ["wink"]
-    ended = galatea(environment | {"GALATEA_KINDS": "engine.kinds:KINDS"}, "moments", "none.mp4", "-o", tmp_path)
-    assert (ended.returncode, ended.stderr) == (2, "Error: driver: there is no file none.mp4\n")
+    ended = told("moments", "none.mp4", "-o", tmp_path)
+    assert (ended.exit_code, ended.stderr) == (2, "Error: driver: there is no file none.mp4\n")
 
 
-def test_a_motion_may_be_named_or_be_a_file(tmp_path: Path, environment: dict[str, str]) -> None:
-    kinds = {"GALATEA_KINDS": "engine.kinds:KINDS"}
+def test_a_motion_may_be_named_or_be_a_file(tmp_path: Path) -> None:
     (tmp_path / "photo.png").write_bytes(b"")
     for motion, said in (
         ("fly", "Input should be 'idle', 'walk'"),
         ("some/where.bvh", "there is no file some/where.bvh"),
     ):
-        ended = galatea(
-            environment | kinds, "character", tmp_path / "photo.png", "--motion", motion, "-o", tmp_path / "o"
-        )
-        assert ended.returncode == 2 and said in ended.stderr
+        ended = told("character", tmp_path / "photo.png", "--motion", motion, "-o", tmp_path / "o")
+        assert ended.exit_code == 2 and said in ended.stderr
