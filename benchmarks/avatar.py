@@ -25,7 +25,7 @@ from benchmarks.avatar_figures.sheet import avatar_sheet
 from benchmarks.presentation.contact_sheet import write_sheet
 from benchmarks.presentation.tables import machine, table
 from benchmarks.scan_studio.distance import Distances, MeasuredSurface, above, below, between_surfaces, measured_surface
-from benchmarks.scan_studio.rigged_glb import TexturedPart, read_in_clip
+from benchmarks.scan_studio.people.rigged_glb import TexturedPart, read_in_clip
 from benchmarks.scan_studio.truth import Truth, read_truth
 from engine.avatar.mesh import surface_of
 from engine.avatar.options import AvatarOptions

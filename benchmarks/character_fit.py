@@ -2,7 +2,7 @@
 
     python -m benchmarks.character_fit --store FOLDER [--only WORD] [--sheet PICTURE.png]
 
-Rigged people (`benchmarks.scan_studio.rigged_people`) are drawn into photographs in known poses, by a level camera from afar and
+Rigged people (`benchmarks.scan_studio.people.rigged_people`) are drawn into photographs in known poses, by a level camera from afar and
 by a telephone near by; real pictures are those of the test media. Figures and silhouettes are kept in `--store` and made where they
 lack, which takes minutes; fitting to them is what is measured.
 
@@ -31,8 +31,8 @@ from PIL import Image
 from benchmarks.character_figures.steps import options_for, pictures
 from benchmarks.presentation.contact_sheet import Picture, Row, at_height, contact_sheet, write_sheet
 from benchmarks.presentation.tables import machine, mean_row, table
+from benchmarks.scan_studio.people.rigged_people import ENDS
 from benchmarks.scan_studio.photographed import Truth, cases, feet, photograph
-from benchmarks.scan_studio.rigged_people import ENDS
 from engine.character.figure.figure import Choice, Figure, find_figure
 from engine.character.figure.silhouette import Silhouette, cut_out
 from engine.character.fit.template_fit import FittedBody, load_human

@@ -2,7 +2,7 @@
 
     python -m benchmarks.character_motion_truth [--only WORD] [--clip walk] [--back mirror] [--sheet PICTURE.png]
 
-A person of known shape (`benchmarks.scan_studio.rigged_people`) is drawn into a photograph of a place in a known pose. From that
+A person of known shape (`benchmarks.scan_studio.people.rigged_people`) is drawn into a photograph of a place in a known pose. From that
 picture alone the character is made, as for any user. Then both play the same clip, hips on hips and equally high, and eight
 views of twelve moments are compared.
 
@@ -33,9 +33,9 @@ from benchmarks.known_truth.known_places import places
 from benchmarks.known_truth.scanned_bodies import texture_painter
 from benchmarks.presentation.contact_sheet import Row, at_height, contact_sheet, write_sheet
 from benchmarks.presentation.tables import machine, mean_row, table
-from benchmarks.scan_studio.pictured_poses import POSES
-from benchmarks.scan_studio.rigged_people import ENDS, METRES, held_pose, read_rigged
-from benchmarks.scan_studio.scanned_people import RIGGED
+from benchmarks.scan_studio.people.pictured_poses import POSES
+from benchmarks.scan_studio.people.rigged_people import ENDS, METRES, held_pose, read_rigged
+from benchmarks.scan_studio.people.scanned_people import RIGGED
 from benchmarks.shared_media import media
 from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.character.fit.rest_skeleton import rest_skeleton

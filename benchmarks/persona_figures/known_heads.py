@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from benchmarks.known_truth.head_scan import read_head_scan
-from benchmarks.scan_studio.template_people import template_subject
+from benchmarks.scan_studio.people.template_people import template_subject
 from benchmarks.shared_media import media
 from engine.body.template import load_template
 from engine.geometry.surface import vertex_normals

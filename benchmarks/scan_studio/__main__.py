@@ -11,9 +11,9 @@ from pathlib import Path
 
 from benchmarks.scan_studio.conditions import CONDITIONS
 from benchmarks.scan_studio.film import CODINGS
+from benchmarks.scan_studio.people.subjects import SUBJECTS, subject_named
+from benchmarks.scan_studio.people.sway import USUAL_METRES
 from benchmarks.scan_studio.studio import Order, film
-from benchmarks.scan_studio.subjects import SUBJECTS, subject_named
-from benchmarks.scan_studio.sway import USUAL_METRES
 
 
 def _size(text: str) -> tuple[int, int]:

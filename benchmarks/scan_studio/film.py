@@ -15,7 +15,7 @@ from av.video.frame import VideoFrame
 from av.video.stream import VideoStream
 from numpy.typing import NDArray
 
-from benchmarks.scan_studio.developing import HLG_TRANSFER, hlg_frame, srgb_frame
+from benchmarks.scan_studio.camera.developing import HLG_TRANSFER, hlg_frame, srgb_frame
 from engine.media.ycbcr import BT709, BT2020, LIMITED_RANGE
 
 FilmFormat = Literal["h264", "hevc", "hlg"]

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from benchmarks.known_truth.known_person import PICTURE_SIZE, Person, draw_into, level_camera, telephone_camera
 from benchmarks.known_truth.known_places import places
 from benchmarks.known_truth.scanned_bodies import texture_painter
-from benchmarks.scan_studio.pictured_moments import PICTURED, pictured
-from benchmarks.scan_studio.rigged_people import METRES, read_rigged
+from benchmarks.scan_studio.people.pictured_moments import PICTURED, pictured
+from benchmarks.scan_studio.people.rigged_people import METRES, read_rigged
 from benchmarks.shared_media import media
 from engine.geometry.camera import Camera
 from engine.geometry.joint_names import SIDES

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.scan_studio.noise import picture_noise
+from benchmarks.scan_studio.camera.noise import picture_noise
 
 Texture = NDArray[np.float32]
 """(H, W, 3) sRGB from 0 to 255."""

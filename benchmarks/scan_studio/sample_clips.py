@@ -10,10 +10,10 @@ from itertools import islice
 from pathlib import Path
 
 from benchmarks.scan_studio.film import write_film
+from benchmarks.scan_studio.people.template_people import TEXTURE_SIZE, template_subject
 from benchmarks.scan_studio.room import furnished_room
 from benchmarks.scan_studio.scene import Scene
 from benchmarks.scan_studio.studio import Order, Take
-from benchmarks.scan_studio.template_people import TEXTURE_SIZE, template_subject
 from benchmarks.scan_studio.truth import Truth
 from engine.avatar.sample import SAMPLE_FRAMES
 from engine.package_data import package_folder

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.scan_studio.drawing import draw_over, empty_depths, textured_mesh
+from benchmarks.scan_studio.people.subject import Subject
 from benchmarks.scan_studio.room import Room
-from benchmarks.scan_studio.subject import Subject
 from engine.compiled import njit
 from engine.geometry.camera import Camera
 from engine.media.tone_mapping import srgb_light

@@ -9,14 +9,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.scan_studio.camera.path import BODY_SECONDS, HEAD_SECONDS, HandHeld
+from benchmarks.scan_studio.camera.sensor import Sensor
 from benchmarks.scan_studio.conditions import COMPANY_METRES, CONDITIONS, Conditions
 from benchmarks.scan_studio.film import FilmFormat, write_film
-from benchmarks.scan_studio.path import BODY_SECONDS, HEAD_SECONDS, HandHeld
+from benchmarks.scan_studio.people.subject import Subject
+from benchmarks.scan_studio.people.sway import USUAL_METRES, Stance, Sway
 from benchmarks.scan_studio.room import furnished_room
 from benchmarks.scan_studio.scene import Scene
-from benchmarks.scan_studio.sensor import Sensor
-from benchmarks.scan_studio.subject import Subject
-from benchmarks.scan_studio.sway import USUAL_METRES, Stance, Sway
 from benchmarks.scan_studio.truth import FilmTruth, Truth, write_truth
 
 

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from benchmarks.scan_studio.subject import Arm, Subject
-from benchmarks.scan_studio.sway import Stance
+from benchmarks.scan_studio.people.subject import Arm, Subject
+from benchmarks.scan_studio.people.sway import Stance
 from engine.geometry.camera import Camera
 from engine.media.image import read_image
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import trimesh
 
+from benchmarks.scan_studio.people.subject import Arm, Subject
 from benchmarks.scan_studio.room import Room, furnished_room
-from benchmarks.scan_studio.subject import Arm, Subject
 
 
 @pytest.fixture(scope="session")

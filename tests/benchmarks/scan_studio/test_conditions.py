@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.scan_studio.conditions import COMPANY_METRES, CONDITIONS
+from benchmarks.scan_studio.people.subject import Subject
 from benchmarks.scan_studio.room import Room
 from benchmarks.scan_studio.scene import Scene
 from benchmarks.scan_studio.studio import Order, Take
-from benchmarks.scan_studio.subject import Subject
 
 SIZE = (72, 128)
 

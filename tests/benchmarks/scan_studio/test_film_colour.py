@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from benchmarks.scan_studio.colour import cielab, film_colour_error
 from benchmarks.scan_studio.drawing import TexturedMesh, textured_mesh
+from benchmarks.scan_studio.people.subject import Subject
 from benchmarks.scan_studio.room import Room
 from benchmarks.scan_studio.scene import Scene
-from benchmarks.scan_studio.subject import Subject
 from engine.geometry.camera import Camera
 
 CAMERAS = [

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from benchmarks.scan_studio.developing import hlg_code
-from benchmarks.scan_studio.sensor import Sensor
+from benchmarks.scan_studio.camera.developing import hlg_code
+from benchmarks.scan_studio.camera.sensor import Sensor
+from benchmarks.scan_studio.people.subject import Subject
 from benchmarks.scan_studio.studio import Order, film
-from benchmarks.scan_studio.subject import Subject
 from benchmarks.scan_studio.truth import read_truth
 from engine.media.tone_mapping import hlg_scene_light
 from engine.media.video import probe_video, read_video

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from benchmarks.scan_studio.rigged_glb import TexturedPart, accessor_array, material_image, node_worlds
-from benchmarks.scan_studio.scanned_people import RIGGED, one_texture
+from benchmarks.scan_studio.people.rigged_glb import TexturedPart, accessor_array, material_image, node_worlds
+from benchmarks.scan_studio.people.scanned_people import RIGGED, one_texture
 from engine.body.rest_pose import T_POSE_DIRECTIONS, shortest_rotation
 from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from benchmarks.scan_studio.scanned_people import RIGGED, UNRIGGED, read_subject
-from benchmarks.scan_studio.subject import Subject
-from benchmarks.scan_studio.template_people import LOOKS, template_subject
+from benchmarks.scan_studio.people.scanned_people import RIGGED, UNRIGGED, read_subject
+from benchmarks.scan_studio.people.subject import Subject
+from benchmarks.scan_studio.people.template_people import LOOKS, template_subject
 from benchmarks.shared_media import media
 
 SUBJECTS = (*RIGGED, *UNRIGGED, *LOOKS)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.scan_studio.sway import SmoothCurve
+from benchmarks.scan_studio.people.sway import SmoothCurve
 from engine.compiled import njit
 
 EXPOSURE_DRIFT = 0.08

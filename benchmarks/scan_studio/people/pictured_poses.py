@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from benchmarks.scan_studio.rigged_people import Directions
+from benchmarks.scan_studio.people.rigged_people import Directions
 
 
 def _mirrored(directions: Directions) -> Directions:

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.scan_studio.scanned_people import RIGGED, SCANNED_HEIGHT, UNRIGGED, read_subject
-from benchmarks.scan_studio.subject import Subject
-from benchmarks.scan_studio.template_people import LIP_RGB, template_subject
+from benchmarks.scan_studio.people.scanned_people import RIGGED, SCANNED_HEIGHT, UNRIGGED, read_subject
+from benchmarks.scan_studio.people.subject import Subject
+from benchmarks.scan_studio.people.template_people import LIP_RGB, template_subject
 from engine.body.makehuman import read_mask
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig, load_template

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.scan_studio.pictured_poses import POSES
-from benchmarks.scan_studio.rigged_people import held_pose
+from benchmarks.scan_studio.people.pictured_poses import POSES
+from benchmarks.scan_studio.people.rigged_people import held_pose
 from engine.geometry.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.files.reading import read_motion

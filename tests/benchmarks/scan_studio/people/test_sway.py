@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks.scan_studio.subject import Subject
-from benchmarks.scan_studio.sway import ARM_METRES, CHEST_SHARE, SmoothCurve, Sway
+from benchmarks.scan_studio.people.subject import Subject
+from benchmarks.scan_studio.people.sway import ARM_METRES, CHEST_SHARE, SmoothCurve, Sway
 
 MOMENTS = np.linspace(0, 80, 400)
 

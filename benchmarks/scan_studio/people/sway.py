@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
-from benchmarks.scan_studio.subject import Subject
+from benchmarks.scan_studio.people.subject import Subject
 
 CHEST_SHARE = 0.72
 """Share of the height at which the sway is as far as it is said to be."""

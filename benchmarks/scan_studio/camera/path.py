@@ -10,8 +10,8 @@ from scipy.interpolate import PchipInterpolator
 from scipy.spatial.transform import Rotation
 
 from benchmarks.scan_studio.conditions import CONDITIONS, Conditions
-from benchmarks.scan_studio.subject import Subject
-from benchmarks.scan_studio.sway import CYCLES, SmoothCurve
+from benchmarks.scan_studio.people.subject import Subject
+from benchmarks.scan_studio.people.sway import CYCLES, SmoothCurve
 from engine.geometry.camera import Camera
 
 FOCAL_SHARE = 0.85

@@ -11,8 +11,8 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from benchmarks.scan_studio.rigged_glb import TexturedPart, read_in_a_pose
-from benchmarks.scan_studio.subject import Arm, Subject, room_light
+from benchmarks.scan_studio.people.rigged_glb import TexturedPart, read_in_a_pose
+from benchmarks.scan_studio.people.subject import Arm, Subject, room_light
 from engine.geometry.surface import vertex_normals
 from engine.geometry.welding import same_rows
 

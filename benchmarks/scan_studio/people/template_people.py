@@ -16,8 +16,8 @@ from scipy.spatial import cKDTree
 
 from benchmarks.known_truth.dressed_template import EYE_WHITE_RGB, IRIS_RGB, Look, Turns, dress
 from benchmarks.known_truth.known_person import Person
-from benchmarks.scan_studio.noise import space_noise
-from benchmarks.scan_studio.subject import Arm, Subject, room_light
+from benchmarks.scan_studio.camera.noise import space_noise
+from benchmarks.scan_studio.people.subject import Arm, Subject, room_light
 from engine.body.body_space import load_body_space
 from engine.body.face.face_points import face_points
 from engine.body.makehuman import read_mask

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from benchmarks.scan_studio.path import BREATHING, FOCAL_SHARE, HandHeld
-from benchmarks.scan_studio.subject import Subject
+from benchmarks.scan_studio.camera.path import BREATHING, FOCAL_SHARE, HandHeld
+from benchmarks.scan_studio.people.subject import Subject
 
 
 def _filmed(egg: Subject, head: bool) -> tuple[np.ndarray, np.ndarray, HandHeld]:
