@@ -14,7 +14,6 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
-import pg8000
 from sqlalchemy import URL, Dialect, NullPool, create_engine, event, text
 from sqlalchemy.engine import Connection, Engine, ExceptionContext, make_url
 from sqlalchemy.exc import IntegrityError
@@ -110,7 +109,9 @@ def engine(url: str, connections: int) -> Engine:
         try:
             return dialect.connect(*positional, **named)
         except OSError as error:  # pg8000 lets some through, which then nobody takes for a fault of the database
-            raise pg8000.InterfaceError(f"network error: {error}") from error
+            from pg8000 import InterfaceError  # whoever has SQLite does without
+
+            raise InterfaceError(f"network error: {error}") from error
 
     @event.listens_for(made, "connect")
     def prepare(connection: Any, _: Any) -> None:

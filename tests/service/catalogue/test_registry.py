@@ -41,3 +41,4 @@ def test_kinds_are_known_without_the_libraries_that_do_their_work() -> None:
     assert int(said[0]) == len(KINDS) and "sqlalchemy" in said
     working = {"av", "cv2", "mediapipe", "numba", "onnxruntime", "PIL", "pxr", "pygltflib", "scipy", "trimesh"}
     assert not working & set(said)
+    assert "pg8000" not in said, "nobody has named a PostgreSQL"
