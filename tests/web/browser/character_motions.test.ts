@@ -1,5 +1,6 @@
 /** Which joint of a motion moves which of a character's: shown and said otherwise, before a job, in a revision, after a failure. */
 
+import './characters_only';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -7,10 +8,10 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints } from './complaints';
 import { accepted, isOrder, launchIn3D, openCorrections, openStill, revised } from './character_kit';
-import { LIGHT, LONG } from './jobs';
+import { LONG } from './jobs';
 import { lacks } from './lacks';
 import { inPython, media } from './media';
-import { address, somebody } from './own_service';
+import { address, finished, somebody } from './own_service';
 import { ask } from './page';
 
 /** A motion of the tests' own, one that is nobody's, and the names that the engine has. */
@@ -67,14 +68,11 @@ const table = (page: Page) => page.getByText('Joints of the motion');
 const mover = (page: Page, joint: string) => page.getByRole('combobox', { name: joint, exact: true });
 const wanting = (page: Page) => page.getByRole('status').filter({ hasText: 'These joints are required' });
 
-/** A character that moves by a file. */
+/** The finished character, moved by a file. */
 async function moving(motion: string): Promise<string> {
   const body = new FormData();
-  body.append('kind', 'character');
-  body.append('photo', new File([readFileSync(somebody)], 'somebody.png'));
   body.append('motion', new File([readFileSync(motion)], 'motion.bvh'));
-  body.append('options', JSON.stringify(LIGHT));
-  const response = await fetch(`${address}/v1/jobs`, { method: 'POST', body });
+  const response = await fetch(`${address}/v1/jobs/${finished.character}/revisions`, { method: 'POST', body });
   return ((await response.json()) as { id: string }).id;
 }
 

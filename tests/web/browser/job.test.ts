@@ -191,7 +191,7 @@ describe('a job on its way', () => {
 
 describe('a broken line', () => {
   it('is told, and mends itself', async () => {
-    const { page, begin } = await openWaiting(browser, 'wink');
+    const { page, begin } = await openWaiting(browser, 'happy');
     await page.context().setOffline(true);
     await page.evaluate(() => dispatchEvent(new Event('offline')));
     await page.getByText('Connection lost').waitFor();

@@ -1,5 +1,6 @@
 /** A portrait that is made and played on demand, all on the page. */
 
+import './nobody_works';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, it } from 'vitest';
 import { complaints } from './complaints';

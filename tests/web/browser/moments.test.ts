@@ -1,3 +1,4 @@
+import './moments_only';
 import type { Browser } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
 import { complaints } from './complaints';

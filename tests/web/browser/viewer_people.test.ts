@@ -1,5 +1,6 @@
 /** Several people who were woken together: all where they stood, or one of them. */
 
+import './characters_only';
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
 import { ask } from './page';
