@@ -16,7 +16,7 @@ from running import Running
 
 from engine.character.sample import sample_picture
 
-OPTIONS = {"seconds": 1, "fps": 12, "triangles": 10_000, "vrm": True, "lit": True}
+OPTIONS = {"seconds": 1, "fps": 12, "size": [192, 256], "triangles": 10_000, "vrm": True, "lit": True}
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +34,7 @@ def uploaded(service: Running, name: str, content: bytes) -> dict[str, Any]:
 @pytest.fixture(scope="module")
 def photo(service: Running) -> str:
     file = BytesIO()
-    Image.fromarray(sample_picture()).save(file, "PNG")
+    Image.fromarray(sample_picture(300)).save(file, "PNG")
     return uploaded(service, "photo.png", file.getvalue())["id"]
 
 
@@ -78,7 +78,7 @@ def test_a_mask_painted_by_hand_and_a_joint_correct_what_was_found(service: Runn
     address = f"/v1/jobs/{made['id']}/revisions"
     found = picture_of(service, made, "mask.png")
     columns = np.flatnonzero((found > 128).any(axis=0))
-    edge = int(columns[0]) + 12
+    edge = int(columns[0]) + 6
     assert (found[:, :edge] > 128).sum() > 50
     painted = found.copy()
     painted[:, :edge] = 0
@@ -86,17 +86,17 @@ def test_a_mask_painted_by_hand_and_a_joint_correct_what_was_found(service: Runn
     def corrected(mask: np.ndarray) -> dict[str, Any]:
         file = BytesIO()
         Image.fromarray(mask).save(file, "PNG")
-        form = {"corrections": '{"joints": {"LeftElbow": [300.0, 290.0]}}', "options": '{"vrm": null, "lit": null}'}
+        form = {"corrections": '{"joints": {"LeftElbow": [150.0, 145.0]}}', "options": '{"vrm": null, "lit": null}'}
         sent = service.client.post(address, data=form, files={"mask": ("mask.png", file.getvalue())})
         return service.until(sent.raise_for_status().json()["id"], "succeeded", "failed", seconds=300)
 
     revised = corrected(painted)
     assert revised["error"] is None and set(revised["inputs"]) == {*made["inputs"], "mask"}
     again = picture_of(service, revised, "mask.png")
-    assert (again[:, : edge - 3] > 128).sum() == 0
+    assert (again[:, : edge - 2] > 128).sum() == 0
     assert np.mean(again[:, edge:] > 128) > 0.9 * np.mean(found[:, edge:] > 128)
     skeleton = service.client.get(revised["artifacts"]["skeleton.json"]["url"]).json()
-    assert skeleton["joints"]["LeftElbow"] == {"place": [300.0, 290.0], "confidence": 1.0}
+    assert skeleton["joints"]["LeftElbow"] == {"place": [150.0, 145.0], "confidence": 1.0}
     assert corrected(painted[:-7])["error"]["code"] == "mask_size"
 
 

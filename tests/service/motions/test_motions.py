@@ -79,7 +79,7 @@ def mine(service: Running) -> dict[str, Any]:
 @pytest.fixture
 def photo(service: Running) -> str:
     file = BytesIO()
-    Image.fromarray(sample_picture()).save(file, "PNG")
+    Image.fromarray(sample_picture(300)).save(file, "PNG")
     return service.client.post("/v1/files", files={"file": ("p.png", file.getvalue())}).json()["id"]
 
 
