@@ -105,17 +105,20 @@ def _at_the_surfaces_pace(
         np.asarray(cv2.Sobel(soft, cv2.CV_32F, *axis, ksize=3, scale=1 / 8), np.float32) for axis in ((1, 0), (0, 1))
     ]
     way, reached = [start], [_sampled(soft, start)]
-    going = np.ones(len(start), np.bool_)
+    going = np.arange(len(start))
     for _ in range(MAX_DESCENT_STEPS):
-        towards = np.stack([_sampled(one, way[-1]) for one in slope], 1)
+        here = way[-1][going]
+        towards = np.stack([_sampled(one, here) for one in slope], 1)
         towards /= np.maximum(np.linalg.norm(towards, axis=1, keepdims=True), 1e-6)
-        ahead = way[-1] + DESCENT_STEP_PIXELS * towards
+        ahead = here + DESCENT_STEP_PIXELS * towards
         there = _sampled(soft, ahead)
-        going &= there - reached[-1] > MIN_DISTANCE_SLOPE * DESCENT_STEP_PIXELS
-        if not going.any():
+        further = there - reached[-1][going] > MIN_DISTANCE_SLOPE * DESCENT_STEP_PIXELS
+        going = going[further]
+        if not len(going):
             break
-        way.append(np.where(going[:, None], ahead, way[-1]))
-        reached.append(np.where(going, there, reached[-1]))
+        way.append(way[-1].copy())
+        reached.append(reached[-1].copy())
+        way[-1][going], reached[-1][going] = ahead[further], there[further]
     places, depths = np.stack(way), np.stack(reached)
     first, thick = depths[0], np.maximum(depths[-1], 1e-6)
     behind = np.arccos(np.clip(1 - np.maximum(first, 0) / thick, -1, 1))
