@@ -28,7 +28,7 @@ from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_
 from engine.face_animation.motion_transfer.head_proxy import HeadProxy, build_head_proxy, chin_length, move_head
 from engine.face_animation.motion_transfer.head_room import hold_back, skull_shift, turned_in_picture
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
-from engine.face_animation.motion_transfer.lids_and_lips import constrain_lids_and_lips, lid_ratio, shut_lids
+from engine.face_animation.motion_transfer.lids_and_lips import close_lids, constrain_lids_and_lips, lid_ratio
 from engine.face_animation.motion_transfer.pose_refinement import refine_pose
 from engine.face_animation.motion_transfer.turned_expression import even_out_turned
 from engine.face_animation.mouth.closing import ClosingLips
@@ -136,7 +136,7 @@ class MotionTransfer:
             placed = self._corrected(frames, face[..., :2] + plane_share(target)[:, None] * plane)
             rigid = solid[:, :MESH_SIZE, :2]
             placed = rigid + self._even @ (placed - rigid)
-            shut_lids(placed, rigid, ratio)
+            close_lids(placed, rigid, ratio)
             offsets[:, MESH_SIZE:] = self._around_face(frames, motion, held, proxy, solid[..., :2], placed)
         offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
         return offsets, depths, look

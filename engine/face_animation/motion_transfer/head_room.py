@@ -88,7 +88,7 @@ def soft_limit(
 
 def limit_rotation(rotation: NDArray[np.float64], turned: tuple[float, float] = (0.0, 0.0)) -> NDArray[np.float64]:
     """Rotations (N, 3, 3) with turns out of the picture plane held back softly to `LARGEST_TURN`, for a face that its picture shows `turned` out of
-    it, about x and y, radians: it has less room to the side to which it is turned, and less to turn back (`turn_back`)."""
+    it, about x and y, radians: it has less room to the side to which it is turned, and less to turn back (`max_counter_rotation`)."""
     limited = rotation.copy()
     own = np.asarray(turned)
     for i, r in enumerate(rotation):
@@ -99,7 +99,7 @@ def limit_rotation(rotation: NDArray[np.float64], turned: tuple[float, float] = 
         along = float(own @ vector[:2]) / turn
         aside = float(own @ own) - along**2
         reach = np.sqrt(max(LARGEST_TURN**2 - aside, 0.0)) - along  # to where it would be turned by the largest
-        largest = float(np.clip(min(reach, turn_back(-along)), MIN_TURN_RADIANS, LARGEST_TURN))
+        largest = float(np.clip(min(reach, max_counter_rotation(-along)), MIN_TURN_RADIANS, LARGEST_TURN))
         start = FREE_TURN_SHARE * largest
         if turn > start:
             vector[:2] *= (start + (largest - start) * np.tanh((turn - start) / (largest - start))) / turn
@@ -107,9 +107,9 @@ def limit_rotation(rotation: NDArray[np.float64], turned: tuple[float, float] = 
     return limited
 
 
-def turn_back(turned: float) -> float:
-    """How far a face may turn back, radians, that its picture shows `turned` aside: until the side that it turns away there is stretched by
-    `MAX_STRETCH_RATIO`."""
+def max_counter_rotation(turned: float) -> float:
+    """How far a face may turn against the way it is turned in its picture, radians. `turned`: how far that is, radians. The limit is where the
+    side that faces away in the picture is stretched by `MAX_STRETCH_RATIO`."""
     slant = min(SIDE_SLANT + max(turned, 0.0), np.pi / 2)
     return float(slant - np.arccos(np.clip(MAX_STRETCH_RATIO * np.cos(slant), 0, 1)))
 

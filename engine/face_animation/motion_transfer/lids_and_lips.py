@@ -105,7 +105,7 @@ def constrain_lids_and_lips(
     return out
 
 
-def shut_lids(placed: NDArray[np.floating], rigid: NDArray[np.floating], ratio: NDArray[np.floating]) -> None:
+def close_lids(placed: NDArray[np.floating], rigid: NDArray[np.floating], ratio: NDArray[np.floating]) -> None:
     """Have lids that shut meet where the face ended up, in place: what evens out a contour or corrects a point may have parted them again, most of
     all in an eye that its picture shows at a slant.
 

@@ -20,8 +20,8 @@ from engine.face_animation.motion_transfer.head_room import (
     LARGEST_TURN,
     MIN_TURN_RADIANS,
     limit_rotation,
+    max_counter_rotation,
     skull_centre,
-    turn_back,
     turned_in_picture,
 )
 from engine.perception.head_pose import canonical_face
@@ -170,7 +170,7 @@ def test_a_face_that_is_turned_has_less_room_to_that_side_and_a_little_more_to_t
     further, back = limit_rotation(np.stack([turn(yaw=40), turn(yaw=-40)])[::-side], own)
     angles = [float(np.rad2deg(np.linalg.norm(cv2.Rodrigues(r)[0]))) for r in (further, back)]
     assert angles[0] == pytest.approx(np.rad2deg(MIN_TURN_RADIANS), rel=0.02)
-    assert angles[1] == pytest.approx(np.rad2deg(turn_back(np.deg2rad(20))), rel=0.02)
+    assert angles[1] == pytest.approx(np.rad2deg(max_counter_rotation(np.deg2rad(20))), rel=0.02)
 
 
 def test_how_a_face_is_turned_in_its_picture() -> None:

@@ -19,9 +19,9 @@ from engine.face_animation.motion_transfer.head_room import (
     head_room,
     hold_back,
     limit_rotation,
+    max_counter_rotation,
     skull_shift,
     soft_limit,
-    turn_back,
 )
 from engine.perception.landmarks import FACE_OVAL
 
@@ -91,7 +91,7 @@ def test_large_motion_saturates_and_the_expression_stays(face: NDArray) -> None:
 def test_a_face_that_turns_back_stretches_its_far_side_by_so_much(turned: float) -> None:
     """A patch that slants by an angle is as wide as its cosine; it cannot be wider than seen from the front."""
     own = np.deg2rad(turned)
-    stretch = np.cos(SIDE_SLANT + own - turn_back(own)) / np.cos(SIDE_SLANT + own)
+    stretch = np.cos(SIDE_SLANT + own - max_counter_rotation(own)) / np.cos(SIDE_SLANT + own)
     assert stretch == pytest.approx(min(MAX_STRETCH_RATIO, 1 / np.cos(SIDE_SLANT + own)))
 
 
@@ -104,5 +104,5 @@ def test_turns_end_where_the_picture_shows_no_more(turned: float) -> None:
         rotations = np.stack([cv2.Rodrigues(np.array([0.0, angle, 0.0]))[0] for angle in wanted])
         held = side * np.array([cv2.Rodrigues(r)[0][1, 0] for r in limit_rotation(rotations, (0.0, own))])
         assert (np.diff(held) > -1e-6).all()
-        most = min(turn_back(abs(own)), LARGEST_TURN) if side * own < 0 else LARGEST_TURN - abs(own)
+        most = min(max_counter_rotation(abs(own)), LARGEST_TURN) if side * own < 0 else LARGEST_TURN - abs(own)
         assert held[-1] <= max(most, MIN_TURN_RADIANS) + 1e-6

@@ -12,9 +12,9 @@ from engine.face_animation.motion_transfer.lids_and_lips import (
     LID_PAIRS,
     MAX_GAP_RATIO,
     OPEN_GAP_SHARE,
+    close_lids,
     constrain_lids_and_lips,
     lid_ratio,
-    shut_lids,
 )
 from engine.perception.head_pose import canonical_face, mirror_vertices
 from engine.perception.landmarks import eye_opening
@@ -185,7 +185,7 @@ def test_shut_lids_meet_wherever_the_face_ended_up(target: NDArray, ratio: float
     parted = rigid + np.random.default_rng(4).normal(scale=2.0, size=rigid.shape)
     upper, lower = np.array(LID_PAIRS).T
     placed = parted.copy()
-    shut_lids(placed, rigid, np.full((1, 14), ratio))
+    close_lids(placed, rigid, np.full((1, 14), ratio))
     if ratio == 0:
         np.testing.assert_allclose(placed[:, upper], parted[:, lower])
     if ratio >= OPEN_GAP_SHARE:
