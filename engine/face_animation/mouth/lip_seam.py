@@ -14,13 +14,13 @@ from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.smoothstep import smoothstep
 from engine.perception.landmarks import LIPS_INNER, eye_distance, mouth_opening
 
-MEETING = (0.012, 0.05)
+MEETING_OPENINGS = (0.012, 0.05)
 """Openings of a mouth, its gap over its width, up to which its lips have met, and from which on they have not."""
-WIDTH, SOFTNESS, LEAST_PIXELS = 0.03, 0.01, 0.8
+SEAM_WIDTH_EYE_DISTANCES, SEAM_SOFTNESS_EYE_DISTANCES, MIN_SEAM_PIXELS = 0.03, 0.01, 0.8
 """Eye distances, of the line and of its edges, and pixels that either has at least."""
-DARKNESS = 0.42
+SEAM_LIGHT_SHARE = 0.42
 """Of the lips' light, that is left between them."""
-TAPER = (0.2, 0.4, 0.7, 0.9, 1.0, 1.0, 1.0, 0.9, 0.7, 0.4, 0.2)
+WIDTH_SHARES = (0.2, 0.4, 0.7, 0.9, 1.0, 1.0, 1.0, 0.9, 0.7, 0.4, 0.2)
 """Of its width, that the line has from corner to corner."""
 
 
@@ -28,7 +28,7 @@ class LipSeam:
     """`MouthInterior` of parted lips: `inside`, and as they close a line in the lips' `colour` (3,), darkened."""
 
     def __init__(self, inside: MouthInterior, colour: NDArray[np.floating]):
-        self.inside, self._colour = inside, DARKNESS * np.asarray(colour, np.float32)
+        self.inside, self._colour = inside, SEAM_LIGHT_SHARE * np.asarray(colour, np.float32)
 
     def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], driver_frame: int) -> None:
         """As `MouthInterior.draw`."""
@@ -36,7 +36,9 @@ class LipSeam:
         if share < 1:
             self.inside.draw(frame, face, driver_frame)
         unit = float(eye_distance(face))
-        width, soft = (max(one * unit, LEAST_PIXELS) for one in (WIDTH, SOFTNESS))
+        width, soft = (
+            max(one * unit, MIN_SEAM_PIXELS) for one in (SEAM_WIDTH_EYE_DISTANCES, SEAM_SOFTNESS_EYE_DISTANCES)
+        )
         box = box_around(face[list(LIPS_INNER), :2].astype(np.float32), frame.shape[:2])
         if share == 0 or box is None:
             return
@@ -50,7 +52,7 @@ class LipSeam:
 
 def met_share(opening: float) -> float:
     """How far the lips of a mouth of this opening have met."""
-    return 1 - float(smoothstep(opening, *MEETING))
+    return 1 - float(smoothstep(opening, *MEETING_OPENINGS))
 
 
 def seam(face: NDArray[np.floating], width: float) -> NDArray[np.float64]:
@@ -59,5 +61,5 @@ def seam(face: NDArray[np.floating], width: float) -> NDArray[np.float64]:
     middle, half = (upper + lower) / 2, np.linalg.norm(lower - upper, axis=1) / 2
     across = middle[-1] - middle[0]
     down = np.array([-across[1], across[0]]) / max(float(np.linalg.norm(across)), 1e-6)
-    reach = np.maximum(half, np.array(TAPER) * width / 2)[:, None] * down
+    reach = np.maximum(half, np.array(WIDTH_SHARES) * width / 2)[:, None] * down
     return np.concatenate([middle - reach, (middle + reach)[::-1]])

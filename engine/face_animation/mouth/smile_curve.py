@@ -26,10 +26,10 @@ CORNER_VERTICES = (61, 76, 62, 78, 291, 306, 292, 308)
 LIPS_MIDDLE = (0, 13, 14, 17)
 BROW_VERTEX, CHIN_VERTEX = 10, 152
 """Where the face's axis begins and ends."""
-WIDER, HIGHER = (0.03, 0.12), (0.02, 0.07)
+WIDENING_SHARES, RISE_SHARES = (0.03, 0.12), (0.02, 0.07)
 """By how much of its width at rest a mouth gets wider and its corners higher, from which on it smiles, and fully: both together, for lips that
 are drawn wide alone say e, or are afraid."""
-MOST_LIFT = 0.16
+MAX_LIFT_SHARE = 0.16
 """Of the mouth's width, by which its corners are raised beside what the driver's are, at most."""
 
 
@@ -46,7 +46,7 @@ class SmileCurve:
         smiles, in place; `strength` in [0, 1]."""
         share = strength * smile_share(meshes, self._rest)
         lower = corner_height(meshes, _up(self._rest)) - corner_height(positions, _up(self._target))
-        lift = share * np.clip(lower, 0, MOST_LIFT) * _width(positions)
+        lift = share * np.clip(lower, 0, MAX_LIFT_SHARE) * _width(positions)
         positions[..., :2] += lift[:, None, None] * corner_influence()[:, None] * _up(self._target)
 
 
@@ -63,7 +63,7 @@ def smile_share(meshes: NDArray[np.floating], rest: NDArray[np.floating]) -> NDA
     usual = rest[:, :2].astype(float)
     wider = np.linalg.norm(left - right, axis=1) / _width(usual) - 1
     higher = ((right + left) / 2 - usual[list(CORNERS)].mean(axis=0)) @ _up(usual) / _width(usual)
-    return smoothstep(wider, *WIDER) * smoothstep(higher, *HIGHER)
+    return smoothstep(wider, *WIDENING_SHARES) * smoothstep(higher, *RISE_SHARES)
 
 
 @cache

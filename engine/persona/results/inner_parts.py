@@ -12,7 +12,7 @@ from scipy.ndimage import maximum_filter1d, uniform_filter1d
 from engine.face_animation.mouth.modelled.jaw import CHIN
 from engine.face_animation.mouth.modelled.modelled_mouth import jaw_behind_lips
 from engine.face_animation.mouth.modelled.mouth_parts import (
-    TONGUE_SHARE,
+    TONGUE_JAW_SHARE,
     bag_surface,
     modelled_teeth,
     mouth_bag,
@@ -108,8 +108,8 @@ def _mouth(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
         upper = InnerPart("upper_teeth", *sheet._replace(vertices=bent))
     row, flesh = modelled_teeth(at, False), tongue(at)
     lower = _set_back(row.vertices, skin, with_jaw(row.vertices))
-    lying = _set_back(flesh.vertices, skin, with_jaw(flesh.vertices, TONGUE_SHARE))
-    out = {"tongueOut": tongue_put_out(), **with_jaw(lying, TONGUE_SHARE)}
+    lying = _set_back(flesh.vertices, skin, with_jaw(flesh.vertices, TONGUE_JAW_SHARE))
+    out = {"tongueOut": tongue_put_out(), **with_jaw(lying, TONGUE_JAW_SHARE)}
     triangles, uv = bag_surface()
     lips = puppet.vertices(persona.neutral)[list(LIPS_INNER)] + LAYER_GAP
     bag = mouth_bag(lips, BAG_DEEPER)

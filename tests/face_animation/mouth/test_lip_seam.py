@@ -7,7 +7,7 @@ import pytest
 from made_face import opened, placed
 from numpy.typing import NDArray
 
-from engine.face_animation.mouth.lip_seam import DARKNESS, MEETING, LipSeam, met_share
+from engine.face_animation.mouth.lip_seam import MEETING_OPENINGS, SEAM_LIGHT_SHARE, LipSeam, met_share
 
 LIPS = np.array([180.0, 100, 100])
 
@@ -29,7 +29,7 @@ def drawn(opening: float) -> tuple[NDArray[np.uint8], NDArray]:
 def test_closed_lips_have_a_line_and_no_inside() -> None:
     frame, face = drawn(0.0)
     x, y = face[[13, 14]].mean(axis=0).round().astype(int)
-    np.testing.assert_allclose(frame[y, x], DARKNESS * LIPS, atol=12)
+    np.testing.assert_allclose(frame[y, x], SEAM_LIGHT_SHARE * LIPS, atol=12)
     assert (frame < 121).all()
     np.testing.assert_array_equal(frame[y + 12, x], 120)
 
@@ -43,4 +43,4 @@ def test_the_line_comes_with_the_closing() -> None:
     shares = [met_share(opening) for opening in np.linspace(0, 0.1, 21)]
     assert shares[0] == 1 and shares[-1] == 0
     assert (np.diff(shares) <= 0).all()
-    assert met_share(sum(MEETING) / 2) == pytest.approx(0.5)
+    assert met_share(sum(MEETING_OPENINGS) / 2) == pytest.approx(0.5)

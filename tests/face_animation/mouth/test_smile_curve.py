@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.mouth.smile_curve import (
     CORNERS,
-    MOST_LIFT,
+    MAX_LIFT_SHARE,
     SmileCurve,
     corner_height,
     corner_influence,
@@ -49,7 +49,7 @@ def test_a_full_smile_raises_hanging_corners_to_the_driver_s() -> None:
 def test_no_more_than_so_much_is_added() -> None:
     rest = placed(60)
     sad = hanging(placed(90), 0.3)
-    assert height(acted(sad, rest, smiling(rest, 0.5))) - height(sad) < MOST_LIFT + 0.01
+    assert height(acted(sad, rest, smiling(rest, 0.5))) - height(sad) < MAX_LIFT_SHARE + 0.01
 
 
 def test_nothing_but_a_smile_raises_corners() -> None:

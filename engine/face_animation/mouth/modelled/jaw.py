@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 CHIN = (152, 148, 377, 176, 400, 175, 199)
 HINGE = (234, 454)
 """Before the ears."""
-MAX_ANGLE = 0.9
+MAX_JAW_RADIANS = 0.9
 """Radians: farther than jaws open, since faces are carried over to others whose chins are shorter."""
-ROUNDS = 3
+NEWTON_STEPS = 3
 """Of Newton's."""
 LOWER_LIP = 14
 """The middle of the inner one."""
@@ -54,7 +54,7 @@ def _angle(point: NDArray[np.float64], height: float, hinge: NDArray[np.float64]
     """Radians by which the jaw is open where a point (3,) of it is at a `height`."""
     down, forward = point[1] - hinge[0], hinge[1] - point[2]
     angle = 0.0
-    for _ in range(ROUNDS):
+    for _ in range(NEWTON_STEPS):
         off = down * np.cos(angle) + forward * np.sin(angle) - (height - hinge[0])
         angle -= off / max(forward * np.cos(angle) - down * np.sin(angle), 0.3 * forward)
-    return float(np.clip(angle, 0, MAX_ANGLE))
+    return float(np.clip(angle, 0, MAX_JAW_RADIANS))

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from engine.face_animation.mouth.lip_contours import box_around, soft_polygon
 from engine.face_animation.mouth.modelled.jaw import Jaw, held_between, jaw_of
-from engine.face_animation.mouth.modelled.mouth_colours import RAMP, MouthColours
+from engine.face_animation.mouth.modelled.mouth_colours import RAMP_PIXELS, MouthColours
 from engine.face_animation.mouth.modelled.mouth_light import mouth_light
 from engine.face_animation.mouth.modelled.mouth_parts import (
-    OVERBITE,
-    OVERJET,
-    TONGUE_SHARE,
+    OVERBITE_EYE_DISTANCES,
+    OVERJET_EYE_DISTANCES,
+    TONGUE_JAW_SHARE,
     bag_surface,
     modelled_teeth,
     mouth_bag,
@@ -30,42 +30,42 @@ from engine.render.mipmap import build_mipmap
 from engine.render.scratch import Scratch
 from engine.render.surface import Surface, draw_surface, triangle_spread
 
-LIP_SOFTNESS, LEAST_SOFT_PIXELS = 0.012, 0.8
+LIP_SOFTNESS_EYE_DISTANCES, MIN_LIP_SOFTNESS_PIXELS = 0.012, 0.8
 """Eye distances, and pixels, over which the inside passes into the lips: their edges are round, and the mesh's have corners."""
-AMBIENT, TEETH_AMBIENT = 0.75, 0.52
+AMBIENT_LIGHT_SHARE, TEETH_AMBIENT_LIGHT_SHARE = 0.75, 0.52
 """Of the light on a surface, that it has wherever it faces; and on teeth, whose crowns are told apart by it."""
-DARKENING, ROW_DARKENING = 0.9, 0.45
+TONGUE_FALLOFF_EYE_DISTANCES, TEETH_FALLOFF_EYE_DISTANCES = 0.9, 0.45
 """Eye distances behind the upper teeth at which a third of the light is left, on the tongue and on teeth: cheeks are beside these."""
 INCISORS_SHARE = 0.25
 """Of the teeth, which are the foremost."""
 LIGHTEST_PERCENTILE = 80
 """Of the light on incisors, that which their colours are of."""
 UPPER_LIP_MIDDLE = 13
-LOWER_MIDDLE, ABOVE_LIP, BELOW_LIP = 14, 0.03, 0.05
+LOWER_MIDDLE, ABOVE_LIP_EYE_DISTANCES, BELOW_LIP_EYE_DISTANCES = 14, 0.03, 0.05
 """The middle of the lower inner lip, and eye distances above and below it between which lower teeth end: where a face opens its mouth farther or
 less far than its chin tells, they go along, and neither stand in the middle of a mouth nor leave it empty."""
-BARING_ANGLES = (0.12, 0.28)
+BARING_JAW_RADIANS = (0.12, 0.28)
 """Radians of the jaw up to which the lower lip hides the lower teeth, as it does when people smile, and from which on it lets them be seen."""
-DEEPER = 2.5
+BAG_DEPTH_FACTOR = 2.5
 """The bag than in the model: a tongue lies in it wherever the jaw is."""
-FLATTENED = 0.45
+DEPTH_SHARE = 0.45
 """Of depths behind the upper teeth, by which things are seen higher or lower: how far a head is bent forward or back is known to some degrees
 only, and in true depth these decide whether a tongue is seen at all. To the sides they count wholly: rows of teeth turn with the lips."""
-MOST_CROWN = 0.17
+MAX_CROWN_EYE_DISTANCES = 0.17
 """Eye distances of the upper row that are seen below the middle of the upper lip, at most: where a lip is drawn up farther than its person's
 would be, the row goes along, and no more of its gum is bared."""
-ROUNDED_FROM, ROUNDED_CROWN = 0.05, 0.6
+ROUNDED_NARROWING_SHARE, ROUNDED_CROWN_EYE_DISTANCES = 0.05, 0.6
 """Share of its width by which a mouth is narrower than at rest from which on its lips are rounded, and eye distances of the upper row that they
 cover for all of it: lips that say O are pushed forward over the teeth, though their edges are as high as in a smile."""
-APPEARING = 0.03
+APPEARING_OPENING_RANGE = 0.03
 """By how much a mouth opens while its inside appears."""
-DISTANCE = 4096.0
+CAMERA_DISTANCE_PIXELS = 4096.0
 """Pixels from the eye: so far off that nearer parts are no larger."""
-FRAME = np.concatenate([np.zeros((1, 3)), np.eye(3)])
+AFFINE_FRAME = np.concatenate([np.zeros((1, 3)), np.eye(3)])
 """What a part's places follow from, since each part moves as a whole: the origin, and a step along each axis."""
-SAMPLES = 2
+SAMPLES_PER_PIXEL = 2
 """To a pixel, along each axis, where outlines run: the inside is softened by the lips around it."""
-CLOSED = 0.01
+CLOSED_OPENING = 0.01
 """Opening of a mouth of which nothing is seen."""
 
 
@@ -101,19 +101,19 @@ class ModelledMouth:
         inner = face[list(LIPS_INNER), :2].astype(np.float32)
         box = box_around(inner, frame.shape[:2])
         share = shown_share(face, self._appearing)
-        if box is None or share == 0 or float(mouth_opening(face)) < CLOSED or cv2.contourArea(inner) < 1:
+        if box is None or share == 0 or float(mouth_opening(face)) < CLOSED_OPENING or cv2.contourArea(inner) < 1:
             return
         x0, y0, x1, y1 = box
         shape, corner = (y1 - y0, x1 - x0), np.array([x0, y0], np.float32)
         points = self.places(face) - (x0, y0, 0)
         inside = np.zeros((*shape, 3), np.uint8)
-        inside[:] = self._textures[-1][RAMP[1] // 2, -1]
-        draw_surface(inside, False, self._surface, points.astype(np.float32), Scratch(), SAMPLES, self._shade)
+        inside[:] = self._textures[-1][RAMP_PIXELS[1] // 2, -1]
+        draw_surface(inside, False, self._surface, points.astype(np.float32), Scratch(), SAMPLES_PER_PIXEL, self._shade)
         unit = float(eye_distance(face))
         if self._softness > 0:
             inside = np.asarray(cv2.GaussianBlur(inside, (0, 0), self._softness * unit))
         lit = inside * mouth_light(face, corner, shape)[..., None]
-        sigma = max(LEAST_SOFT_PIXELS, max(LIP_SOFTNESS, self._softness) * unit)
+        sigma = max(MIN_LIP_SOFTNESS_PIXELS, max(LIP_SOFTNESS_EYE_DISTANCES, self._softness) * unit)
         mask = cv2.GaussianBlur(soft_polygon(inner - corner, shape), (0, 0), sigma)[..., None]
         part = frame[y0:y1, x0:x1]
         part[:] = np.clip(part + share * np.asarray(mask) * (lit - part) + 0.5, 0, 255).astype(np.uint8)
@@ -127,20 +127,26 @@ class ModelledMouth:
         front = (np.asarray(face, np.float64) - shift - depths[:, None] * matrix[:, 2]) @ np.linalg.inv(matrix[:, :2]).T
         jaw = jaw_behind_lips(self._at, front)
         lips = np.column_stack([front, depths])[list(LIPS_INNER)]
-        tongue_jaw = jaw._replace(angle=TONGUE_SHARE * jaw.angle)
-        raised = min(float(front[UPPER_LIP_MIDDLE, 1]) + MOST_CROWN - self._at.edge, 0.0) - covered_crown(
+        tongue_jaw = jaw._replace(angle=TONGUE_JAW_SHARE * jaw.angle)
+        raised = min(float(front[UPPER_LIP_MIDDLE, 1]) + MAX_CROWN_EYE_DISTANCES - self._at.edge, 0.0) - covered_crown(
             self._at, front
         )
-        bag = mouth_bag(lips, DEEPER)
-        moved = np.concatenate([FRAME + np.array([0, raised, 0]), jaw.moved(FRAME), tongue_jaw.moved(FRAME), bag])
+        bag = mouth_bag(lips, BAG_DEPTH_FACTOR)
+        moved = np.concatenate(
+            [AFFINE_FRAME + np.array([0, raised, 0]), jaw.moved(AFFINE_FRAME), tongue_jaw.moved(AFFINE_FRAME), bag]
+        )
         behind = moved[:, 2:] - self._at.depth
-        at_rest = np.concatenate([FRAME, FRAME, FRAME, bag])[:, 2:] - self._at.depth  # as deep as the lips are known
+        at_rest = (
+            np.concatenate([AFFINE_FRAME, AFFINE_FRAME, AFFINE_FRAME, bag])[:, 2:] - self._at.depth
+        )  # as deep as the lips are known
         aside = (camera[:2, 2] @ camera[:2, 0]) / scale**2 * camera[:2, 0]  # how depth is seen along the face's width
         places = moved @ camera.T
-        places[:, :2] += shift - behind * camera[:2, 2] + FLATTENED * behind * (camera[:2, 2] - aside) + at_rest * aside
-        places[:, 2] += DISTANCE
+        places[:, :2] += (
+            shift - behind * camera[:2, 2] + DEPTH_SHARE * behind * (camera[:2, 2] - aside) + at_rest * aside
+        )
+        places[:, 2] += CAMERA_DISTANCE_PIXELS
         parts = np.split(self._vertices, self._ends)
-        frames = places[: len(parts) * len(FRAME)].reshape(len(parts), *FRAME.shape)
+        frames = places[: len(parts) * len(AFFINE_FRAME)].reshape(len(parts), *AFFINE_FRAME.shape)
         seen = [part @ (four[1:] - four[0]) + four[0] for part, four in zip(parts, frames, strict=True)]
         return np.concatenate([*seen, places[-len(bag) :]])
 
@@ -157,9 +163,9 @@ class ModelledMouth:
         vertices = np.concatenate([self._vertices, np.zeros((self._bag_vertices, 3))])
         normals = vertex_normals(vertices, self._triangles)
         teeth = np.arange(len(vertices)) < self._ends[1]
-        ambient = np.where(teeth, TEETH_AMBIENT, AMBIENT)
+        ambient = np.where(teeth, TEETH_AMBIENT_LIGHT_SHARE, AMBIENT_LIGHT_SHARE)
         facing = ambient + (1 - ambient) * np.clip(-normals[:, 2], 0, 1)
-        reach = np.where(teeth, ROW_DARKENING, DARKENING)
+        reach = np.where(teeth, TEETH_FALLOFF_EYE_DISTANCES, TONGUE_FALLOFF_EYE_DISTANCES)
         deep = np.exp(-np.maximum(vertices[:, 2] - self._at.depth, 0) / reach)
         shade = facing * deep
         shade[: len(self._light)] *= self._light
@@ -172,28 +178,28 @@ class ModelledMouth:
 
 def jaw_behind_lips(at: RestingMouth, front: NDArray[np.floating]) -> Jaw:
     """The jaw of a face that rests as `at` says and is `front` (478, 2 or 3) from the front: as its chin tells, and where its lower lip is."""
-    edge = np.array([at.middle, at.edge - OVERBITE, at.depth + OVERJET])
+    edge = np.array([at.middle, at.edge - OVERBITE_EYE_DISTANCES, at.depth + OVERJET_EYE_DISTANCES])
     lip, jaw = float(front[LOWER_MIDDLE, 1]), jaw_of(front, at.shut)
-    bared = float(np.interp(jaw.angle, BARING_ANGLES, (0, 1)))
-    return held_between(jaw, edge, (lip - bared * ABOVE_LIP, lip + BELOW_LIP))
+    bared = float(np.interp(jaw.angle, BARING_JAW_RADIANS, (0, 1)))
+    return held_between(jaw, edge, (lip - bared * ABOVE_LIP_EYE_DISTANCES, lip + BELOW_LIP_EYE_DISTANCES))
 
 
 def covered_crown(at: RestingMouth, front: NDArray[np.floating]) -> float:
     """Eye distances of the upper row that the lips of a face that rests as `at` says and is `front` (478, 2 or 3) from the front cover, being rounded."""
     width = float(np.linalg.norm(front[CORNERS[1], :2] - front[CORNERS[0], :2]))
-    return ROUNDED_CROWN * max(1 - width / max(at.width, 1e-6) - ROUNDED_FROM, 0.0)
+    return ROUNDED_CROWN_EYE_DISTANCES * max(1 - width / max(at.width, 1e-6) - ROUNDED_NARROWING_SHARE, 0.0)
 
 
 def shown_share(face: NDArray[np.floating], appearing: float) -> float:
     """How much of the inside of a mouth is seen of a face (478, 2), from an opening of `appearing` on; all of it always where that is zero."""
     if appearing == 0:
         return 1.0
-    return float(np.clip((float(mouth_opening(face)) - appearing) / APPEARING, 0, 1))
+    return float(np.clip((float(mouth_opening(face)) - appearing) / APPEARING_OPENING_RANGE, 0, 1))
 
 
 def _on_atlas(uv: NDArray[np.float32], number: int, count: int) -> NDArray[np.float32]:
     """Places on the `number`-th of `count` ramps that lie below one another, half a pixel off their edges."""
-    inset = np.array([0.5 / RAMP[0], 0.5 / RAMP[1]])
+    inset = np.array([0.5 / RAMP_PIXELS[0], 0.5 / RAMP_PIXELS[1]])
     held = inset + uv * (1 - 2 * inset)
     held[:, 1] = (held[:, 1] + number) / count
     return held.astype(np.float32)

@@ -16,35 +16,35 @@ from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER
 ENAMEL, DENTINE = np.array([216, 209, 197.0]), np.array([198, 185, 162.0])
 GUM, TONGUE = np.array([176, 96, 95.0]), np.array([196, 110, 108.0])
 LINING, THROAT = np.array([140, 60, 58.0]), np.array([66, 24, 23.0])
-"""sRGB, of mouths whose skin has the luminance `USUAL_SKIN`."""
-USUAL_SKIN = 165.0
+"""sRGB, of mouths whose skin has the luminance `USUAL_SKIN_LUMINANCE`."""
+USUAL_SKIN_LUMINANCE = 165.0
 LIGHT_RANGE = (0.35, 1.25)
-LIPS_SHARE = 0.5
+LIP_HUE_SHARE = 0.5
 """Of the person's lips in what is flesh."""
-TONGUE_LIT, TONGUE_DARK, SIDES_FROM = 0.15, 0.6, 0.3
+TONGUE_LIT_SHARE, TONGUE_DARK_SHARE, TONGUE_SIDES_SHARE = 0.15, 0.6, 0.3
 """Of the tongue's length from its tip, that is in the light, and from which on it is not; and of its half width, from which on it turns to the
 cheeks."""
-BACK_DARK, SIDES_DARK = 0.75, 0.2
+TONGUE_BACK_DARKNESS, TONGUE_SIDES_DARKNESS = 0.75, 0.2
 """Of the way from the lining's colour to the throat's, that of the tongue's back, and of its sides: as what is behind them, since an outline would
 make it a block."""
-WHITEST = 250.0
+MAX_TEETH_LEVEL = 250.0
 """The lightest a tooth becomes in any channel: cut off one by one, they would leave no hue of a warm light."""
-SHADES_ROOM = 0.1
+CROWN_SHADE_RANGE = 0.1
 """By how much single crowns are lighter or darker than the row."""
-LEAST_LIGHT, LEAST_LIGHT_OF_FACE, MOST_LIGHT = 1.3, 1.18, 1.8
+MIN_TEETH_TO_SKIN_RATIO, MIN_TEETH_TO_FACE_RATIO, MAX_TEETH_TO_SKIN_RATIO = 1.3, 1.18, 1.8
 """Of the luminance of the skin around the mouth, and of a light place of the face, that the lightest of the upper teeth has at least; the second no further than
 so many times the first. In sixteen photographs of people who smile it has 1.07 to 1.47 times that of a light place (median 1.2); a mouth may lie in the shade of its face."""
 LIGHT_PLACE_PERCENTILE = 75
 """Of the luminance within the face's oval, that of a light place."""
 TEETH_TINT_SHARES = (0.1, 0.33)
 """Of the skin's hue in teeth, least and most: 0.09, 0.16, 0.18 and 0.42 in four portraits that show them."""
-LOWER_TEETH = 0.75
+LOWER_TEETH_LIGHT_SHARE = 0.75
 """Of the upper teeth's light, that lower ones have."""
-BAG_LIGHT = (0.75, 1.4)
+BAG_LIGHT_SHARES = (0.75, 1.4)
 """Of the bag's light, what its roof has behind the upper lip, and its floor, on which light falls."""
-DARK_FROM = 0.8
+BAG_DARK_DEPTH_SHARE = 0.8
 """Of the bag's depth, from which on it is as dark as the throat."""
-RAMP = (64, 16)
+RAMP_PIXELS = (64, 16)
 """Width and height of a ramp of colours, pixels."""
 
 
@@ -65,33 +65,36 @@ def mouth_colours(
     known."""
     skin = skin_colour(rgb, mesh)
     luminance = max(float(skin @ LUMINANCE_WEIGHTS), 1.0)
-    light = float(np.clip(luminance / USUAL_SKIN, *LIGHT_RANGE))
+    light = float(np.clip(luminance / USUAL_SKIN_LUMINANCE, *LIGHT_RANGE))
     lips = lip_colour(rgb, mesh)
     flesh = {
         name: _blended(light * colour, lips)
         for name, colour in (("gum", GUM), ("tongue", TONGUE), ("lining", LINING), ("throat", THROAT))
     }
     edge = light * ENAMEL * white_tint(rgb, mesh, TEETH_TINT_SHARES) if teeth is None else _of_a_tooth(teeth, rgb, mesh)
-    least = max(LEAST_LIGHT * luminance, min(LEAST_LIGHT_OF_FACE * _light_place(rgb, mesh), MOST_LIGHT * luminance))
+    least = max(
+        MIN_TEETH_TO_SKIN_RATIO * luminance,
+        min(MIN_TEETH_TO_FACE_RATIO * _light_place(rgb, mesh), MAX_TEETH_TO_SKIN_RATIO * luminance),
+    )
     edge = edge * max(least / max(float(edge @ LUMINANCE_WEIGHTS), 1.0), 1.0)
-    edge = edge * min(1.0, WHITEST / float(edge.max()))
+    edge = edge * min(1.0, MAX_TEETH_LEVEL / float(edge.max()))
     root = edge * (DENTINE / ENAMEL)
-    along, aside = np.linspace(0, 1, RAMP[0]), np.linspace(0, 1, RAMP[1])
+    along, aside = np.linspace(0, 1, RAMP_PIXELS[0]), np.linspace(0, 1, RAMP_PIXELS[1])
     crowns = np.where(
         along[:, None] < 0.5, flesh["gum"], root + (np.clip(2 * along - 1, 0, 1) ** 0.6)[:, None] * (edge - root)
     )
-    shades = 1 - SHADES_ROOM + 2 * SHADES_ROOM * aside
+    shades = 1 - CROWN_SHADE_RANGE + 2 * CROWN_SHADE_RANGE * aside
     upper = shades[:, None, None] * crowns
-    back = _ramp((along - TONGUE_LIT) / (TONGUE_DARK - TONGUE_LIT))
-    sides = _ramp((aside - SIDES_FROM) / (1 - SIDES_FROM))
-    flat = np.broadcast_to(flesh["tongue"], (RAMP[1], RAMP[0], 3))
-    for share, dark in ((back[None, :, None], BACK_DARK), (sides[:, None, None], SIDES_DARK)):
+    back = _ramp((along - TONGUE_LIT_SHARE) / (TONGUE_DARK_SHARE - TONGUE_LIT_SHARE))
+    sides = _ramp((aside - TONGUE_SIDES_SHARE) / (1 - TONGUE_SIDES_SHARE))
+    flat = np.broadcast_to(flesh["tongue"], (RAMP_PIXELS[1], RAMP_PIXELS[0], 3))
+    for share, dark in ((back[None, :, None], TONGUE_BACK_DARKNESS), (sides[:, None, None], TONGUE_SIDES_DARKNESS)):
         flat = flat + share * (flesh["lining"] + dark * (flesh["throat"] - flesh["lining"]) - flat)
     furrow = 1 - 0.18 * np.exp(-0.5 * (aside / 0.1) ** 2)
-    deep = np.clip(along / DARK_FROM, 0, 1)[:, None] ** 0.7
-    floor = np.interp(aside, (0, 1), BAG_LIGHT)[:, None, None]
+    deep = np.clip(along / BAG_DARK_DEPTH_SHARE, 0, 1)[:, None] ** 0.7
+    floor = np.interp(aside, (0, 1), BAG_LIGHT_SHARES)[:, None, None]
     bag = floor * (flesh["lining"] + deep * (flesh["throat"] - flesh["lining"]))
-    ramps = [upper, LOWER_TEETH * upper, furrow[:, None, None] * flat, bag]
+    ramps = [upper, LOWER_TEETH_LIGHT_SHARE * upper, furrow[:, None, None] * flat, bag]
     if is_grey(rgb, mesh):
         ramps = [np.repeat((ramp @ LUMINANCE_WEIGHTS)[..., None], 3, axis=-1) for ramp in ramps]
     return MouthColours(*(np.clip(np.rint(ramp), 0, 255).astype(np.uint8) for ramp in ramps))
@@ -116,7 +119,7 @@ def _of_a_tooth(teeth: NDArray[np.floating], rgb: NDArray[np.uint8], mesh: NDArr
 def _blended(colour: NDArray[np.float64], lips: NDArray[np.float64]) -> NDArray[np.float64]:
     """As light as `colour` (3,), its hue half-way to that of the lips (3,)."""
     other = lips * float(colour @ LUMINANCE_WEIGHTS) / max(float(lips @ LUMINANCE_WEIGHTS), 1.0)
-    return np.asarray((1 - LIPS_SHARE) * colour + LIPS_SHARE * other, np.float64)
+    return np.asarray((1 - LIP_HUE_SHARE) * colour + LIP_HUE_SHARE * other, np.float64)
 
 
 def lip_colour(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.face_animation.mouth.lip_contours import UPPER_INNER_LIP
 
-LIP_SHADE, LIP_SHADE_WIDTH = 0.28, 0.06
+LIP_SHADE_SHARE, LIP_SHADE_MOUTH_WIDTHS = 0.28, 0.06
 """Of the light, that the upper lip keeps from teeth at its edge, and widths of the mouth below it up to which it does."""
-CORNER_SHADE, CORNER_SHADE_WIDTH = 0.45, 0.3
+CORNER_SHADE_SHARE, CORNER_SHADE_MOUTH_WIDTHS = 0.45, 0.3
 
 
 def mouth_light(
@@ -43,7 +43,11 @@ def _light(height, width, start, step, axis, lip):  # type: ignore[no-untyped-de
             run = max(lip[k + 1, 0] - lip[k, 0], np.float32(1e-6))
             t = min(max((along - lip[k, 0]) / run, np.float32(0)), np.float32(1))
             under = across - (lip[k, 1] + t * (lip[k + 1, 1] - lip[k, 1]))
-            lips = 1 - min(max(under / np.float32(LIP_SHADE_WIDTH), np.float32(0)), np.float32(1))
-            sides = 1 - min(max(min(along, 1 - along) / np.float32(CORNER_SHADE_WIDTH), np.float32(0)), np.float32(1))
-            out[y, x] = (1 - np.float32(LIP_SHADE) * lips * lips) * (1 - np.float32(CORNER_SHADE) * sides * sides)
+            lips = 1 - min(max(under / np.float32(LIP_SHADE_MOUTH_WIDTHS), np.float32(0)), np.float32(1))
+            sides = 1 - min(
+                max(min(along, 1 - along) / np.float32(CORNER_SHADE_MOUTH_WIDTHS), np.float32(0)), np.float32(1)
+            )
+            out[y, x] = (1 - np.float32(LIP_SHADE_SHARE) * lips * lips) * (
+                1 - np.float32(CORNER_SHADE_SHARE) * sides * sides
+            )
     return out

@@ -19,27 +19,27 @@ from engine.geometry.surface import triangulate
 from engine.perception.landmarks import LIPS_INNER
 from engine.performances.modelling.teeth import LOWER_CROWNS, UPPER_CROWNS, Arch, build_dentition
 
-EYE_DISTANCE = 0.063
+EYE_DISTANCE_METRES = 0.063
 """Metres between the middles of the eyes: people's mean."""
-DETAIL, UNEVENNESS = 0.4, 0.35
+CROWN_DETAIL, CROWN_UNEVENNESS = 0.4, 0.35
 """Of the crowns' meshes; and of what sets single crowns off their row: on faces of some eighty pixels their edges would become steps."""
-OVERBITE, OVERJET = 0.03, 0.05
+OVERBITE_EYE_DISTANCES, OVERJET_EYE_DISTANCES = 0.03, 0.05
 """Eye distances by which lower teeth end above the upper ones' edges, and lie behind them, where the jaw is closed."""
-TONGUE_SHARES = (1.0, 0.5, 0.45)
+TONGUE_SIZE_SHARES = (1.0, 0.5, 0.45)
 """Of the template's tongue, along x, y and z from its tip: so that it lies within the row of teeth, and its root within a face without a neck."""
-TONGUE_SHARE = 0.7
+TONGUE_JAW_SHARE = 0.7
 """Of the jaw's angle, by which the tongue lies lower where it opens: its back is lifted off the floor of the mouth."""
-SECTIONS = 8
+TONGUE_SECTIONS = 8
 """Of the tongue, in which its width is told."""
-UPPER_GUM, LOWER_GUM, ROW_DEPTH = 0.34, 0.2, 0.5
+UPPER_GUM_EYE_DISTANCES, LOWER_GUM_EYE_DISTANCES, ROW_DEPTH_EYE_DISTANCES = 0.34, 0.2, 0.5
 """Eye distances from the crowns' edges up to which there is gum, and from their front up to which there are teeth: the face has no more room."""
-RINGS = ((0.0, 0.0, 1.0), (0.04, 0.1, 1.03), (0.15, 0.25, 1.15), (0.35, 0.28, 1.15), (0.55, 0.18, 0.9))
+BAG_RINGS = ((0.0, 0.0, 1.0), (0.04, 0.1, 1.03), (0.15, 0.25, 1.15), (0.35, 0.28, 1.15), (0.55, 0.18, 0.9))
 """Of the bag: eye distances behind the lips, by which it is higher and deeper than their opening, and its share of their width."""
-BOTTOM = 0.05
+BAG_BOTTOM_EYE_DISTANCES = 0.05
 """Eye distances behind the last ring at which the bag ends."""
-SHADES = (0.9, 1.1)
+CROWN_SHADES = (0.9, 1.1)
 """Of single crowns, the darkest and the lightest."""
-BACKING_DEPTH, BACKING_SHARES, BACKING_LIGHT = 0.0022, (-0.2, 0.93), 0.75
+BACKING_DEPTH_METRES, BACKING_HEIGHT_SHARES, BACKING_LIGHT_SHARE = 0.0022, (-0.2, 0.93), 0.75
 """Metres behind the front of the arch, and shares of its crowns' heights, from and up to which there is the wall that closes the gaps between
 them, and its share of their light: without it the dark of the throat stands between teeth as lines."""
 BACKING_COLUMNS = 48
@@ -62,20 +62,27 @@ class MouthPart:
 def modelled_teeth(at: RestingMouth, upper: bool) -> MouthPart:
     """A row of teeth, its gum, and the wall behind them: u from the gum to the crowns' edges, v the crowns' own shades."""
     arch = Arch(gum=0.0, front=0.0, up=-1 if upper else 1)
-    row = build_dentition(arch, DETAIL, seed=3 if upper else 4, unevenness=UNEVENNESS)
+    row = build_dentition(arch, CROWN_DETAIL, seed=3 if upper else 4, unevenness=CROWN_UNEVENNESS)
     wall, wall_triangles = _backing(arch)
     places = _in_eye_distances(np.concatenate([row.vertices, wall]))
     enamel = np.concatenate([row.enamel, np.full(len(wall), 0.5)])
-    light = np.concatenate([np.ones(len(row.vertices)), np.full(len(wall), BACKING_LIGHT)]).astype(np.float32)
+    light = np.concatenate([np.ones(len(row.vertices)), np.full(len(wall), BACKING_LIGHT_SHARE)]).astype(np.float32)
     crowns = enamel[: len(row.vertices)] > 0.5
     heights = places[: len(crowns)][crowns, 1]
     edge, front = heights.max() if upper else heights.min(), places[:, 2].min()
-    shift = (at.middle, at.edge, at.depth) if upper else (at.middle, at.edge - OVERBITE, at.depth + OVERJET)
-    shade = (np.concatenate([row.shade, np.ones(len(wall))]) - SHADES[0]) / (SHADES[1] - SHADES[0])
+    shift = (
+        (at.middle, at.edge, at.depth)
+        if upper
+        else (at.middle, at.edge - OVERBITE_EYE_DISTANCES, at.depth + OVERJET_EYE_DISTANCES)
+    )
+    shade = (np.concatenate([row.shade, np.ones(len(wall))]) - CROWN_SHADES[0]) / (CROWN_SHADES[1] - CROWN_SHADES[0])
     uv = np.column_stack([(enamel + 1) / 2, shade]).clip(0, 1).astype(np.float32)
     away = np.abs(places - (0, edge, front))
     triangles = np.concatenate([row.triangles, wall_triangles + len(row.vertices)])
-    kept = ((away[:, 1] < (UPPER_GUM if upper else LOWER_GUM)) & (away[:, 2] < ROW_DEPTH))[triangles].all(axis=1)
+    kept = (
+        (away[:, 1] < (UPPER_GUM_EYE_DISTANCES if upper else LOWER_GUM_EYE_DISTANCES))
+        & (away[:, 2] < ROW_DEPTH_EYE_DISTANCES)
+    )[triangles].all(axis=1)
     known, triangles = np.unique(triangles[kept], return_inverse=True)
     placed = places[known] - (0, edge, front) + shift
     return MouthPart(placed, triangles.reshape(-1, 3).astype(np.int32), uv[known], light[known])
@@ -87,10 +94,11 @@ def _backing(arch: Arch) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     ends = 0.985 * np.cumsum(widths)
     length = np.linspace(-ends[-1], ends[-1], BACKING_COLUMNS)
     place, outward = arch.place(length)
-    ground = place - BACKING_DEPTH * outward / np.linalg.norm(outward, axis=1, keepdims=True)
+    ground = place - BACKING_DEPTH_METRES * outward / np.linalg.norm(outward, axis=1, keepdims=True)
     crown = np.interp(np.abs(length), ends - widths / 2, tall)
     rows = [
-        np.column_stack([ground[:, 0], arch.gum + arch.up * share * crown, ground[:, 1]]) for share in BACKING_SHARES
+        np.column_stack([ground[:, 0], arch.gum + arch.up * share * crown, ground[:, 1]])
+        for share in BACKING_HEIGHT_SHARES
     ]
     first = np.arange(BACKING_COLUMNS - 1)
     below, after = first + BACKING_COLUMNS, first + 1
@@ -106,20 +114,20 @@ def tongue(at: RestingMouth) -> MouthPart:
     lower = _in_eye_distances(template.vertices[template.vertices_of("lower_teeth")])
     places = finer.points @ (_in_eye_distances(template.vertices[known]) - (0, lower[:, 1].min(), lower[:, 2].min()))
     tip = np.array([0, places[:, 1].min(), places[:, 2].min()])
-    places = tip + (places - tip) * TONGUE_SHARES
+    places = tip + (places - tip) * TONGUE_SIZE_SHARES
     depth = (places[:, 2] - places[:, 2].min()) / np.ptp(places[:, 2])
     aside = np.abs(places[:, 0]) / _half_width(places[:, 0], depth)
-    shift = np.array([at.middle, at.edge - OVERBITE, at.depth + OVERJET])
+    shift = np.array([at.middle, at.edge - OVERBITE_EYE_DISTANCES, at.depth + OVERJET_EYE_DISTANCES])
     uv = np.column_stack([depth, aside]).astype(np.float32)
     return MouthPart(places + shift, triangulate(finer.quads), uv, np.ones(len(uv), np.float32))
 
 
 def _half_width(across: NDArray[np.floating], depth: NDArray[np.floating]) -> NDArray[np.float64]:
     """(V,) how wide to one side a tongue is at the `depth` (V,) in [0, 1] of each of its vertices, which lie `across` (V,) of its middle."""
-    section = np.minimum((depth * SECTIONS).astype(int), SECTIONS - 1)
-    widest = np.full(SECTIONS, 1e-6)
+    section = np.minimum((depth * TONGUE_SECTIONS).astype(int), TONGUE_SECTIONS - 1)
+    widest = np.full(TONGUE_SECTIONS, 1e-6)
     np.maximum.at(widest, section, np.abs(across))
-    return np.asarray(np.interp(depth, (np.arange(SECTIONS) + 0.5) / SECTIONS, widest), np.float64)
+    return np.asarray(np.interp(depth, (np.arange(TONGUE_SECTIONS) + 0.5) / TONGUE_SECTIONS, widest), np.float64)
 
 
 def tongue_put_out() -> NDArray[np.float64]:
@@ -143,12 +151,12 @@ def mouth_bag(lips: NDArray[np.floating], deeper: float = 1.0) -> NDArray[np.flo
     middle = lips.mean(axis=0)
     up = _up(len(lips))
     rings = []
-    for depth, higher, share in RINGS:
+    for depth, higher, share in BAG_RINGS:
         ring = middle + (lips - middle) * (share, 1, 1)
         ring[:, 1] += higher * up
         ring[:, 2] += deeper * depth
         rings.append(ring)
-    end = rings[-1].mean(axis=0) + np.array([0, 0, deeper * BOTTOM])
+    end = rings[-1].mean(axis=0) + np.array([0, 0, deeper * BAG_BOTTOM_EYE_DISTANCES])
     return np.concatenate([*rings, end[None]])
 
 
@@ -156,15 +164,17 @@ def bag_surface() -> tuple[NDArray[np.int32], NDArray[np.float32]]:
     """(T, 3) the bag's triangles, seen from within, and (V, 2) its places on its ramp: u from the lips to the throat, v from its roof
     to its floor."""
     count = len(LIPS_INNER)
-    index = np.arange(len(RINGS) * count).reshape(len(RINGS), count)
+    index = np.arange(len(BAG_RINGS) * count).reshape(len(BAG_RINGS), count)
     after = np.roll(index, -1, axis=1)
     walls = [
         np.stack([index[:-1], index[1:], after[1:]], axis=-1).reshape(-1, 3),
         np.stack([index[:-1], after[1:], after[:-1]], axis=-1).reshape(-1, 3),
     ]
     end = np.stack([index[-1], np.full(count, index.size), after[-1]], axis=-1)
-    depth = np.append(np.repeat([ring[0] for ring in RINGS], count), RINGS[-1][0] + BOTTOM) / (RINGS[-1][0] + BOTTOM)
-    floor = np.append(np.tile((1 + _up(count)) / 2, len(RINGS)), 0.5)
+    depth = np.append(
+        np.repeat([ring[0] for ring in BAG_RINGS], count), BAG_RINGS[-1][0] + BAG_BOTTOM_EYE_DISTANCES
+    ) / (BAG_RINGS[-1][0] + BAG_BOTTOM_EYE_DISTANCES)
+    floor = np.append(np.tile((1 + _up(count)) / 2, len(BAG_RINGS)), 0.5)
     return np.concatenate([*walls, end]).astype(np.int32), np.column_stack([depth, floor]).astype(np.float32)
 
 
@@ -174,4 +184,4 @@ def _up(count: int) -> NDArray[np.float64]:
 
 
 def _in_eye_distances(places: NDArray[np.floating]) -> NDArray[np.float64]:
-    return np.asarray(places, np.float64) @ PICTURE_TO_TEMPLATE / EYE_DISTANCE
+    return np.asarray(places, np.float64) @ PICTURE_TO_TEMPLATE / EYE_DISTANCE_METRES

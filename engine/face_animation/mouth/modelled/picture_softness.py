@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from engine.imaging.edge_blur import edge_blur
 from engine.perception.landmarks import LEFT_EYE, LIPS_OUTER, RIGHT_EYE, eye_distance
 
-AROUND = 0.06
+REACH_EYE_DISTANCES = 0.06
 """Eye distances around eyes and lips that are looked at."""
-SOFTNESS_RANGE = (0.6, 3.0)
+SOFTNESS_RANGE_PIXELS = (0.6, 3.0)
 """Pixels."""
 
 
@@ -22,7 +22,7 @@ def picture_softness(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> floa
     mask = np.zeros(rgb.shape[:2], np.uint8)
     for contour in (LEFT_EYE, RIGHT_EYE, LIPS_OUTER):
         cv2.fillPoly(mask, [np.rint(mesh[list(contour), :2]).astype(np.int32)], 1)
-    reach = 2 * max(round(AROUND * unit), 1) + 1
+    reach = 2 * max(round(REACH_EYE_DISTANCES * unit), 1) + 1
     mask = np.asarray(cv2.dilate(mask, np.ones((reach, reach), np.uint8)))
     blur = edge_blur(cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY), mask > 0)
-    return float(np.clip(blur or 0.0, *SOFTNESS_RANGE)) / unit
+    return float(np.clip(blur or 0.0, *SOFTNESS_RANGE_PIXELS)) / unit

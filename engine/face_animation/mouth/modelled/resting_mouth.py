@@ -11,9 +11,9 @@ from engine.perception.landmarks import mouth_opening
 
 CORNERS = (78, 308)
 UPPER_MIDDLE = (82, 13, 312)
-BEHIND_LIPS = 0.03
+BEHIND_LIPS_EYE_DISTANCES = 0.03
 """Eye distances by which teeth lie behind the inner lips."""
-BELOW_LIPS = 0.06
+BELOW_LIPS_EYE_DISTANCES = 0.06
 """Eye distances below where the lips meet, at which upper teeth end."""
 SHUT_OPENING = 0.05
 """Of a mouth that tells where its lips meet."""
@@ -33,7 +33,7 @@ class RestingMouth:
     @property
     def depth(self) -> float:
         """Of the front of the upper teeth."""
-        return float(self.front[list(UPPER_MIDDLE), 2].mean()) + BEHIND_LIPS
+        return float(self.front[list(UPPER_MIDDLE), 2].mean()) + BEHIND_LIPS_EYE_DISTANCES
 
     @property
     def middle(self) -> float:
@@ -48,7 +48,7 @@ class RestingMouth:
     @property
     def edge(self) -> float:
         """The height at which the upper teeth end."""
-        return float(self.shut[[13, 14], 1].mean()) + BELOW_LIPS
+        return float(self.shut[[13, 14], 1].mean()) + BELOW_LIPS_EYE_DISTANCES
 
 
 def resting_mouth(front: NDArray[np.floating], neutral: NDArray[np.floating]) -> RestingMouth:

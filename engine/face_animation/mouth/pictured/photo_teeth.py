@@ -12,13 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.mouth.lip_contours import LUMINANCE_WEIGHTS, box_around, soft_polygon
-from engine.face_animation.mouth.modelled.modelled_mouth import LEAST_SOFT_PIXELS, LIP_SOFTNESS, shown_share
+from engine.face_animation.mouth.modelled.modelled_mouth import (
+    LIP_SOFTNESS_EYE_DISTANCES,
+    MIN_LIP_SOFTNESS_PIXELS,
+    shown_share,
+)
 from engine.face_animation.mouth.modelled.mouth_light import mouth_light
 from engine.face_animation.mouth.modelled.resting_mouth import CORNERS, FULL_OPENING, UPPER_MIDDLE, RestingMouth
 from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
-from engine.face_animation.mouth.pictured.teeth_strip import ARCH, TeethStrip, teeth_strip
+from engine.face_animation.mouth.pictured.teeth_strip import ARCH_CURVATURE, TeethStrip, teeth_strip
 from engine.face_animation.skin_colour import is_grey, skin_colour
 from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, eye_distance, mouth_opening
 
@@ -75,7 +79,7 @@ class PhotoTeeth:
         x0, y0, x1, y1 = box
         corner = np.array([x0, y0], np.float32)
         teeth = self.teeth(face, corner, (y1 - y0, x1 - x0))
-        sigma = max(LEAST_SOFT_PIXELS, LIP_SOFTNESS * float(eye_distance(face)))
+        sigma = max(MIN_LIP_SOFTNESS_PIXELS, LIP_SOFTNESS_EYE_DISTANCES * float(eye_distance(face)))
         mask = cv2.GaussianBlur(soft_polygon(inner - corner, (y1 - y0, x1 - x0)), (0, 0), sigma)[..., None]
         part = frame[y0:y1, x0:x1]
         covered = share * np.asarray(mask) * teeth[..., 3:]
@@ -111,8 +115,8 @@ class PhotoTeeth:
         y0 = across * back[0, 1] + down * back[1, 1] - self.at.depth * further[1] - self.at.edge
         x = x0
         for _ in range(ARCH_ROUNDS - 1):  # the arch goes back to both sides
-            x = x0 - ARCH * further[0] * x**2
-        arch = ARCH * x**2
+            x = x0 - ARCH_CURVATURE * further[0] * x**2
+        arch = ARCH_CURVATURE * x**2
         return np.stack([x0 - arch * further[0], y0 - arch * further[1]], axis=-1)
 
     def upper_teeth(self, places: NDArray[np.floating]) -> NDArray[np.float32]:

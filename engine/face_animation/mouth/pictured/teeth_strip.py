@@ -15,23 +15,23 @@ from engine.face_animation.mouth.lip_contours import (
     UPPER_INNER_LIP,
     soft_polygon,
 )
-from engine.face_animation.mouth.modelled.resting_mouth import BEHIND_LIPS
+from engine.face_animation.mouth.modelled.resting_mouth import BEHIND_LIPS_EYE_DISTANCES
 from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
 from engine.imaging.resample import resized
 from engine.perception.expression.features import frontalise
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
 
-ARCH = 1.2
+ARCH_CURVATURE = 1.2
 """Eye distances by which teeth lie further back, for the square of one to the side."""
-LIP_SHADOW = 0.02
+LIP_SHADOW_EYE_DISTANCES = 0.02
 """Eye distances below the upper lip from which on teeth are taken: above are the lip and its edge."""
-MARGIN = 0.1
+STRIP_MARGIN_EYE_DISTANCES = 0.1
 """Eye distances around the lips that are kept."""
-SOFTNESS = 0.018
+STRIP_SOFTNESS_EYE_DISTANCES = 0.018
 """Eye distances over which the teeth pass into the dark."""
 ROW_SAMPLES = 200
-MIN_CROWNS = 0.07
+MIN_CROWN_HEIGHT = 0.07
 """By how much crowns stand out (`TeethStrip.crowns`) that are seen."""
 CROWN_ROW = 0.55
 """Of the way from the lip to where teeth end, at which crowns are told apart."""
@@ -40,7 +40,7 @@ CROWN_WIDTH, CROWN_WIDTHS = 0.125, 1.0
 MAX_SHARPENING = 0.6
 """Of what is finer than a pixel, where the photograph is enlarged twice or more: its own pixels have blurred it."""
 TEETH_PERCENTILE, USUAL_PERCENTILE = 90, 60
-ROWS = 20
+EDGE_ROWS = 20
 """From lip to lip at which it is looked for where teeth end."""
 EDGE_LIGHT = 0.6
 """Of the lightest row's light, above which a row is of teeth."""
@@ -93,13 +93,13 @@ class TeethStrip:
 
     def sampled(self, x: NDArray[np.floating], y: NDArray[np.floating]) -> NDArray[np.float32]:
         """(..., 4) colours and shares of teeth at places (h, w), whose height is held below the upper lip."""
-        held = np.maximum(y, self.lip(x) + LIP_SHADOW)
-        depth = self.depth + ARCH * (x - self.middle) ** 2
+        held = np.maximum(y, self.lip(x) + LIP_SHADOW_EYE_DISTANCES)
+        depth = self.depth + ARCH_CURVATURE * (x - self.middle) ** 2
         photo = np.stack([x, held], axis=-1) @ self.matrix[:, :2].T + depth[..., None] * self.matrix[:, 2] + self.shift
         at = ((photo - self.corner + 0.5) * self.scale - 0.5).astype(np.float32)
         found = cv2.remap(self.layer, at[..., 0], at[..., 1], cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
         layer = np.clip(np.asarray(found, np.float32), 0, (255, 255, 255, 1))
-        layer[..., 3] *= np.clip((self.ends(x) - held) / SOFTNESS + 1, 0, 1)
+        layer[..., 3] *= np.clip((self.ends(x) - held) / STRIP_SOFTNESS_EYE_DISTANCES + 1, 0, 1)
         return layer
 
     def brightest(self, gain: NDArray[np.floating]) -> float:
@@ -110,7 +110,7 @@ class TeethStrip:
     @property
     def has_crowns(self) -> bool:
         """Whether single ones are seen, and not a mere white band."""
-        return self.crowns() >= MIN_CROWNS
+        return self.crowns() >= MIN_CROWN_HEIGHT
 
     def crowns(self) -> float:
         """By how much single crowns stand out along the row: the standard deviation of light, of what is finer than two of them, as a share of
@@ -134,8 +134,8 @@ def teeth_strip(photo: PicturedFace, wanted: float) -> TeethStrip:
     front = frontalise(photo.mesh[None])[0]
     unit = float(eye_distance(photo.mesh[:, :2]))
     mouth = photo.mesh[list(LIPS_OUTER), :2]
-    low = np.floor(mouth.min(axis=0) - MARGIN * unit).astype(int).clip(0)
-    high = np.ceil(mouth.max(axis=0) + MARGIN * unit).astype(int)
+    low = np.floor(mouth.min(axis=0) - STRIP_MARGIN_EYE_DISTANCES * unit).astype(int).clip(0)
+    high = np.ceil(mouth.max(axis=0) + STRIP_MARGIN_EYE_DISTANCES * unit).astype(int)
     part = photo.cut(low, np.minimum(high, photo.rgb.shape[1::-1]))
     scale = min(wanted / unit, 1.0)
     size = max(round(part.rgb.shape[1] * scale), 8), max(round(part.rgb.shape[0] * scale), 8)
@@ -144,13 +144,13 @@ def teeth_strip(photo: PicturedFace, wanted: float) -> TeethStrip:
     sharpness = MAX_SHARPENING * float(np.clip(wanted / unit - 1, 0, 1))
     sharp = np.clip(small + sharpness * (small - cv2.GaussianBlur(small, (0, 0), 1.0)), 0, 255)
     lips = ((part.mesh[list(LIPS_INNER), :2] + 0.5) * scale - 0.5).astype(np.float32)
-    softness = max(0.5, SOFTNESS * unit * scale)
+    softness = max(0.5, STRIP_SOFTNESS_EYE_DISTANCES * unit * scale)
     mask = cv2.GaussianBlur(soft_polygon(lips, size[::-1]), (0, 0), softness)
     return TeethStrip(
         np.dstack([sharp, np.asarray(mask)]).astype(np.float32),
         front[list(UPPER_INNER_LIP), :2],
         front[list(LOWER_INNER_LIP), :2],
-        float(front[list(UPPER_INNER_LIP[4:7]), 2].mean()) + BEHIND_LIPS,
+        float(front[list(UPPER_INNER_LIP[4:7]), 2].mean()) + BEHIND_LIPS_EYE_DISTANCES,
         _edge(part),
         *skull_camera(front, photo.mesh),
         low.astype(np.float64),
@@ -161,10 +161,10 @@ def teeth_strip(photo: PicturedFace, wanted: float) -> TeethStrip:
 def _edge(photo: PicturedFace) -> float:
     """The share of the way from lip to lip where the upper teeth end, in the middle of the mouth."""
     upper, lower = (photo.mesh[list(lip[3:8]), :2] for lip in (UPPER_INNER_LIP, LOWER_INNER_LIP))
-    down = (np.arange(ROWS) + 0.5)[:, None, None] / ROWS
+    down = (np.arange(EDGE_ROWS) + 0.5)[:, None, None] / EDGE_ROWS
     at = np.asarray(upper + down * (lower - upper), np.float32)
     light = np.asarray(cv2.remap(photo.rgb, at[..., 0], at[..., 1], cv2.INTER_LINEAR), np.float32) @ LUMINANCE_WEIGHTS
     rows = light.mean(axis=1)
     lightest = int(rows.argmax())
     below = np.flatnonzero(rows[lightest:] < EDGE_LIGHT * rows[lightest])
-    return float(np.clip((lightest + below[0]) / ROWS if len(below) else 1.0, *EDGE_RANGE))
+    return float(np.clip((lightest + below[0]) / EDGE_ROWS if len(below) else 1.0, *EDGE_RANGE))

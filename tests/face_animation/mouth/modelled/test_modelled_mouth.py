@@ -9,14 +9,19 @@ from scipy.spatial.transform import Rotation
 
 from engine.face_animation.mouth.modelled.jaw import CHIN, held_between, jaw_of
 from engine.face_animation.mouth.modelled.modelled_mouth import (
-    BARING_ANGLES,
+    BARING_JAW_RADIANS,
     ModelledMouth,
     covered_crown,
     jaw_behind_lips,
 )
 from engine.face_animation.mouth.modelled.mouth_colours import mouth_colours
 from engine.face_animation.mouth.modelled.mouth_light import mouth_light
-from engine.face_animation.mouth.modelled.mouth_parts import OVERBITE, OVERJET, modelled_teeth, mouth_bag
+from engine.face_animation.mouth.modelled.mouth_parts import (
+    OVERBITE_EYE_DISTANCES,
+    OVERJET_EYE_DISTANCES,
+    modelled_teeth,
+    mouth_bag,
+)
 from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
@@ -141,10 +146,10 @@ def test_light_falls_towards_the_corners_and_the_upper_lip() -> None:
     assert (np.diff(light[3:, middle]) >= -1e-6).all() and light.max() <= 1
 
 
-@pytest.mark.parametrize("angle", [0.5 * BARING_ANGLES[0], 0.3 * BARING_ANGLES[1]])
+@pytest.mark.parametrize("angle", [0.5 * BARING_JAW_RADIANS[0], 0.3 * BARING_JAW_RADIANS[1]])
 def test_the_lower_lip_hides_the_lower_teeth_unless_the_jaw_drops(angle: float) -> None:
     at = resting_mouth(front(0.0), front(0.0))
-    edge = np.array([at.middle, at.edge - OVERBITE, at.depth + OVERJET])
+    edge = np.array([at.middle, at.edge - OVERBITE_EYE_DISTANCES, at.depth + OVERJET_EYE_DISTANCES])
     for raised in (0.0, 0.04, 0.08):
         face = front(angle)
         face[14, 1] -= raised
