@@ -1,8 +1,8 @@
 """The skin of upper lids that close: a picture of open eyes shows hardly any of it.
 
 What is seen of it there, a narrow strip with lashes and their shadow, would be drawn out over the whole eye and make a
-shut one black. So a closing lid takes the colours and the grain of the skin above it, mirrored at the crease, more the
-further it closes.
+shut one black. So a closing lid takes the colours of the skin above it, more the further it closes. Lashes, brows and strands of
+hair stand there too: its colours are a smooth curve from corner to corner through what most of it is, and its grain is the cheek's.
 """
 
 from __future__ import annotations
@@ -38,8 +38,12 @@ SOCKET_SHADE_SHARE = 0.35
 """The share that is left of what the socket's shadow makes a lid darker."""
 CORNER_FADE_EYE_WIDTHS = 0.4
 """Eye widths from a corner over which this comes in."""
-COLOUR_BLUR_EYE_WIDTHS = 0.15
-"""Eye widths over which a lid's colours are even from corner to corner."""
+COLOUR_DEGREE = 2
+"""Of the polynomial from corner to corner that a lid's colours are."""
+COLOUR_ROUNDS = 5
+"""Of reweighted least squares in which it leaves out what is not of most of the skin's colour."""
+CHEEK_PATCH_EYE_WIDTHS = (0.9, 0.35)
+"""Width and height, eye widths, of the place on the cheek whose grain a lid has."""
 GRAIN_EYE_WIDTHS = 0.1
 """Eye widths below which what is seen of the skin is its grain."""
 MAX_GRAIN_GREY_LEVELS = 12.0
@@ -96,18 +100,45 @@ def _skin(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDAr
     above = _above(rgb, mesh, side)
     height, width = above.shape[:2]
     by_light = np.argsort(-above.sum(axis=2), axis=0)[: max(1, round(LIGHTER_SKIN_SHARE * height))]
-    colours = np.take_along_axis(above, by_light[..., None], axis=0).mean(axis=0, keepdims=True)
-    colours = cv2.GaussianBlur(colours, (0, 0), COLOUR_BLUR_EYE_WIDTHS * width, borderType=cv2.BORDER_REPLICATE)
+    colours = _along_the_lid(np.take_along_axis(above, by_light[..., None], axis=0))
     colours = _out_of_the_shadow(colours, _cheek(rgb, mesh, side))
-    grain = above - cv2.GaussianBlur(above, (0, 0), max(GRAIN_EYE_WIDTHS * width, 0.5), borderType=cv2.BORDER_REPLICATE)
     tall = max(
         height,
         round(float(np.linalg.norm(_strip(mesh, side)[1:8] - mesh[list(LOWER_LID_EDGES[side]), :2], axis=1).mean())),
     )
-    to_and_fro = np.arange(tall) % (2 * height)
-    grain = grain[np.minimum(to_and_fro, 2 * height - 1 - to_and_fro)]
     shading = 1 - EDGE_SHADE_SHARE * np.linspace(0, 1, tall, dtype=np.float32)[:, None, None]
-    return np.asarray(colours * shading + grain.clip(-MAX_GRAIN_GREY_LEVELS, MAX_GRAIN_GREY_LEVELS), np.float32)
+    return np.asarray(colours * shading + _grain(rgb, mesh, side, (tall, width)), np.float32)
+
+
+def _along_the_lid(above: NDArray[np.float32]) -> NDArray[np.float32]:
+    """(1, w, 3) the polynomial through most of the colours (h, w, 3) from corner to corner."""
+    height, width = above.shape[:2]
+    basis = np.polynomial.polynomial.polyvander(np.linspace(-1, 1, width), COLOUR_DEGREE)
+    weights = np.ones((height, width))
+    for _ in range(COLOUR_ROUNDS):
+        normal = np.einsum("hw,wi,wj->ij", weights, basis, basis) + 1e-6 * np.eye(COLOUR_DEGREE + 1)
+        found = basis @ np.linalg.solve(normal, np.einsum("hw,wi,hwc->ic", weights, basis, above))
+        away = np.linalg.norm(above - found, axis=2)
+        weights = 1 / (1 + (away / max(float(np.median(away)), 1.0)) ** 2) ** 2
+    return np.asarray(found[None].clip(0, 255), np.float32)
+
+
+def _grain(
+    rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int, shape: tuple[int, int]
+) -> NDArray[np.float32]:
+    """(h, w, 3) of the `shape`: the grain of the cheek below an eye, which goes to and fro where it is smaller; none of what is stronger than grain."""
+    outer, inner = (mesh[v, :2].astype(np.float64) for v in EYE_CORNERS[side])
+    wide, high = (max(2, round(share * float(np.linalg.norm(inner - outer)))) for share in CHEEK_PATCH_EYE_WIDTHS)
+    right = (inner - outer) / np.linalg.norm(inner - outer)
+    middle = mesh[list(CHEEK_VERTICES[side]), :2].mean(axis=0)
+    across, down = np.arange(wide) - wide / 2, np.arange(high) - high / 2
+    places = middle + across[None, :, None] * right + down[:, None, None] * np.array([-right[1], right[0]])
+    x, y = cv2.split(places.astype(np.float32))
+    patch = cv2.remap(rgb, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE).astype(np.float32)
+    grain = patch - cv2.GaussianBlur(patch, (0, 0), max(GRAIN_EYE_WIDTHS * wide, 0.5), borderType=cv2.BORDER_REPLICATE)
+    grain *= np.clip(1 - (grain / MAX_GRAIN_GREY_LEVELS) ** 2, 0, 1)
+    rows, columns = (np.arange(length) % (2 * size) for length, size in zip(shape, (high, wide), strict=True))
+    return grain[np.minimum(rows, 2 * high - 1 - rows)][:, np.minimum(columns, 2 * wide - 1 - columns)]
 
 
 def _out_of_the_shadow(colours: NDArray[np.float32], cheek: NDArray[np.float32]) -> NDArray[np.float32]:
