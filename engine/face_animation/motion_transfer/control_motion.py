@@ -28,7 +28,13 @@ from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_
 from engine.face_animation.motion_transfer.head_proxy import HeadProxy, build_head_proxy, chin_length, move_head
 from engine.face_animation.motion_transfer.head_room import hold_back, skull_shift, turned_in_picture
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
-from engine.face_animation.motion_transfer.lids_and_lips import close_lids, constrain_lids_and_lips, lid_ratio
+from engine.face_animation.motion_transfer.lids_and_lips import (
+    close_lids,
+    constrain_lids_and_lips,
+    gap_limits,
+    hold_lids,
+    lid_ratio,
+)
 from engine.face_animation.motion_transfer.pose_refinement import refine_pose
 from engine.face_animation.motion_transfer.turned_expression import even_out_turned
 from engine.face_animation.mouth.closing import ClosingLips
@@ -100,6 +106,7 @@ class MotionTransfer:
         self._driver = build_head_proxy(np.concatenate([self._rest[:, :2], self._around]), self._rest)
         self._phi = align(self._rest, target)
         self._turned = turned_in_picture(target)
+        self._lids = gap_limits(target)
         self._lips, self._smile = ClosingLips(self._rest, target), SmileCurve(self._rest, target)
         self._unit = float(eye_distance(target[:, :2]))
         self._maps = local_maps(self._phi, self._rest, target, float(eye_distance(self._rest[:, :2])))
@@ -137,6 +144,7 @@ class MotionTransfer:
             rigid = solid[:, :MESH_SIZE, :2]
             placed = rigid + self._even @ (placed - rigid)
             close_lids(placed, rigid, ratio)
+            hold_lids(placed, rigid, self._lids)
             offsets[:, MESH_SIZE:] = self._around_face(frames, motion, held, proxy, solid[..., :2], placed)
         offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
         return offsets, depths, look

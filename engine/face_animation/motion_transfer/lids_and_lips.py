@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.landmarks import eye_opening
+from engine.perception.landmarks import LEFT_IRIS, RIGHT_IRIS, eye_opening
 
 LID_PAIRS = (
     *((246, 7), (161, 163), (160, 144), (159, 145), (158, 153), (157, 154), (173, 155)),
@@ -37,6 +37,10 @@ SHUT_GAP_SHARES = (0.2, 0.35)
 """Share of its usual gap below which an eye is shut, whatever the other does, and above which it may be half open like that."""
 MAX_GAP_RATIO = 1.5
 """An eye opens at most to this multiple of its gap in the picture."""
+MAX_GAP_IRIS_DIAMETERS = 1.0
+"""Nor farther than this, in diameters of its iris: lids that are raised as far as they go bare some white above the iris, and no ring around it."""
+MIN_GAP_LIMIT = 1.08
+"""Multiple of its gap up to which any eye opens, also a drawn one whose iris is small."""
 
 
 def lid_ratio(
@@ -45,7 +49,7 @@ def lid_ratio(
     """(N, 14) gap of each pair of lid vertices against the neutral frame's; the tracker never reports a
     gap of zero, so that ratios under `CLOSED_GAP_SHARE` become 0.
 
-    Eyes of a `target` (478, 3) that are narrower at rest than the driver's are narrowed no further than these are, by `eye_opening`: what is
+    Eyes of a `target` (478, 3) open no farther than their irises allow; those that are narrower at rest than the driver's are narrowed no further than these are, by `eye_opening`: what is
     left of wide eyes is not a squint.
     """
     upper, lower = np.array(LID_PAIRS).T
@@ -59,9 +63,19 @@ def lid_ratio(
     middle = np.repeat(blinking, 7, axis=1)
     shut = np.clip((middle - CLOSED_GAP_SHARE) / (OPEN_GAP_SHARE - CLOSED_GAP_SHARE), 0, 1)
     if target is not None:
+        ratio = np.minimum(ratio, np.repeat(gap_limits(target), 7))
         least = np.minimum(eye_opening(meshes) / np.maximum(eye_opening(target), 1e-6), 1)
         ratio = np.maximum(ratio, np.repeat(least, 7, axis=1))
     return np.asarray(np.clip(ratio, 0, MAX_GAP_RATIO) * (shut * shut * (3 - 2 * shut)), float)
+
+
+def gap_limits(target: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(2,) to what multiple of its gap in the picture each eye of a `target` (478, 2 or 3) opens at most, the right one first."""
+    upper, lower = np.array(LID_PAIRS).T.reshape(2, 2, 7)[:, :, 2:5]
+    gaps = np.linalg.norm(target[upper] - target[lower], axis=-1).mean(axis=1)
+    rings = np.array([RIGHT_IRIS, LEFT_IRIS])
+    iris = 2 * np.linalg.norm(target[rings[:, 1:]] - target[rings[:, :1]], axis=-1).mean(axis=1)
+    return np.asarray(np.clip(MAX_GAP_IRIS_DIAMETERS * iris / np.maximum(gaps, 1e-6), MIN_GAP_LIMIT, MAX_GAP_RATIO))
 
 
 def _blinking_alike(gaps: NDArray[np.floating]) -> NDArray[np.floating]:
@@ -117,3 +131,15 @@ def close_lids(placed: NDArray[np.floating], rigid: NDArray[np.floating], ratio:
     meeting = placed[:, lower] + ratio[..., None] * (rigid[:, upper] - rigid[:, lower])
     shut = 1 - smoothstep(ratio, 0, OPEN_GAP_SHARE)
     placed[:, upper] += shut[..., None] * (meeting - placed[:, upper])
+
+
+def hold_lids(placed: NDArray[np.floating], rigid: NDArray[np.floating], limits: NDArray[np.floating]) -> None:
+    """Have lids open no farther than their `gap_limits` (2,) where the face ended up, in place: what corrects a point may have raised them beyond. `placed` and
+    `rigid` as `close_lids` takes them."""
+    upper, lower = np.array(LID_PAIRS).T
+    gap = placed[:, upper] - placed[:, lower]
+    usual = np.linalg.norm(rigid[:, upper] - rigid[:, lower], axis=-1)
+    open_by = np.linalg.norm(gap, axis=-1) / np.maximum(usual, 1e-6)
+    middle = np.repeat(np.stack([open_by[:, 2:5].mean(axis=1), open_by[:, 9:12].mean(axis=1)], axis=1), 7, axis=1)
+    share = np.minimum(np.repeat(limits, 7) / np.maximum(middle, 1e-6), 1)[..., None]
+    placed[:, upper] -= (1 - share) * gap

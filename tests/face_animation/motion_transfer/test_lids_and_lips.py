@@ -10,10 +10,14 @@ from numpy.typing import NDArray
 from engine.face_animation.motion_transfer.lids_and_lips import (
     INNER_LIP_PAIRS,
     LID_PAIRS,
+    MAX_GAP_IRIS_DIAMETERS,
     MAX_GAP_RATIO,
+    MIN_GAP_LIMIT,
     OPEN_GAP_SHARE,
     close_lids,
     constrain_lids_and_lips,
+    gap_limits,
+    hold_lids,
     lid_ratio,
 )
 from engine.perception.head_pose import canonical_face, mirror_vertices
@@ -192,3 +196,26 @@ def test_shut_lids_meet_wherever_the_face_ended_up(target: NDArray, ratio: float
         np.testing.assert_array_equal(placed, parted)
     rest = np.setdiff1d(np.arange(478), upper)
     np.testing.assert_array_equal(placed[:, rest], parted[:, rest])
+
+
+def test_an_eye_opens_as_far_as_its_iris_is_high(target: NDArray) -> None:
+    iris = 2 * np.linalg.norm(target[469:473] - target[468], axis=1).mean()
+    for share, limit in ((1.0, MAX_GAP_IRIS_DIAMETERS), (0.05, None), (3.0, None)):
+        eyes = shut(target, share * iris / gap(target)[2:5].mean())
+        found = gap_limits(eyes)[0]
+        if limit is not None:
+            assert found == pytest.approx(max(limit, MIN_GAP_LIMIT), abs=0.02)
+        else:
+            assert found == (MAX_GAP_RATIO if share < 1 else MIN_GAP_LIMIT)
+
+
+def test_lids_that_were_raised_too_far_come_down_and_others_stay(target: NDArray) -> None:
+    rigid = np.repeat(target[None, :, :2].astype(np.float64), 2, axis=0)
+    placed = np.stack([shut(target, 2.0)[:, :2], shut(target, 0.7)[:, :2]]).astype(np.float64)
+    before = placed.copy()
+    hold_lids(placed, rigid, np.array([1.25, 1.4]))
+    opened_by = (gap(placed[0]) / gap(rigid[0])).reshape(2, 7)[:, 2:5].mean(axis=1)
+    np.testing.assert_allclose(opened_by, (1.25, 1.4), atol=0.02)
+    np.testing.assert_array_equal(placed[1], before[1])
+    still = np.setdiff1d(np.arange(len(target)), UPPER)
+    np.testing.assert_array_equal(placed[0, still], before[0, still])
