@@ -23,7 +23,8 @@ from engine.perception.head_pose import canonical_face
 CORNERS = (61, 291)
 """Of the mouth."""
 CORNER_VERTICES = (61, 76, 62, 78, 291, 306, 292, 308)
-LIPS_MIDDLE = (0, 13, 14, 17)
+LIPS_MIDDLE, UPPER_LIP_MIDDLE = (0, 13, 14, 17), (13,)
+"""Of both lips, and of the upper one's inner edge: a smile that shows teeth bends that up, whatever the lower lip does."""
 BROW_VERTEX, CHIN_VERTEX = 10, 152
 """Where the face's axis begins and ends."""
 WIDENING_SHARES, RISE_SHARES = (0.03, 0.12), (0.02, 0.07)
@@ -45,15 +46,21 @@ class SmileCurve:
         """Raise the corners of the target's mouth at `positions` (N, 478, 3) as the driver of the `meshes` (N, 478, 2 or 3), upright as at rest,
         smiles, in place; `strength` in [0, 1]."""
         share = strength * smile_share(meshes, self._rest)
-        lower = corner_height(meshes, _up(self._rest)) - corner_height(positions, _up(self._target))
+        heights = [
+            corner_height(meshes, _up(self._rest), middle) - corner_height(positions, _up(self._target), middle)
+            for middle in (LIPS_MIDDLE, UPPER_LIP_MIDDLE)
+        ]
+        lower = np.maximum(*heights)
         lift = share * np.clip(lower, 0, MAX_LIFT_SHARE) * _width(positions)
         positions[..., :2] += lift[:, None, None] * corner_influence()[:, None] * _up(self._target)
 
 
-def corner_height(faces: NDArray[np.floating], up: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(...,) how much higher a mouth's corners are than its middle, of faces (..., 478, 2 or 3) whose way `up` (2,) is known, in widths of the mouth."""
+def corner_height(
+    faces: NDArray[np.floating], up: NDArray[np.float64], middle: tuple[int, ...] = LIPS_MIDDLE
+) -> NDArray[np.float64]:
+    """(...,) how much higher a mouth's corners are than its `middle`, of faces (..., 478, 2 or 3) whose way `up` (2,) is known, in widths of the mouth."""
     plane = faces[..., :2].astype(float)
-    apart = plane[..., list(CORNERS), :].mean(axis=-2) - plane[..., list(LIPS_MIDDLE), :].mean(axis=-2)
+    apart = plane[..., list(CORNERS), :].mean(axis=-2) - plane[..., list(middle), :].mean(axis=-2)
     return np.asarray(apart @ up / _width(plane))
 
 

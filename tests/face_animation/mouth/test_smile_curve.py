@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from engine.face_animation.mouth.smile_curve import (
     CORNERS,
     MAX_LIFT_SHARE,
+    UPPER_LIP_MIDDLE,
     SmileCurve,
     corner_height,
     corner_influence,
@@ -75,3 +76,16 @@ def test_lips_bend_about_their_middle_within_the_face() -> None:
     np.testing.assert_allclose(influence[list(CORNERS)], 1, atol=0.01)
     np.testing.assert_allclose(influence[[0, 13, 14, 17]], 0, atol=1e-3)
     assert not influence[list(FACE_OVAL)].any()
+
+
+def test_an_upper_lip_that_arches_over_teeth_is_bent_up_too() -> None:
+    """Its corners hang below its middle, while both lips together are as curved as the driver's."""
+    rest, target = placed(60), smiling(placed(90), 0.5)
+    smile, up = smiling(rest, 0.5), np.array([0.0, -1.0])
+    arched = target.copy()
+    width = np.linalg.norm(target[CORNERS[1]] - target[CORNERS[0]])
+    arched[[0, 13], 1] -= 0.06 * width
+    arched[[14, 17], 1] += 0.06 * width
+    assert height(arched) == pytest.approx(height(target), abs=1e-3)
+    upper = [float(corner_height(face, up, UPPER_LIP_MIDDLE)) for face in (smile, arched, acted(arched, rest, smile))]
+    assert upper[1] < upper[0] - 0.05 and upper[2] == pytest.approx(upper[0], abs=0.01)
