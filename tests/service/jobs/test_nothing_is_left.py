@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -57,8 +58,12 @@ def tables_that_name(data: Path, *words: str) -> set[str]:
 
 def files_that_hold(data: Path, content: bytes) -> list[str]:
     """Files, the database aside, in which these bytes are."""
-    found = [path for path in data.rglob("*") if path.is_file() and not path.name.startswith("galatea.db")]
-    return [str(path.relative_to(data)) for path in found if content in path.read_bytes()]
+    found = []
+    for path in data.rglob("*"):
+        with suppress(FileNotFoundError):  # moved or erased meanwhile
+            if path.is_file() and not path.name.startswith("galatea.db") and content in path.read_bytes():
+                found.append(str(path.relative_to(data)))
+    return found
 
 
 def folders_of(data: Path, *ids: str) -> list[str]:
