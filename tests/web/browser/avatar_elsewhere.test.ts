@@ -94,7 +94,7 @@ describe('in TalkingHead', () => {
     expect(targets.filter((name) => name.startsWith('viseme_'))).toHaveLength(15);
     expect(targets, 'none had to be made').toHaveLength(72);
     expect(await call('influence', 'viseme_aa')).toBe(0);
-    await call('speak', ['PP', 'aa', 'aa'], 1500);
+    await call('speak', ['PP', 'aa', 'aa'], 6000); // long enough to be seen by a machine that draws a frame in two seconds
     const { pixels, above } = await call('shaped', 'viseme_aa', 0.3);
     expect(pixels, 'of the mouth').toBeGreaterThan(25);
     expect(above).toBe(0);
