@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 from engine.perception.landmarks import eye_distance
 
+LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114], np.float32)
+"""Of red, green and blue, sRGB (ITU-R BT.601)."""
 SKIN_RING = (164, 167, 393, 18, 200, 92, 322, 186, 410)
 """Vertices on the skin around the mouth."""
 SAMPLE_RADIUS = 0.06

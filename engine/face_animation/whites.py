@@ -11,10 +11,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.skin_colour import skin_colour
+from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, skin_colour
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
-LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114])
 USUAL_SHARE, SHARE_RANGE = 0.25, (0.15, 0.45)
 """Of the skin's hue in what is white, where no eye shows it, and between which it is."""
 WHITE_PERCENTILE = 60

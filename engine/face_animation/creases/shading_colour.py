@@ -11,7 +11,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-LUMINANCE_OF_RGB = np.array([0.299, 0.587, 0.114], np.float32)
+from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS
+
 FLOOR_GREY_LEVELS = 4.0
 """Added to colours before their logarithm, so that the dark has no colour."""
 BLUR_EYE_DISTANCES = 0.06
@@ -35,7 +36,7 @@ def shading_slopes(rgb: NDArray[np.uint8], skin: NDArray[np.floating], unit: flo
     if len(colours) < MIN_SKIN_PIXELS:
         return np.ones(3, np.float32)
     colours -= np.median(colours, axis=0)
-    light = colours @ LUMINANCE_OF_RGB
+    light = colours @ LUMINANCE_WEIGHTS
     near = np.abs(light) < MAX_LOG_LUMINANCE
     colours, light = colours[near], light[near]
     if np.sqrt(np.mean(light**2)) < MIN_SPREAD:

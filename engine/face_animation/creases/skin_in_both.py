@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.skin_colour import chroma
+from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, chroma
 from engine.perception.face_track.face_crop import CROP_EYES
 from engine.perception.landmarks import FACE_OVAL, LEFT_BROW, LEFT_EYE, LIPS_OUTER, RIGHT_BROW, RIGHT_EYE
 
@@ -19,7 +19,6 @@ CELL_PIXELS = 3
 """Pixels of the crop, along each axis, that are looked at as one."""
 EYE_DISTANCE_PIXELS = (CROP_EYES[1][0] - CROP_EYES[0][0]) / CELL_PIXELS
 """An eye distance of what is looked at, pixels."""
-LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114], np.float32)
 SKIN_CHROMA_DIFFERENCES, OTHER_CHROMA = 0.025, 0.05
 """By how much a pixel's shares of red and blue differ from those of the skin, up to which it is skin, and from which on it is not."""
 SKIN_LIGHT_RATIOS = (0.55, 0.75, 1.3, 1.5)

@@ -13,7 +13,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.whites import LUMINANCE_WEIGHTS, eye_whites, white_tint
+from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS
+from engine.face_animation.whites import eye_whites, white_tint
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
 EYE_VERTICES = ((RIGHT_EYE, RIGHT_IRIS, 33, 133), (LEFT_EYE, LEFT_IRIS, 263, 362))

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.mouth.closing import PARTED_OPENINGS
-from engine.face_animation.mouth.lip_contours import LUMINANCE_WEIGHTS, MIN_TEETH_OPENING
+from engine.face_animation.mouth.lip_contours import MIN_TEETH_OPENING
 from engine.face_animation.mouth.lip_seam import LipSeam
 from engine.face_animation.mouth.modelled.modelled_mouth import ModelledMouth
 from engine.face_animation.mouth.modelled.mouth_colours import lip_colour, mouth_colours
@@ -21,7 +21,7 @@ from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth, appearing_opening, teeth_gain
 from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
 from engine.face_animation.mouth.pictured.teeth_strip import teeth_strip
-from engine.face_animation.skin_colour import skin_colour
+from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, skin_colour
 from engine.face_animation.target_face import TargetFace
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from engine.face_animation.creases.shading_colour import FLOOR_GREY_LEVELS, LUMINANCE_OF_RGB, SLOPES, shading_slopes
+from engine.face_animation.creases.shading_colour import FLOOR_GREY_LEVELS, SLOPES, shading_slopes
+from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS
 
 SKIN = np.array([220.0, 170.0, 140.0])
 
@@ -18,7 +19,7 @@ def shaded(slopes: np.ndarray, skin: np.ndarray = SKIN) -> np.ndarray:
 
 def test_the_slopes_of_a_known_shading_are_found() -> None:
     known = np.array([0.7, 1.1, 1.26])
-    known = known / (known @ LUMINANCE_OF_RGB)
+    known = known / (known @ LUMINANCE_WEIGHTS)
     assert shading_slopes(shaded(known), np.ones((100, 120)), 40) == pytest.approx(known, abs=0.03)
 
 

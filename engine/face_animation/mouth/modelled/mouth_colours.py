@@ -8,8 +8,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.mouth.lip_contours import LUMINANCE_WEIGHTS
-from engine.face_animation.skin_colour import is_grey, skin_colour
+from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, is_grey, skin_colour
+from engine.face_animation.smoothstep import smoothstep
 from engine.face_animation.whites import white_tint
 from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER
 
@@ -85,8 +85,8 @@ def mouth_colours(
     )
     shades = 1 - CROWN_SHADE_RANGE + 2 * CROWN_SHADE_RANGE * aside
     upper = shades[:, None, None] * crowns
-    back = _ramp((along - TONGUE_LIT_SHARE) / (TONGUE_DARK_SHARE - TONGUE_LIT_SHARE))
-    sides = _ramp((aside - TONGUE_SIDES_SHARE) / (1 - TONGUE_SIDES_SHARE))
+    back = smoothstep(along, TONGUE_LIT_SHARE, TONGUE_DARK_SHARE)
+    sides = smoothstep(aside, TONGUE_SIDES_SHARE, 1)
     flat = np.broadcast_to(flesh["tongue"], (RAMP_PIXELS[1], RAMP_PIXELS[0], 3))
     for share, dark in ((back[None, :, None], TONGUE_BACK_DARKNESS), (sides[:, None, None], TONGUE_SIDES_DARKNESS)):
         flat = flat + share * (flesh["lining"] + dark * (flesh["throat"] - flesh["lining"]) - flat)
@@ -129,8 +129,3 @@ def lip_colour(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np
     cv2.fillPoly(mask, [mesh[list(LIPS_INNER), :2].round().astype(np.int32)], 0)
     found = rgb[mask > 0]
     return np.asarray(found.mean(axis=0) if len(found) else GUM, np.float64)
-
-
-def _ramp(value: NDArray[np.floating]) -> NDArray[np.float64]:
-    t = np.clip(value, 0, 1)
-    return np.asarray(t * t * (3 - 2 * t), np.float64)

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.mouth.lip_contours import LUMINANCE_WEIGHTS, box_around, soft_polygon
+from engine.face_animation.mouth.lip_contours import box_around, soft_polygon
 from engine.face_animation.mouth.modelled.modelled_mouth import (
     LIP_SOFTNESS_EYE_DISTANCES,
     MIN_LIP_SOFTNESS_PIXELS,
@@ -23,7 +23,7 @@ from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
 from engine.face_animation.mouth.pictured.teeth_strip import ARCH_CURVATURE, TeethStrip, teeth_strip
-from engine.face_animation.skin_colour import is_grey, skin_colour
+from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, is_grey, skin_colour
 from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, eye_distance, mouth_opening
 
 APPEARING_OPENING = 0.03
