@@ -59,8 +59,13 @@ def inverse(turns: ArrayLike) -> Array:
 def rotate(turns: ArrayLike, vectors: ArrayLike) -> Array:
     """Vectors (..., 3), turned."""
     q, v = np.asarray(turns, np.float64), np.asarray(vectors, np.float64)
-    twice = 2 * np.cross(q[..., :3], v)
-    return v + q[..., 3:] * twice + np.cross(q[..., :3], twice)
+    x, y, z, w = np.moveaxis(q, -1, 0)
+    vx, vy, vz = np.moveaxis(v, -1, 0)
+    # Twice the cross product of axis and vector. (`np.cross` takes three times as long for as few as a skeleton has.)
+    tx, ty, tz = 2 * (y * vz - z * vy), 2 * (z * vx - x * vz), 2 * (x * vy - y * vx)
+    return np.stack(
+        [vx + w * tx + (y * tz - z * ty), vy + w * ty + (z * tx - x * tz), vz + w * tz + (x * ty - y * tx)], -1
+    )
 
 
 def about(axis: str | ArrayLike, radians: ArrayLike) -> Array:
