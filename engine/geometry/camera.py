@@ -12,6 +12,7 @@ coefficients in OpenCV's order.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import overload
 
 import numpy as np
@@ -118,7 +119,7 @@ class Camera:
         """
         rows = np.ascontiguousarray(points, np.float64).reshape(-1, 3)
         found = np.empty((len(rows), 3))
-        lens = np.array([self.focal, self.focal * self.aspect, *self.centre, nearest, self._fold()])
+        lens = np.array([self.focal, self.focal * self.aspect, *self.centre, nearest, _fold(self.distortion)])
         _project(rows, np.array(self.eye), np.array(self.axes), lens, self._coefficients(), found)
         return found.reshape(np.shape(points)).astype(dtype, copy=False)
 
@@ -172,15 +173,6 @@ class Camera:
             [*self.distortion, *[0.0] * (DISTORTION_COEFFICIENTS - len(self.distortion))] if self.distortion else []
         )
 
-    def _fold(self) -> float:
-        """Squared distance from the axis, on the plane at distance 1, from which on the lens would bring places back inwards."""
-        if not self.distortion:
-            return np.inf
-        k1, k2, _, _, k3 = self._coefficients()
-        roots = np.roots([7 * k3, 5 * k2, 3 * k1, 1.0])  # of the slope of the distorted distance
-        turning = roots.real[(np.abs(roots.imag) < 1e-9) & (roots.real > 0)]
-        return float(turning.min()) if len(turning) else np.inf
-
     def _offsets(self, pixels: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """x and y (...,) in pixels from the principal point, as they would be without distortion."""
         away = np.asarray(pixels, np.float64) - self.centre
@@ -188,6 +180,17 @@ class Camera:
             focal = np.array([self.focal, self.focal * self.aspect])
             away = _undistort((away / focal).reshape(-1, 2), self._coefficients()).reshape(away.shape) * focal
         return away[..., 0], away[..., 1]
+
+
+@lru_cache(maxsize=1024)
+def _fold(distortion: tuple[float, ...]) -> float:
+    """Squared distance from the axis, on the plane at distance 1, from which on a lens would bring places back inwards."""
+    if not distortion:
+        return np.inf
+    k1, k2, _, _, k3 = [*distortion, *[0.0] * (DISTORTION_COEFFICIENTS - len(distortion))]
+    roots = np.roots([7 * k3, 5 * k2, 3 * k1, 1.0])  # of the slope of the distorted distance
+    turning = roots.real[(np.abs(roots.imag) < 1e-9) & (roots.real > 0)]
+    return float(turning.min()) if len(turning) else np.inf
 
 
 @njit(nogil=True, boundscheck=False, error_model="numpy")
