@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage, signal
+from scipy import ndimage
 
 from engine.geometry.texture_atlas import TextureAtlas
 
@@ -82,7 +82,7 @@ def _placed(taken: NDArray[np.bool_], charts: list[_Chart], scale: float) -> lis
             if (size >= CELLS).any():
                 continue
             cells = _cells(places, chart.triangles, (int(size[0]), int(size[1])))
-            free = signal.fftconvolve(full.astype(np.float32), cells[::-1, ::-1].astype(np.float32), "valid") < 0.5
+            free = cv2.matchTemplate(full.astype(np.float32), cells.astype(np.float32), cv2.TM_CCORR) < 0.5
             if free.any():
                 y, x = np.argwhere(free)[0]
                 if best is None or y + size[0] < best[0]:
