@@ -1,8 +1,9 @@
 """The folds that a smile leaves in the target's picture, eased where it does not smile any more.
 
 A picture that smiles wears folds from the nose down past the corners of its mouth. The warp moves them, and draws them out to wedges and scars where
-the mouth narrows; on a face they go with the smile. They are dark lines on skin: a closing of the picture has none of them, and what it lies above
-the picture is given back, as far as the mouth is narrower than the picture's.
+the mouth narrows; on a face they go with the smile. They are dark lines on skin with light ridges beside them: a closing of the picture and an opening
+after it have neither. Such skin, with no more grain than the cheeks have, takes their place as far as the mouth is narrower than the picture's. Lines as thin
+as grain go with it, else they stay as hooks at the corners.
 """
 
 from __future__ import annotations
@@ -16,16 +17,20 @@ from engine.face_animation.creases.fine_details import NOSE_VERTICES
 from engine.face_animation.smoothstep import smoothstep
 from engine.perception.landmarks import FACE_OVAL, LIPS_OUTER, eye_distance
 
-EYE_DISTANCE_PIXELS = 80.0
+EYE_DISTANCE_PIXELS = 120.0
 """Eye distance, pixels, of the copy in which folds are looked for, at most."""
-FOLD_EYE_DISTANCES = 0.16
+FOLD_EYE_DISTANCES = 0.22
 """Half the width of the widest fold."""
-SOFT_EYE_DISTANCES = 0.06
+SOFT_EYE_DISTANCES = 0.08
 """Sigma of the skin that takes their place."""
 GRAIN_EYE_DISTANCES = 0.02
-"""Sigma below which it is the skin's grain and no fold: it stays."""
-BESIDE_LIPS, BEYOND_LIPS, BELOW_NOSE = (0.0, 0.08), (0.7, 1.1), (-0.35, -0.1)
+"""Sigma below which it is the skin's grain."""
+GRAIN_SHARE, GRAIN_LIMIT = 0.8, 1.5
+"""The share of the cheeks' pixels whose grain is the measure, and how many times as strong it may be beside the mouth: stronger is a line."""
+BESIDE_LIPS, BEYOND_LIPS, BELOW_NOSE = (0.0, 0.03), (0.7, 1.1), (-0.35, -0.1)
 """Eye distances from the lips from which folds are eased, and up to which; and from where on, down from the nose's base."""
+BESIDE_MIDDLE = (0.12, 0.3)
+"""Eye distances to either side of the face's middle from which folds are eased: the groove below a nose, a chin and what grows there are none."""
 INSIDE_CONTOUR = 0.25
 """Eye distances from the face's contour to where they are eased fully."""
 NARROW_MOUTH_FADE = (0.05, 0.25)
@@ -37,11 +42,11 @@ PHILTRUM_VERTICES, CHEEK_VERTICES = (
     ((50, 101, 118, 117, 111, 116, 123), (280, 330, 347, 346, 340, 345, 352)),
 )
 CORNERS, OUTER_EYES = (61, 291), (33, 263)
-NOSE_BASE = 2
+NOSE_BASE, CHIN = 2, 152
 
 
 class OwnFolds:
-    """The folds around the mouth of a picture (H, W, 3) with its face at `mesh` (478, 2 or 3): what they lack of the skin's light."""
+    """The folds around the mouth of a picture (H, W, 3) with its face at `mesh` (478, 2 or 3): what skin without them is lighter or darker by."""
 
     def __init__(self, rgb: NDArray[np.uint8], mesh: NDArray[np.floating]):
         unit = float(eye_distance(mesh[:, :2]))
@@ -52,7 +57,7 @@ class OwnFolds:
         points = (mesh[:, :2] - (left, top) + 0.5) * shrink - 0.5
         self._corner, self._shrink = (float(left), float(top)), float(shrink)
         self._width = mouth_width(mesh)
-        self._lighter, self._skin = _folds(np.asarray(patch, np.uint8), points.astype(np.float32), unit * shrink)
+        self._change = _folds(np.asarray(patch, np.uint8), points.astype(np.float32), unit * shrink)
 
     def share(self, face: NDArray[np.floating]) -> float:
         """How far a face (478, 2 or 3) has left the smile of its picture, [0, 1]."""
@@ -61,7 +66,7 @@ class OwnFolds:
     def ease(
         self, frame: NDArray[np.uint8], origin: NDArray[np.float32], scale: float, face: NDArray[np.floating]
     ) -> None:
-        """Lighten the folds of a `frame` (H, W, 3), in place, with its face at (478, 2); `origin` (H, W, 2) is its inverse map, in pixels of the
+        """Even out the folds of a `frame` (H, W, 3), in place, with its face at (478, 2); `origin` (H, W, 2) is its inverse map, in pixels of the
         picture enlarged by `scale`."""
         share = self.share(face)
         if share < 1e-3:
@@ -71,7 +76,7 @@ class OwnFolds:
         right, bottom = np.clip(np.ceil(face[:, :2].max(axis=0)).astype(int) + 1, 0, (width, height)).tolist()
         there = (slice(top, bottom), slice(left, right))
         place = np.float32(1 / scale), *(np.float32(at) for at in self._corner), np.float32(self._shrink)
-        _lighten(frame[there], self._lighter, self._skin, np.float32(share), origin[there], *place)
+        _add(frame[there], self._change, np.float32(share), origin[there], *place)
 
 
 def mouth_width(face: NDArray[np.floating]) -> float:
@@ -80,22 +85,34 @@ def mouth_width(face: NDArray[np.floating]) -> float:
     return mouth / max(eyes, 1e-6)
 
 
-def _folds(
-    rgb: NDArray[np.uint8], points: NDArray[np.float32], unit: float
-) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """(h, w, 3) grey levels by which folds around the mouth are darker than the skin that they lie in, and that skin; eye distance `unit` pixels."""
+def _folds(rgb: NDArray[np.uint8], points: NDArray[np.float32], unit: float) -> NDArray[np.float32]:
+    """(h, w, 3) grey levels by which skin around the mouth is lighter without its folds, or darker; eye distance `unit` pixels."""
     lips = np.zeros(rgb.shape[:2], np.uint8)
     cv2.fillPoly(lips, [points[list(LIPS_OUTER)].round().astype(np.int32)], 1)
-    even = cv2.GaussianBlur(rgb.astype(np.float32), (0, 0), GRAIN_EYE_DISTANCES * unit)
+    picture = rgb.astype(np.float32)
+    even = cv2.GaussianBlur(picture, (0, 0), GRAIN_EYE_DISTANCES * unit)
     radius = max(1, round(FOLD_EYE_DISTANCES * unit))
     disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1, 2 * radius + 1))
-    red = cv2.dilate(lips, np.ones((3, 3), np.uint8))[..., None] > 0  # no light for the skin beside them
+    red = cv2.dilate(lips, np.ones((3, 3), np.uint8))[..., None] > 0  # no light for the skin beside them, and no shade
     closed = cv2.morphologyEx(np.where(red, np.float32(0), even), cv2.MORPH_CLOSE, disk)
-    skin = cv2.GaussianBlur(closed, (0, 0), SOFT_EYE_DISTANCES * unit)
-    darker = np.maximum(skin - even, 0)
+    opened = cv2.morphologyEx(np.where(red, np.float32(255), closed), cv2.MORPH_OPEN, disk)
+    soft = SOFT_EYE_DISTANCES * unit
+    skin = (
+        cv2.GaussianBlur(np.where(red, np.float32(0), opened), (0, 0), soft)
+        / np.maximum(cv2.GaussianBlur(1 - red[..., 0].astype(np.float32), (0, 0), soft), 1e-3)[..., None]
+    )
+    limit = _cheek_grain(np.abs(picture - even), points)
+    change = skin + np.clip(picture - even, -limit, limit) - picture
     share = smoothstep(_upper_lip_light(even.mean(axis=2), points), *MOUSTACHE_LIGHT)
-    lighter = share * _around_mouth(lips, points, unit)[..., None] * darker
-    return lighter.astype(np.float32), np.asarray(skin, np.float32)
+    return np.asarray(share * _around_mouth(lips, points, unit)[..., None] * change, np.float32)
+
+
+def _cheek_grain(grain: NDArray[np.float32], points: NDArray[np.float32]) -> float:
+    """Grey levels that the `grain` (h, w, 3) of skin has at most, as the cheeks show."""
+    inside = np.zeros(grain.shape[:2], np.uint8)
+    for cheek in CHEEK_VERTICES:
+        cv2.fillPoly(inside, [points[list(cheek)].round().astype(np.int32)], 1)
+    return GRAIN_LIMIT * float(np.quantile(grain[inside > 0], GRAIN_SHARE)) if inside.any() else 0.0
 
 
 def _upper_lip_light(light: NDArray[np.floating], points: NDArray[np.float32]) -> float:
@@ -121,13 +138,22 @@ def _around_mouth(lips: NDArray[np.uint8], points: NDArray[np.float32], unit: fl
     cv2.fillPoly(oval, [points[list(FACE_OVAL)].round().astype(np.int32)], 1)
     inside = np.clip(cv2.distanceTransform(oval, cv2.DIST_L2, 5) / (INSIDE_CONTOUR * unit), 0, 1)
     near = smoothstep(away, *BESIDE_LIPS) * (1 - smoothstep(away, *BEYOND_LIPS)) * smoothstep(down, *BELOW_NOSE)
+    near = near * smoothstep(_beside_middle(lips.shape, points) / unit, *BESIDE_MIDDLE)
     return np.asarray(near * inside * (1 - cv2.GaussianBlur(grown, (0, 0), 0.05 * unit)), float)
 
 
+def _beside_middle(shape: tuple[int, ...], points: NDArray[np.float32]) -> NDArray[np.float32]:
+    """(h, w) pixels to either side of the line from the nose's base to the chin."""
+    base, along = points[NOSE_BASE], points[CHIN] - points[NOSE_BASE]
+    y, x = np.indices(shape, np.float32)
+    across = (x - base[0]) * along[1] - (y - base[1]) * along[0]
+    return np.asarray(np.abs(across) / max(float(np.linalg.norm(along)), 1e-6), np.float32)
+
+
 @njit(fastmath=True, nogil=True)
-def _lighten(rgb, lighter, skin, share, origin, per_pixel, left, top, shrink):  # type: ignore[no-untyped-def]
-    """Colours with `share` of bilinear samples of `lighter` added, up to `skin`; both lie at (left, top) of the target, `shrink` times as large."""
-    rows, columns = lighter.shape[:2]
+def _add(rgb, change, share, origin, per_pixel, left, top, shrink):  # type: ignore[no-untyped-def]
+    """Colours with `share` of bilinear samples of `change` added, which lies at (left, top) of the target, `shrink` times as large."""
+    rows, columns = change.shape[:2]
     half = np.float32(0.5)
     for y in range(rgb.shape[0]):
         for x in range(rgb.shape[1]):
@@ -138,10 +164,9 @@ def _lighten(rgb, lighter, skin, share, origin, per_pixel, left, top, shrink):  
             i, j = int(v), int(u)
             a, b = v - np.float32(i), u - np.float32(j)
             for c in range(3):
-                added = share * _sample(lighter, i, j, a, b, c)
-                if added >= half:
-                    most = max(_sample(skin, i, j, a, b, c), np.float32(rgb[y, x, c]))
-                    rgb[y, x, c] = np.uint8(min(rgb[y, x, c] + added, most, np.float32(254)) + half)
+                added = share * _sample(change, i, j, a, b, c)
+                if abs(added) >= half:
+                    rgb[y, x, c] = np.uint8(min(max(rgb[y, x, c] + added, np.float32(0)), np.float32(254)) + half)
 
 
 @njit(fastmath=True, nogil=True)

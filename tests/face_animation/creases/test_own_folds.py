@@ -86,3 +86,24 @@ def test_a_moustache_stays() -> None:
 def test_turns_aside_shorten_mouth_and_eyes_alike() -> None:
     turned = placed(60.0, (150.0, 130.0), yaw=20)
     assert mouth_width(turned) == pytest.approx(mouth_width(FACE), rel=0.04)
+
+
+def test_a_thin_line_at_a_corner_goes_too_with_its_ridge_and_what_grows_in_the_middle_stays() -> None:
+    """Lines as thin as grain would stay as hooks beside the mouth; a mole on the chin and the groove below the nose are no folds."""
+    rgb = picture()
+    corner = FACE[291, :2].round().astype(int)
+    line = np.linspace(corner + np.array([4, 1]), corner + np.array([14, 6]), 12).round().astype(int)
+    for shift, colour in ((0, FOLD), (3, (235, 205, 190))):
+        cv2.polylines(rgb, [(line + np.array([0, shift])).astype(np.int32)], False, colour, 1, cv2.LINE_AA)
+    groove, mole = (
+        FACE[[2, 0], :2].mean(axis=0).round().astype(int),
+        FACE[[17, 152], :2].mean(axis=0).round().astype(int),
+    )
+    for place in (groove, mole):
+        cv2.circle(rgb, place.tolist(), 3, FOLD, -1, cv2.LINE_AA)
+    whole = eased(rgb, 0.25)
+    for shift in (0, 3):
+        there = whole[line[:, 1] + shift, line[:, 0]].mean(axis=1)
+        assert np.abs(there - np.mean(SKIN)).max() < 12, "the skin's light again"
+    for x, y in (groove, mole):
+        np.testing.assert_array_equal(whole[y - 3 : y + 4, x - 3 : x + 4], rgb[y - 3 : y + 4, x - 3 : x + 4])
