@@ -29,16 +29,16 @@ from engine.perception.landmarks import eye_distance, mouth_opening
 
 
 def target_mouth(target: TargetFace) -> MouthInterior:
-    """The inside of a target's mouth. Where its picture shows crowns of upper teeth, which are lighter than skin, these are it; where it
-    shows anything else, a tongue or teeth in the dark, its own is seen until the mouth opens further than in the picture. Lips that are parted
-    there meet in a line (`LipSeam`)."""
-    inside = _inside(target)
+    """The inside of a target's mouth. Where its picture shows crowns of upper teeth, which are lighter than skin, these are it. Anything else that
+    parted lips show there, a tongue or teeth in the dark, is never seen: as the mouth moved it would be a grey plug, and give way to
+    teeth from one frame to the next. Lips that are parted there meet in a line (`LipSeam`)."""
     if float(mouth_opening(target.mesh)) <= PARTED_OPENINGS[0]:
-        return inside
-    return LipSeam(inside, lip_colour(target.rgb, target.mesh))
+        return _inside(target, appearing_opening(target.mesh))
+    return LipSeam(_inside(target, 0.0), lip_colour(target.rgb, target.mesh))
 
 
-def _inside(target: TargetFace) -> MouthInterior:
+def _inside(target: TargetFace, appearing: float) -> MouthInterior:
+    """The same without the line, as it is seen from an opening of `appearing` on where it is modelled."""
     rgb, mesh = target.rgb, target.mesh
     general = frontalise(canonical_face()[None].astype(np.float64))[0]
     at, softness = resting_mouth(frontalise(mesh[None])[0], general), picture_softness(rgb, mesh)
@@ -49,7 +49,7 @@ def _inside(target: TargetFace) -> MouthInterior:
             colours = mouth_colours(rgb, mesh, strip.usual() * teeth_gain(rgb, mesh, photo, strip))
             none: NDArray[np.float32] = np.zeros((0, *mesh[:, :2].shape), np.float32)  # as large as in the picture
             return PhotoTeeth(at, rgb, mesh, photo, ModelledMouth(at, colours, False, softness=softness), none)
-    return ModelledMouth(at, mouth_colours(rgb, mesh), True, appearing_opening(mesh), softness)
+    return ModelledMouth(at, mouth_colours(rgb, mesh), True, appearing, softness)
 
 
 def _lightness(colour: NDArray[np.floating], rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:

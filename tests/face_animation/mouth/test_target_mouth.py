@@ -59,6 +59,23 @@ def test_at_rest_a_closed_mouth_stays_as_it_is_and_what_opens_is_drawn_within_th
         assert not changed[cv2.dilate(inside(face).astype(np.uint8), np.ones((9, 9), np.uint8)) == 0].any()
 
 
+def test_what_parted_lips_show_but_for_crowns_is_never_seen() -> None:
+    """A grey tongue in the picture's mouth: as it closes and opens, the same light teeth are there."""
+    parted = opened(placed(90, (160, 120)), SMILE)
+    rgb = painted(parted, SIZE)
+    rgb[inside(parted)] = (95, 85, 85)
+    mouth = target_mouth(target(parted, rgb))
+    light = []
+    for opening in (0.09, SMILE, 0.2):
+        face = opened(placed(90, (160, 120)), opening)
+        frame = painted(face, SIZE)
+        frame[inside(face)] = (95, 85, 85)
+        mouth.draw(frame, face[:, :2], 0)
+        light.append(np.percentile(frame[inside(face)].mean(axis=1), 97))
+    assert min(light) > 0.8 * np.mean(SKIN)
+    assert max(light) < 1.15 * min(light), "in a slit they are as light"
+
+
 def test_it_is_the_same_whatever_the_driver_shows() -> None:
     closed = placed(90, (160, 120))
     mouth = target_mouth(target(closed, painted(closed, SIZE)))
