@@ -7,7 +7,6 @@ from functools import cache
 from itertools import combinations
 
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
 
 from engine.perception.head_pose import canonical_face
@@ -45,13 +44,37 @@ def _disk() -> NDArray[np.int32]:
     owners = Counter(edge for cycle in cycles for edge in combinations(cycle, 2))
     surface = [cycle for cycle in cycles if min(owners[edge] for edge in combinations(cycle, 2)) < 3]
     openings = [_strip(contour) for contour in (LIPS_INNER, RIGHT_EYE, LEFT_EYE)]
-    disk = trimesh.Trimesh(canonical_face(), np.concatenate([surface, *openings]), process=False)
-    trimesh.repair.fix_winding(disk)
-    triangles = np.asarray(disk.faces, np.int32)
+    triangles = _wound_alike(np.concatenate([surface, *openings]).astype(np.int32))
     corners = canonical_face()[:, :2].astype(float)[triangles]
     first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     clockwise = float((first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]).sum()) > 0
     return triangles if clockwise else np.ascontiguousarray(triangles[:, ::-1])
+
+
+def _wound_alike(triangles: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Triangles (N, 3) of a surface in one piece, those reversed that are not wound as the first: an edge of two triangles is run
+    through in both directions."""
+    wound = triangles.tolist()
+    beside: dict[tuple[int, int], list[int]] = {}
+    for number, corners in enumerate(wound):
+        for a, b in combinations(sorted(corners), 2):
+            beside.setdefault((a, b), []).append(number)
+    reached, waiting = {0}, [0]
+    while waiting:
+        for a, b in _sides(wound[waiting.pop()]):
+            for number in beside[min(a, b), max(a, b)]:
+                if number not in reached:
+                    if (a, b) in _sides(wound[number]):
+                        wound[number] = wound[number][::-1]
+                    reached.add(number)
+                    waiting.append(number)
+    return np.array(wound, np.int32)
+
+
+def _sides(corners: list[int]) -> list[tuple[int, int]]:
+    """Of a triangle, as it is wound."""
+    a, b, c = corners
+    return [(a, b), (b, c), (c, a)]
 
 
 def _strip(contour: tuple[int, ...]) -> NDArray[np.int32]:
