@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from made_clip import write_frames
 
-FPS, SIDE, SHORT, LONG = 30, 448, 3, 18
+FPS, SIDE, SHORT, LONG = 30, 640, 3, 11
 ANIMATE = """
 import re, sys
 from pathlib import Path
@@ -25,10 +25,10 @@ print(sum(1 for _ in read_video(made)), re.search(r"VmHWM:\\s+(\\d+)", Path("/pr
 
 
 @pytest.mark.timeout(1200)
-def test_540_frames_peak_within_75_mb_of_ninety(clip, small, tmp_path: Path) -> None:
+def test_330_frames_peak_within_75_mb_of_ninety(clip, small, tmp_path: Path) -> None:
     """At 30 frames a second: one colour of the frames alone would take more than that, the whole of them four times as much.
 
-    540 frames do for the 5400 of the longest driver: what grows does so as frames do, but for the comparison of frames with
+    330 frames do for the 5400 of the longest driver: what grows does so as frames do, but for the comparison of frames with
     one another, whose memory `test_neutral` measures. A first run compiles what the others load: it takes more memory than they do, and is not measured. Which stages meet on two cores is
     chance, and tens of megabytes: of the short clip the higher of two runs counts.
     """
