@@ -181,6 +181,7 @@ def jaw_behind_lips(at: RestingMouth, front: NDArray[np.floating]) -> Jaw:
     edge = np.array([at.middle, at.edge - OVERBITE_EYE_DISTANCES, at.depth + OVERJET_EYE_DISTANCES])
     lip, jaw = float(front[LOWER_MIDDLE, 1]), jaw_of(front, at.shut)
     bared = float(np.interp(jaw.angle, BARING_JAW_RADIANS, (0, 1)))
+    lip += covered_crown(at, front)  # rounded lips are before the lower teeth, too
     return held_between(jaw, edge, (lip - bared * ABOVE_LIP_EYE_DISTANCES, lip + BELOW_LIP_EYE_DISTANCES))
 
 

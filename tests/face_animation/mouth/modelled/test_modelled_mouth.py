@@ -180,6 +180,18 @@ def test_what_is_behind_the_tongue_is_dark_and_red_and_never_black() -> None:
     assert (np.diff(colours.bag.astype(int), axis=1) <= 0).all(), "darker into the depth"
 
 
+def test_rounded_lips_cover_the_lower_teeth_too_however_far_the_jaw_drops() -> None:
+    at = resting_mouth(front(0.0), front(0.0))
+    edge = np.array([at.middle, at.edge - OVERBITE_EYE_DISTANCES, at.depth + OVERJET_EYE_DISTANCES])
+    lips = [*LIPS_INNER, *LIPS_OUTER]
+    above = []
+    for width in (1.0, 0.85, 0.7):
+        face = front(1.2 * BARING_JAW_RADIANS[1])
+        face[lips, 0] = at.middle + width * (face[lips, 0] - at.middle)
+        above.append(face[14, 1] - jaw_behind_lips(at, face).moved(edge)[1])
+    assert above[0] > 0 > above[1] > above[2]
+
+
 def test_rounded_lips_cover_the_upper_teeth(mouth: ModelledMouth) -> None:
     at = resting_mouth(front(0.0), front(0.0))
     lips = [*LIPS_INNER, *LIPS_OUTER]
