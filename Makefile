@@ -38,10 +38,13 @@ PYTEST := OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/pytest --numprocesses 
 
 # Once for all three, which would compile the same at the same time. Python's own, too: where the environment forbids to
 # write it by the way (PYTHONDONTWRITEBYTECODE), each of some hundred services would compile itself anew, and each of the
-# three all tests, whose assertions pytest rewrites first. What cannot be collected is told where tests are run.
+# three all tests, whose assertions pytest rewrites first; again once a test or pytest is newer. What cannot be collected is told
+# where tests are run.
+COLLECTED := .pytest_cache/collected
 compiled:
 	@$(BIN)/python -m compileall -q engine galatea galatea_client service shell worker tests
-	@PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --collect-only >/dev/null || true
+	@if [ ! -e $(COLLECTED) ] || [ -n "$$(find tests $(BIN)/pytest \( -name '*.py' -o -name pytest \) -newer $(COLLECTED) -print -quit)" ]; then \
+	  PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --collect-only >/dev/null || true; mkdir -p $(dir $(COLLECTED)); touch $(COLLECTED); fi
 	@$(BIN)/python -m scripts.compiled
 
 unit: compiled  ## pytest: engine, service, worker, shell
