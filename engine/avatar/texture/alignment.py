@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from engine.avatar.texture.image_shift import ImageShift
 from engine.avatar.texture.lattice_step import lattice_step
 from engine.avatar.texture.views import ChartedSurface, FrameView
+from engine.compiled import njit
 from engine.geometry.surface import vertex_normals
 from engine.imaging.resample import resized, size_within
 from engine.render.sampling import bilinear
@@ -138,15 +139,37 @@ def _agreed(count: int, sights: Sequence[_Sight], shown: Sequence[NDArray[np.uin
     for number in range(1 + CONSENSUS_ROUNDS):
         sums, total = np.zeros((count, 3), np.float32), np.full(count, 1e-6, np.float32)
         for sight, seen in zip(sights, shown, strict=True):
-            weights = sight.weights * (seen[:, 3] / np.float32(MASK_LEVELS)) ** 2
-            if number:
-                away = ((seen[:, :3] - colours[sight.points, :3]) ** 2).sum(1)
-                weights = weights / (1 + away / np.float32(OUTLIER_LEVELS**2))
-            total[sight.points] += weights
-            sums[sight.points] += weights[:, None] * seen[:, :3]
+            _add_seen(sight.points, sight.weights, seen, colours, number > 0, sums, total)
         colours[:, :3] = sums / total[:, None]
     colours[:, 3] = MASK_LEVELS
     return colours
+
+
+@njit(nogil=True, boundscheck=False, error_model="numpy")
+def _add_seen(
+    points: np.ndarray,
+    frontal: np.ndarray,
+    seen: np.ndarray,
+    colours: np.ndarray,
+    agreed: bool,
+    sums: np.ndarray,
+    total: np.ndarray,
+) -> None:
+    """Add what one frame shows of its points, and with what weight; less where it is not what was `agreed` on before."""
+    one, levels, scale = np.float32(1), np.float32(MASK_LEVELS), np.float32(OUTLIER_LEVELS**2)
+    for n in range(len(points)):
+        k = points[n]
+        masked = np.float32(seen[n, 3]) / levels
+        weight = frontal[n] * (masked * masked)
+        if agreed:
+            away = np.float32(0)
+            for c in range(3):
+                off = np.float32(seen[n, c]) - colours[k, c]
+                away += off * off
+            weight /= one + away / scale
+        total[k] += weight
+        for c in range(3):
+            sums[k, c] += weight * np.float32(seen[n, c])
 
 
 def _stepped(sight: _Sight, shift: ImageShift, colours: NDArray[np.float32]) -> ImageShift:
