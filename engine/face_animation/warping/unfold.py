@@ -4,7 +4,9 @@ Where head, neck and body meet, and where a jaw opens onto a neck, neighbours ma
 shows the edge of a fold, which looks torn. So no triangle beside or outside the face keeps less than a share of its area. Each that
 would is brought back to it by the smallest move of its free vertices, round after round (position-based dynamics: M. Mueller
 and others, 2007, "Position Based Dynamics", section 3.3, with the area as the constraint). What is within bounds stays, and
-the moves grow with the violation, so frame follows frame evenly.
+the moves grow with the violation, so frame follows frame evenly. Where an edge that cannot give way has become short, as between lips that
+close, the area beside it may go with it: to be kept it would have to be as high as the edge is narrow, and a vertex be thrown out of the face. And
+none moves further at once than its triangle is wide.
 """
 
 from __future__ import annotations
@@ -43,21 +45,30 @@ def unfold(offsets, rest, triangles, held):  # type: ignore[no-untyped-def]
             area = (place[1, 0] - place[0, 0]) * (place[2, 1] - place[0, 1]) - (place[1, 1] - place[0, 1]) * (
                 place[2, 0] - place[0, 0]
             )
-            lack = sign * (MIN_AREA_SHARE * whole - area)
-            if lack <= AREA_TOLERANCE * sign * whole:
-                continue
-            clean = False
-            total = 1e-6
+            size = sign * whole
+            kept = size  # of which it keeps its share: of what an edge between held vertices leaves of it
+            total, longest = 1e-6, 0.0
             for k in range(3):
                 one, other = place[(k + 1) % 3], place[(k + 2) % 3]
                 gradient[k] = sign * (one[1] - other[1]), sign * (other[0] - one[0])
+                square = gradient[k, 0] ** 2 + gradient[k, 1] ** 2
                 if not held[triangles[t, k]]:
-                    total += gradient[k, 0] ** 2 + gradient[k, 1] ** 2
+                    total += square
+                    longest = max(longest, square)
+                    p, q = triangles[t, (k + 1) % 3], triangles[t, (k + 2) % 3]
+                    if held[p] and held[q]:
+                        before = (rest[p, 0] - rest[q, 0]) ** 2 + (rest[p, 1] - rest[q, 1]) ** 2
+                        kept = size * min(1.0, np.sqrt(square / max(before, 1e-6)))
+            lack = MIN_AREA_SHARE * kept - sign * area
+            if lack <= AREA_TOLERANCE * kept:
+                continue
+            clean = False
+            step = min(lack / total, np.sqrt(size / max(longest, 1e-6)))
             for k in range(3):
                 v = triangles[t, k]
                 if not held[v]:
                     for d in range(2):
-                        offsets[v, d] += lack / total * gradient[k, d]
+                        offsets[v, d] += step * gradient[k, d]
         if clean:
             return turn
     return MAX_ROUNDS

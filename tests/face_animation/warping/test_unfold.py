@@ -60,3 +60,22 @@ def test_a_little_more_of_a_push_is_a_little_more_of_a_way(sheet: NDArray) -> No
         unfold(offsets, sheet, triangles, held(sheet))
         made.append(offsets)
     assert np.abs(np.diff(made, axis=0)).max() < 1.5
+
+
+@pytest.mark.parametrize("width", [1.0, 0.1, 0.01])
+def test_beside_an_edge_that_closes_nothing_is_thrown_out(width: float) -> None:
+    """Two lips that meet, and a vertex beside them that is pushed through: it comes back to its side, by its triangle's size at most."""
+    rest = np.array([[0, 0], [10, 0], [5, 8]], np.float32)
+    offsets = np.array([[5 - width / 2, 0], [-5 + width / 2, 0], [0, -9]], np.float32)
+    fixed = np.array([True, True, False])
+    unfold(offsets, rest, np.array([[0, 1, 2]], np.int32), fixed)
+    back = rest[2] + offsets[2]
+    assert np.linalg.norm(back - [5, -1]) < 10
+    assert back[1] == pytest.approx(MIN_AREA_SHARE * 8, abs=0.5)
+
+
+def test_what_has_shrunk_to_a_point_opens_by_its_own_size_and_no_more() -> None:
+    rest = np.array([[0, 0], [10, 0], [5, 8]], np.float32)
+    offsets = (np.array([[5, 3], [5.001, 3], [5, 3.001]], np.float32) - rest).astype(np.float32)
+    unfold(offsets, rest, np.array([[0, 1, 2]], np.int32), np.array([True, False, False]))
+    assert np.linalg.norm(rest + offsets - [5, 3], axis=1).max() < 20
