@@ -50,7 +50,7 @@ class CharacterOptions(TypedDict, total=False):
     mask_strokes: Sequence[Mapping[str, Any]]
     label_strokes: Sequence[Mapping[str, Any]]
     back_texture: Literal["see_through", "mirror", "inpaint"]
-    surface: Literal["hybrid", "relief", "shell"]
+    surface: Literal["auto", "hybrid", "relief", "shell"]
 
 
 class AvatarOptions(TypedDict, total=False):

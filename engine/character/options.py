@@ -117,9 +117,9 @@ class CharacterOptions(BaseModel):
         description="The back: the front seen through, without what the sides of the trunk have not (ties, prints, collars); a mirrored copy of the front; or filled by what the sides of each part of the body show.",
     )
 
-    surface: Literal["hybrid", "relief", "shell"] = Field(
-        "relief",
-        description="What the character is made of: the picture cut into parts that are given their depth (relief, the paper's way); the human template displaced to the outline, a shell that is whole from every side and where parts touch; or both (hybrid): trunk, head and hanging cloth of the relief, arms and legs of the shell.",
+    surface: Literal["auto", "hybrid", "relief", "shell"] = Field(
+        "auto",
+        description="What the character is made of: the picture cut into parts that are given their depth (relief, the paper's way); the human template displaced to the outline, a shell that is whole from every side and where parts touch; or both (hybrid): trunk and hanging cloth of the relief, arms, legs and, where hair keeps to it, the head of the shell. auto: the relief with such a head, and the hybrid of who has one leg before the other.",
     )
 
     @model_validator(mode="after")

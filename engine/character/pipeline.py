@@ -19,6 +19,7 @@ from engine.character.film.lit import lit_picture
 from engine.character.film.motions import motion_in_use
 from engine.character.film.person import Person
 from engine.character.hybrid.hybrid import make_hybrid
+from engine.character.hybrid.passing_legs import legs_pass
 from engine.character.options import CharacterOptions
 from engine.character.parts.unseen_limbs import with_limbs_hidden
 from engine.character.rig.left_out import warn_of_silhouette
@@ -36,6 +37,8 @@ from engine.character.stages import (
     label_drawn,
     make_character,
     make_drawn,
+    make_headed,
+    make_headed_character,
     make_hybrid_character,
     make_shell_character,
 )
@@ -213,13 +216,19 @@ def reconstruct(
         )
     fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.picture_camera()), labels, run.warn)
     painted = (options.triangles, options.back_texture)
-    if options.surface != "relief":
+    surface = options.surface
+    if surface == "auto" and legs_pass(silhouette, fitted, labels):
+        surface = "hybrid"
+    if surface in ("hybrid", "shell"):
         fitted = with_relaxed_hands(fitted)
     found = (figure, silhouette, fitted, labels)
-    if options.surface == "shell":
+    if surface == "auto":
+        headed = run.stage("build_mesh", make_headed, *found)
+        return Person(*found, run.stage("make_character", make_headed_character, *found, headed, *painted))
+    if surface == "shell":
         shell = run.stage("build_mesh", make_shell, *found)
         return Person(*found, run.stage("make_character", make_shell_character, *found, shell, *painted))
-    if options.surface == "hybrid":
+    if surface == "hybrid":
         hybrid = run.stage("build_mesh", make_hybrid, *found)
         return Person(*found, run.stage("make_character", make_hybrid_character, *found, hybrid, *painted))
     mesh = run.stage("build_mesh", build_mesh, *found)

@@ -25,7 +25,9 @@ from engine.character.fit.head import turn_head
 from engine.character.fit.second_look import look_again
 from engine.character.fit.template_fit import FittedBody, fit_best, load_human, pose_template
 from engine.character.hybrid.behind_limbs import mirrored_behind
+from engine.character.hybrid.headed import HeadedRelief, make_headed_relief
 from engine.character.hybrid.hybrid import Hybrid, limbs_alone
+from engine.character.hybrid.limbs import cut_off
 from engine.character.hybrid.seam import with_the_trunks_colours
 from engine.character.hybrid.two_surfaces import together
 from engine.character.options import LabelStroke
@@ -268,6 +270,30 @@ def _made_of(
     character = relaxed(replace(character, mesh=fewer_triangles(character, triangles)))
     height, width = figure.rgb.shape[:2]
     return without_backs_in_view(character, picture_camera(character, fitted, (height, width)))
+
+
+def make_headed(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> HeadedRelief:
+    """The relief in the pictured pose, its head the shell's where that is its shape."""
+    return make_headed_relief(figure, silhouette, fitted, labels, build_mesh)
+
+
+def make_headed_character(
+    figure: Figure,
+    silhouette: Silhouette,
+    fitted: FittedBody,
+    labels: Labels,
+    headed: HeadedRelief,
+    triangles: int,
+    back: BackTexture,
+) -> Character:
+    """Relief and head painted, bound in T-pose, put together and brought down to a number of triangles."""
+    character = make_character(figure, silhouette, fitted, headed.labels, headed.relief, triangles, back)
+    if headed.shell is None or headed.shown is None:
+        return character
+    alone = replace(headed.shell, mesh=cut_off(headed.shell.mesh, headed.shown))
+    texture = paint_shell(figure.rgb, silhouette, labels, headed.shell, back, alone.mesh.triangles)
+    character = together(bind_shell(alone, figure, silhouette, fitted, texture), character)
+    return replace(character, mesh=fewer_triangles(character, triangles))
 
 
 def make_shell_character(

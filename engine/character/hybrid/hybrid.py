@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
+from engine.character.hybrid.head import hair_keeps_to_the_head, joined_at_the_neck, with_head, without_head
 from engine.character.hybrid.limbs import Limbs, cut_off, joined_in_depth, limbs_of
 from engine.character.hybrid.trunk import trunk_labels, trunk_layer
 from engine.character.parts.label_map import Labels
@@ -57,14 +58,22 @@ def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
     camera = silhouette.camera(fitted.picture_camera())
     own = trunk_labels(labels)
     template = pose_template(fitted, camera, human)
-    layer = trunk_layer(own, template, human.rig, seen_face(figure, silhouette, template, human.face, own))
     shape = shaped(figure, silhouette, fitted, labels)
+    with_its_head = hair_keeps_to_the_head(figure, silhouette, labels, mesh, shape.template)
+    seen = own
+    if with_its_head:
+        own = without_head(own)
+    face = None if with_its_head else seen_face(figure, silhouette, template, human.face, own)
+    layer = trunk_layer(own, template, human.rig, face)
     places = (shape.pictured[:, :2] - silhouette.to_grid[:, 2]) / np.diag(silhouette.to_grid)
     height, width = silhouette.alpha.shape
     within = np.asarray(((places > -1) & (places < [width, height])).all(1), np.bool_)
     limbs = limbs_of(mesh, shape.pictured, own, fitted, within)
     pictured, layer = joined_in_depth(mesh, shape.pictured, limbs, layer, own)
     trunk = close([layer], silhouette.soft)
+    if with_its_head:
+        limbs = with_head(limbs, mesh, fitted)
+        pictured, trunk = joined_at_the_neck(mesh, pictured, limbs, trunk, seen)
     covering = Piece("trunk", trunk.vertices, trunk.triangles, trunk.bones.astype(np.intp), trunk.weights)
     pieces = props_of(mesh, pictured, silhouette, [covering])
     shell = shell_of(mesh, replace(shape, pictured=pictured), silhouette, fitted, pieces)

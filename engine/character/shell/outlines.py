@@ -54,6 +54,11 @@ class Outlines:
     weight: NDArray[np.float64]
     hidden: NDArray[np.bool_]
 
+    def of(self, part: int) -> Outlines:
+        """Those of one part alone, an index of `BODY_PARTS`."""
+        own = self.part == part
+        return Outlines(self.points[own], self.normals[own], self.part[own], self.weight[own], self.hidden[own])
+
 
 def part_outlines(labels: Labels) -> Outlines:
     """The borders of all parts of `labels`. Of cloth that hangs free the body says nothing, and has none there."""

@@ -7,7 +7,7 @@ right; here every part is whole before the picture is looked at, and only its sh
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,17 +20,21 @@ from engine.character.parts.label_map import Labels
 from engine.character.shell.at_rest import shell_at_rest
 from engine.character.shell.displacement import KnownPoints, displace
 from engine.character.shell.extremities import barefoot, in_shoes
-from engine.character.shell.outlines import part_outlines
+from engine.character.shell.outlines import HEAD_LABEL, part_outlines
 from engine.character.shell.piece import Piece
 from engine.character.shell.props import props_of
 from engine.character.shell.skirt import skirt_of
-from engine.character.shell.template_mesh import TemplateMesh, template_mesh
+from engine.character.shell.template_mesh import MIN_HEAD_WEIGHT, TemplateMesh, template_mesh
 from engine.character.shell.thickness import thickened
 from engine.geometry.skinning import bone_transforms, skin
 from engine.perception.landmarks import fiducials
 
 JAW_LANDMARK_COUNT = 17
 """The first of the 68 fiducials are the jaw's line: where it is seen depends on the view, and so they are no points of the face."""
+HEAD_SURROUND_METRES = 0.12
+"""Metres beyond the head's radius in which what is around gives way where it is displaced."""
+LID_RADII = 1.35
+"""Radii of an eye from its centre within which the skin is its lids'."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +85,44 @@ def shaped(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: L
         straight = in_shoes(straight)
         template = camera.to_picture(posed(mesh, straight, fitted))
     displaced = displace(mesh, template, part_outlines(labels.layered), face_points(figure, silhouette, mesh))
-    return Shape(straight, template, thickened(mesh, template, displaced))
+    return Shape(straight, template, eyes_in_sockets(mesh, template, thickened(mesh, template, displaced)))
+
+
+def shaped_head(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Shape:
+    """The same of the head alone, what is far from it as the fit has it."""
+    mesh, camera = template_mesh(), silhouette.camera(fitted.picture_camera())
+    straight = load_human().space.vertices(fitted.fit.coefficients)[mesh.ids].astype(np.float64)
+    template = camera.to_picture(posed(mesh, straight, fitted))
+    places = load_human().space.mean[mesh.ids]
+    head = mesh.head > MIN_HEAD_WEIGHT
+    reach = HEAD_SURROUND_METRES + np.linalg.norm(places[head] - places[head].mean(0), axis=1).max()
+    near = np.linalg.norm(places - places[head].mean(0), axis=1) < reach
+    own, which = mesh.part(near)
+    outlines = part_outlines(labels.layered).of(HEAD_LABEL)
+    known = face_points(figure, silhouette, mesh)
+    again = np.full(len(places), -1, np.intp)
+    again[which] = np.arange(len(which))
+    displaced = displace(own, template[which], outlines, replace(known, vertices=again[known.vertices]))
+    pictured = template.copy()
+    pictured[which] = thickened(own, template[which], displaced)
+    return Shape(straight, template, eyes_in_sockets(mesh, template, pictured))
+
+
+def eyes_in_sockets(
+    mesh: TemplateMesh, template: NDArray[np.float64], pictured: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The vertices `pictured` (V, 3) with each eye moved as a whole from where it was in the `template` (V, 3), as the lids around it are:
+    nothing joins it to them."""
+    moved, skin = pictured.copy(), np.flatnonzero((mesh.head > MIN_HEAD_WEIGHT) & ~mesh.eye)
+    eyes = np.flatnonzero(mesh.eye)
+    left = template[eyes, 0] < np.median(template[eyes, 0])
+    for eye in (eyes[left], eyes[~left]):
+        centre = template[eye].mean(0)
+        radius = np.linalg.norm(template[eye] - centre, axis=1).max()
+        lids = skin[np.linalg.norm(template[skin] - centre, axis=1) < LID_RADII * radius]
+        if len(lids):
+            moved[eye] = template[eye] + np.median(pictured[lids] - template[lids], 0)
+    return moved
 
 
 def shell_of(

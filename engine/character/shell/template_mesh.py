@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -62,6 +62,21 @@ class TemplateMesh:
         numbers = np.full(int(max(self.ids.max(), np.max(vertices, initial=0))) + 1, -1, np.intp)
         numbers[self.ids] = np.arange(len(self.ids))
         return numbers[vertices]
+
+    def part(self, vertices: NDArray[np.bool_]) -> tuple[TemplateMesh, NDArray[np.intp]]:
+        """What lies between some of its vertices (V,), with an open border, and which they are, (W,) indices. It has no chart."""
+        which = np.flatnonzero(vertices)
+        again = np.full(len(self.ids), -1, np.int32)
+        again[which] = np.arange(len(which))
+        names = ("ids", "bones", "weights", "parts", "hand", "foot", "head", "eye", "ear")
+        return replace(
+            self,
+            triangles=again[self.triangles[vertices[self.triangles].all(1)]],
+            corners=np.zeros(0, np.intp),
+            uv=np.zeros((0, 2), np.float32),
+            uv_triangles=np.zeros((0, 3), np.int32),
+            **{name: getattr(self, name)[which] for name in names},
+        ), which
 
 
 @cache

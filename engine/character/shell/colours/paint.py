@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from engine.character.figure.silhouette import Silhouette
 from engine.character.parts.label_map import Labels
+from engine.character.shell.colours.ear_shade import ear_shade
 from engine.character.shell.colours.evidence import witness
-from engine.character.shell.colours.head_back import head_round
+from engine.character.shell.colours.head_round import head_round
 from engine.character.shell.colours.round import BackTexture, coloured_round, with_the_other
 from engine.character.shell.colours.unrolled import COLUMNS, unrolled_parts
 from engine.character.shell.shell import Shell
@@ -41,6 +42,11 @@ OPPOSITE_LIMB = {
 """Which limb is the other side's."""
 STRIP_ROWS = 256
 """Rows of the texture that are judged at once."""
+MIN_PART_SHARE = 0.01
+"""Share of a part in what moves a vertex, from which on the part has a say in its colour."""
+HEAD_ATTRIBUTE, HEAD_COSINES = 4, (0.22, 0.42)
+"""Which of a witness's attributes is the share of the head; and the cosines to the viewer at which a head's texels show nothing of the
+picture, and it alone."""
 
 
 @cache
@@ -68,11 +74,18 @@ def paint_shell(
     rgb : (H, W, 3), the picture.
     labels : what each pixel of the grid shows; what hangs over the legs is the trunk's (`Labels.layered`).
     back : what is behind: the front seen through without what only fronts have, all of it, or what the sides of each row say.
-    hides : (T, 3), the triangles that hide others, where that is not all of the shell.
+    hides : (T, 3), the triangles that are shown and hide others, where that is not all of the shell: what else it has is not painted.
+
+    Raises
+    ------
+    ValueError : of a shell of which triangles have been left out.
     """
+    if len(shell.mesh.triangles) != len(template_mesh().triangles):
+        raise ValueError("only a whole shell has a chart: what is shown of it is said by `hides`")
     told = witness(rgb, silhouette, labels, shell, hides)
     triangles = shell.mesh.triangles
-    parts = unrolled_parts()
+    of_shown = triangles if hides is None else hides
+    parts = [part for part in unrolled_parts() if (part.share[of_shown] > MIN_PART_SHARE).any()]
     evidence = {}
     for part in parts:
         points = interpolate(told.attributes, triangles, part.raster)
@@ -84,27 +97,50 @@ def paint_shell(
         if part.name == "head":
             around, known = head_round(*own), np.ones(len(own[0]), np.float32)
         else:
-            if part.name in OPPOSITE_LIMB:
-                own = with_the_other(own, evidence[OPPOSITE_LIMB[part.name]])
-            around, known = coloured_round(*own, back, part.yoke, part.name in OPPOSITE_LIMB)
+            if (other := OPPOSITE_LIMB.get(part.name)) in evidence:
+                own = with_the_other(own, evidence[other])
+            around, known = coloured_round(
+                *own, back, part.yoke, part.name in OPPOSITE_LIMB, part.name.endswith(("leg", "foot"))
+            )
         rows.append(around)
         sure.append(known)
     firsts = np.cumsum([0, *(len(each) for each in rows)])
-    places = np.stack([np.stack([part.share, part.along, part.angle], 1) for part in unrolled_parts()], 1)
+    places = np.stack([np.stack([part.share, part.along, part.angle], 1) for part in parts], 1)
     raster = texels()
-    shown = np.empty((TEXTURE_SIZE_TEXELS, TEXTURE_SIZE_TEXELS), np.float32)
-    painted = np.empty((TEXTURE_SIZE_TEXELS, TEXTURE_SIZE_TEXELS, 3), np.float32)
-    for first in range(0, TEXTURE_SIZE_TEXELS, STRIP_ROWS):
-        strip = slice(first, first + STRIP_ROWS)
+    whole = (TEXTURE_SIZE_TEXELS, TEXTURE_SIZE_TEXELS)
+    shown, painted = np.zeros(whole, np.float32), np.zeros((*whole, 3), np.float32)
+    wanted = raster.triangle >= 0
+    if hides is not None:
+        wanted &= _among(triangles, hides)[raster.triangle]
+    used = np.flatnonzero(wanted.any(1))
+    for first in range(used[0], used[-1] + 1, STRIP_ROWS):
+        strip = slice(first, min(first + STRIP_ROWS, used[-1] + 1))
         part_of_it = Raster(raster.triangle[strip], raster.barycentrics[strip], raster.depth[strip])
-        seen = told.of(interpolate(told.attributes, triangles, part_of_it))
-        shown[strip], painted[strip] = seen.shown, seen.colours
-    on = raster.triangle >= 0
-    soft = _softened(np.where(on, shown, 0))
-    _filled(painted, soft, raster.triangle, raster.barycentrics, triangles, places.astype(np.float32),
+        points = interpolate(told.attributes, triangles, part_of_it)
+        seen = told.of(points)
+        shown[strip] = np.minimum(seen.shown, 1 - points[..., HEAD_ATTRIBUTE] * (1 - _well_seen(points[..., 3])))
+        painted[strip] = seen.colours
+    soft = _softened(np.where(wanted, shown, 0))
+    drawn = np.where(wanted, raster.triangle, -1)
+    _filled(painted, soft, drawn, raster.barycentrics, triangles, places.astype(np.float32),
             np.concatenate(rows), np.concatenate(sure), firsts)  # fmt: skip
+    shade = interpolate(ear_shade()[:, None], triangles, Raster(drawn, raster.barycentrics, raster.depth))[..., 0]
+    painted *= np.where(drawn >= 0, soft + (1 - soft) * shade, 1)[..., None]
     out = np.clip(painted + 0.5, 0, 255).astype(np.uint8)
     return _beyond_the_chart(out)
+
+
+def _among(triangles: NDArray[np.int32], some: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """Which of the triangles (T, 3) have all their corners in `some` (S, 3)."""
+    there = np.zeros(int(triangles.max()) + 1, np.bool_)
+    there[some] = True
+    return np.asarray(there[triangles].all(1))
+
+
+def _well_seen(towards: NDArray[np.floating]) -> NDArray[np.float32]:
+    """How far what a head shows is the picture's, by the cosine to the viewer: where few pixels are drawn out over it, it is not."""
+    least, all_ = HEAD_COSINES
+    return np.asarray(np.clip((towards - least) / (all_ - least), 0, 1), np.float32)
 
 
 def _softened(shown: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -156,7 +192,7 @@ def _filled(
             total, red, green, blue = np.float32(0), np.float32(0), np.float32(0), np.float32(0)
             for part in range(places.shape[1]):
                 share = wa * places[a, part, 0] + wb * places[b, part, 0] + wc * places[c, part, 0]
-                if share <= 0.01:
+                if share <= MIN_PART_SHARE:
                     continue
                 along = wa * places[a, part, 1] + wb * places[b, part, 1] + wc * places[c, part, 1]
                 first = places[a, part, 2]

@@ -52,9 +52,16 @@ OTHER_SIDE_WEIGHT = 0.03
 """How much the other side of a row counts where this one is seen."""
 BEST_SEEN_HALF_WIDTHS = 0.8
 """How far aside the sides are seen best, in half widths: the maximum of cos x sin^2 x."""
+BORDER_SMOOTHING_METRES, BORDER_INSET_CELLS = 0.02, 3
+"""Metres along a part over which the border of what is seen is smoothed before what lies beyond it is reflected there; and cells by which that
+border is within."""
+OTHER_SIDE_BLEND_SHARE = 0.3
+"""Share of what is not seen of a row, in its middle, in which what comes from one side goes over into what comes from the other."""
 
 COLUMN_RADIANS = ((np.arange(COLUMNS) + 0.5) / COLUMNS * 2 * np.pi - np.pi).astype(np.float32)
 COLUMN_SINES = np.sin(COLUMN_RADIANS)
+OTHER_HALF = ((COLUMNS // 2 - 1 - np.arange(COLUMNS)) % COLUMNS, np.ones(COLUMNS, np.float32))
+"""The column that is as far aside on the other half, and how much it counts."""
 
 
 @dataclass(frozen=True)
@@ -74,13 +81,15 @@ def coloured_round(
     back: BackTexture = "see_through",
     yoke: int | None = None,
     ring: bool = False,
+    at_the_border: bool = False,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """The colours (A, `COLUMNS`, 3) of an unrolled part, sRGB levels: those of its `source` (A, `COLUMNS`), and
     continued round it; and how sure (A,) each row is of them, from 0 to 1.
 
     `facing` (A, `COLUMNS`): cosine to the viewer of each cell, negative behind. From the row `yoke` upwards a front has
     a neckline and no back has one: there the rows below are mirrored. A `ring`, as a limb is, is told by all that is seen
-    of a row, and not by its sides alone. Where nothing is a source, nothing changes.
+    of a row, and not by its sides alone. What is seen is laid behind as it lies before, or, `at_the_border`, reflected where it ends: of legs,
+    which are seen over as much of their girth everywhere. Where nothing is a source, nothing changes.
     """
     if not source.any():
         return colours, np.zeros(len(colours), np.float32)
@@ -92,15 +101,46 @@ def coloured_round(
     model = row_model(seen, weight, 0.0 if ring else TRUNK_CROSSING_METRES)
     kind = _of_the_kind(seen, model, known)
     through = {"mirror": known.astype(np.float32), "inpaint": 0 * kind, "see_through": kind}[back]
-    rows, partner = (
-        np.arange(len(seen)),
-        (COLUMNS // 2 - 1 - np.arange(COLUMNS)) % COLUMNS,
-    )  # as far aside, on the other half
+    rows = np.arange(len(seen))
     if yoke is not None and back == "see_through":
         rows = np.where(rows > yoke, np.maximum(2 * yoke - rows, 0), rows)
-    detail = (through[..., None] * (seen - model.colours))[rows[:, None], partner]
+    own = through[..., None] * (seen - model.colours)
+    ways = reflections(known) if at_the_border else [OTHER_HALF]
+    detail = np.zeros_like(seen)
+    for partner, share in ways:
+        detail += share[..., None] * own[rows[:, None], partner]
     filled = joined(model.colours + detail, seen, known, known * kind)
     return turned_rows(np.where(known[..., None], seen, filled), turns), model.sure
+
+
+def reflections(known: NDArray[np.bool_]) -> list[tuple[NDArray[np.intp], NDArray[np.float32]]]:
+    """For each cell (A, `COLUMNS`) the column that is as far within the border of what is `known` of its row, the middle column facing
+    the viewer, as the cell is beyond it: of the border at its left and of that at its right, and how much each counts. So what is seen goes on
+    at its border without a seam, to and fro; behind, one side goes over into the other."""
+    middle, columns = COLUMNS // 2, np.arange(COLUMNS)
+    quarter = COLUMNS // 4
+    there = known & (np.abs(columns - middle) <= quarter)
+    told = there.sum(1) >= MIN_ROW_CELLS
+    if not told.any():
+        return []
+    first = np.where(told, there.argmax(1), 0).astype(np.float32)
+    last = np.where(told, COLUMNS - 1 - there[:, ::-1].argmax(1), 0).astype(np.float32)
+    rows = np.arange(len(known))
+    first, last = (
+        _blurred(np.interp(rows, rows[told], one[told])[:, None].astype(np.float32), BORDER_SMOOTHING_METRES)
+        for one in (first, last)
+    )
+    first, last = np.minimum(first + BORDER_INSET_CELLS, middle - 1), np.maximum(last - BORDER_INSET_CELLS, middle + 1)
+    found = []
+    gap = COLUMNS - (last - first)
+    for border, inwards in ((last, -1), (first, 1)):
+        beyond = (-inwards * (columns - border)) % COLUMNS  # around the back, from this border on
+        fold = beyond % (2 * (last - first))
+        within = np.minimum(fold, 2 * (last - first) - fold)
+        partner = np.rint(border + inwards * within).astype(np.intp) % COLUMNS
+        share = np.clip(0.5 + (0.5 - beyond / gap) / OTHER_SIDE_BLEND_SHARE, 0, 1)
+        found.append((partner, np.asarray(share * share * (3 - 2 * share), np.float32)))
+    return found
 
 
 def with_the_other(

@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from engine.character.shell.colours.round import COLUMN_RADIANS, COLUMN_SINES, coloured_round, with_the_other
+from engine.character.shell.colours.round import (
+    BORDER_INSET_CELLS,
+    COLUMN_RADIANS,
+    COLUMN_SINES,
+    coloured_round,
+    reflections,
+    with_the_other,
+)
 from engine.character.shell.colours.unrolled import COLUMNS
 
 ROWS = 160
@@ -118,3 +125,32 @@ def test_a_limb_of_which_a_strip_of_its_middle_is_seen_is_a_ring_of_that() -> No
     source = np.where((np.arange(ROWS) < 84)[:, None], SOURCE & strip, SOURCE)
     found = coloured_round(cloth, source, FACING, ring=True)[0]
     assert np.abs(found[:70] - WHITE).max() < 6
+
+
+def test_what_a_leg_shows_is_reflected_at_its_border() -> None:
+    """Known are 60 degrees to both sides of the middle; as far beyond as within, the same column is meant, and both sides' shares are all."""
+    half = COLUMNS // 6
+    known = np.zeros((60, COLUMNS), np.bool_)
+    known[:, COLUMNS // 2 - half : COLUMNS // 2 + half + 1] = True
+    (right, of_right), (left, of_left) = reflections(known)
+    np.testing.assert_allclose(of_right + of_left, 1, atol=1e-6)
+    border = COLUMNS // 2 + half - BORDER_INSET_CELLS
+    for beyond in (1, 10, half):
+        assert (right[:, border + beyond] == border - beyond).all()
+    inside = known[0]
+    assert inside[right].all() and inside[left].all()
+    assert (of_right[:, border + 20] == 1).all() and (of_left[:, COLUMNS - border - 20] == 1).all()
+
+
+def test_a_legs_folds_have_no_seam_at_the_border() -> None:
+    columns = np.arange(COLUMNS)
+    folds = 120 + 30 * np.sin(columns / 5.0)
+    colours = np.broadcast_to(folds[None, :, None], (80, COLUMNS, 3)).astype(np.float32)
+    angle = (columns + 0.5) / COLUMNS * 2 * np.pi - np.pi
+    facing = np.broadcast_to(np.cos(angle), (80, COLUMNS)).astype(np.float32)
+    source = facing > 0.4
+    filled, _ = coloured_round(np.where(source[..., None], colours, 0), source, facing, "mirror", None, True, True)
+    steps = np.abs(np.diff(filled[40, :, 0]))
+    assert steps.max() < 1.3 * np.abs(np.diff(folds)).max()
+    side = (facing[40] < 0.35) & (facing[40] > -0.35)
+    assert filled[40, side, 0].std() > 10, "folds go on over the sides"

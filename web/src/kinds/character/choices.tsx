@@ -18,7 +18,7 @@ const both: Partial<Record<string, readonly BodyPart[]>> = {
 };
 const cameras = ['fixed', 'orbit', 'parallax'] as const;
 const backs = ['see_through', 'mirror', 'inpaint'] as const;
-const surfaces = ['hybrid', 'relief', 'shell'] as const;
+const surfaces = ['auto', 'hybrid', 'relief', 'shell'] as const;
 const triangles = [10_000, 30_000, 60_000, 120_000, 200_000] as const;
 const levels = [0, 1, 2, 3] as const;
 
@@ -51,7 +51,7 @@ export const defaults: Choices = {
   size: null,
   rate: 30,
   format: 'mp4',
-  surface: 'relief',
+  surface: 'auto',
   back: 'see_through',
   triangles: 60_000,
   levels: 0,

@@ -29,7 +29,7 @@ export type CharacterOptions = Omit<Partial<Schemas['CharacterOptions']>, keyof 
   Omit<CharacterCorrections, 'motion' | 'mask' | 'labels'> & {
     motion?: MotionName;
     back_texture?: 'see_through' | 'mirror' | 'inpaint';
-    surface?: 'hybrid' | 'relief' | 'shell';
+    surface?: 'auto' | 'hybrid' | 'relief' | 'shell';
   };
 
 /** Null takes one back: to what is found by itself, or to the default. */

@@ -116,7 +116,8 @@ const english = {
     noLevels: 'None',
     surface: 'Surface',
     surfaces: {
-      hybrid: 'The picture in relief, with limbs of a body',
+      auto: 'The picture in relief, with the head and, where legs pass, the limbs of a body',
+      hybrid: 'The picture in relief, with head and limbs of a body',
       relief: 'The picture in relief',
       shell: 'A body, shaped to the outline',
     },

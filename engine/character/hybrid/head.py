@@ -1,0 +1,174 @@
+"""The shell's head in place of the relief's: a profile, ears and a nape, none of which a picture from before shows.
+
+Beyond the paper, whose head is a relief like the rest: from its side it is a hood with a face before it. Where hair, hat or hood keep
+to the skull, the template's head displaced to the outline is the head; where they do not, as long hair, it is no shape of theirs, and
+the relief remains. The head reaches into the trunk, as limbs do (`engine.character.hybrid.limbs`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.parts import BODY_PARTS
+from engine.character.figure.face_region import in_profile
+from engine.character.figure.figure import Figure
+from engine.character.figure.silhouette import Silhouette
+from engine.character.fit.template_fit import FittedBody, load_human
+from engine.character.hybrid.limbs import INSET_PIXELS, WEIGHT_SMOOTHING_ROUNDS, Limbs
+from engine.character.parts.label_map import Labels
+from engine.character.shell.template_mesh import TemplateMesh
+from engine.character.surface.sheets import ClosedMesh
+from engine.geometry.adjacency import neighbours
+from engine.imaging.masks.mask_distance import dilate_mask
+from engine.imaging.masks.mask_pieces import largest_piece
+from engine.render.rasteriser import rasterise
+
+HEAD, TRUNK = BODY_PARTS.index("head"), BODY_PARTS.index("torso")
+MIN_HEAD_SHARE = 0.3
+"""Share of the head in what moves a vertex that may show in its outline."""
+HAIR_DEPTH_SHARE = 0.09
+"""How far hair that keeps to the skull stands off it, as a share of the head's height."""
+MAX_LOOSE_HAIR_SHARE, MAX_UNCOVERED_SHARE = 0.06, 0.13
+"""Share of what the picture shows of the head that may be further off, and share of the template's head that may lie beside the person,
+for it to be a head of that shape: beyond, hair is loose, or the head is not where it is taken to be."""
+NECK_SURROUND_SHARE, COLLAR_DEPTH_SHARE, MAX_FALLEN_HAIR_SHARE = 0.25, 0.03, 0.27
+"""As shares of the head's height: how far about jaw and neck hair that falls is looked for, and how far off them it is at least; and how much
+of it there may be, as a share of what jaw and neck cover."""
+MOUTH_LANDMARK = 62
+"""Of the 68 points of a face, the middle of the upper lip's lower edge."""
+NECK_OVERLAP_METRES = 0.1
+"""Metres at rest around the neck's joint in which the shell of the head goes on in the trunk."""
+TRUNK_UNDERLAP_PIXELS = 5
+"""Pixels by which the trunk goes on behind the head: what lies between two borders of pixels would gape."""
+LABEL_TOLERANCE_PIXELS = 2
+"""Pixels around the head's label in which it may be what is seen: the border is not exact."""
+
+
+def hair_keeps_to_the_head(
+    figure: Figure, silhouette: Silhouette, labels: Labels, mesh: TemplateMesh, template: NDArray[np.float64]
+) -> bool:
+    """Whether the head, hair and all, has the shape of the `template`'s (V, 3), picture space; not known, and so no, where no face is seen,
+    or one in profile, whose turn is not found, or where the picture cuts the head off."""
+    if figure.face is None or in_profile(figure):
+        return False
+    own = labels.labels == HEAD
+    skull = template[mesh.head > 0.5]
+    places = (skull[:, :2] - silhouette.to_grid[:, 2]) / np.diag(silhouette.to_grid)
+    height, width = silhouette.alpha.shape
+    if not own.any() or (places < 0).any() or (places > [width - 1, height - 1]).any():
+        return False
+    of_head, size = mesh.parts[:, HEAD] > MIN_HEAD_SHARE, np.ptp(skull[:, 1])
+    covered, neck = (_covered(mesh, template, each, own.shape) for each in (of_head, of_head & _below_the_mouth(mesh)))
+    loose = (own & ~dilate_mask(covered, round(HAIR_DEPTH_SHARE * size))).sum() / own.sum()
+    at_neck = dilate_mask(neck, round(NECK_SURROUND_SHARE * size)) & ~dilate_mask(
+        covered & ~neck, LABEL_TOLERANCE_PIXELS
+    )
+    beyond = own & ~dilate_mask(covered, max(LABEL_TOLERANCE_PIXELS, round(COLLAR_DEPTH_SHARE * size)))
+    fallen = (beyond & at_neck).sum() / max(neck.sum(), 1)
+    beside = (covered & (labels.labels < 0)).sum() / max(covered.sum(), 1)
+    return bool(loose < MAX_LOOSE_HAIR_SHARE and fallen < MAX_FALLEN_HAIR_SHARE and beside < MAX_UNCOVERED_SHARE)
+
+
+def _covered(
+    mesh: TemplateMesh, places: NDArray[np.float64], vertices: NDArray[np.bool_], shape: tuple[int, ...]
+) -> NDArray[np.bool_]:
+    """The pixels (h, w) of the grid that are covered by what lies between some of the vertices (V,)."""
+    triangles = mesh.triangles[vertices[mesh.triangles].all(1)]
+    return np.asarray(rasterise(places * [1, 1, -1], triangles, (shape[0], shape[1])).triangle >= 0)
+
+
+def _below_the_mouth(mesh: TemplateMesh) -> NDArray[np.bool_]:
+    """Which vertices (V,) are, on the mean body."""
+    human = load_human()
+    height = human.space.mean[mesh.ids, 1]
+    return np.asarray(height < height[mesh.renamed(human.face)[MOUTH_LANDMARK]])
+
+
+def with_head(limbs: Limbs, mesh: TemplateMesh, fitted: FittedBody) -> Limbs:
+    """The shell's vertices that are shown, with those of head and neck, and around the neck's joint."""
+    space, coefficients = load_human().space, fitted.fit.coefficients
+    at, heads = space.vertices(coefficients)[mesh.ids], space.joints(coefficients)
+    most, limb = mesh.parts.argmax(1), limbs.limb.copy()
+    limb[(most == HEAD) | mesh.eye] = HEAD
+    distance = np.linalg.norm(at - heads[mesh.names.index("Neck")], axis=1)
+    beyond = (most == TRUNK) & (distance < NECK_OVERLAP_METRES) & (limb < 0)
+    limb[beyond] = HEAD
+    return replace(limbs, limb=limb, overlap=limbs.overlap | beyond)
+
+
+def no_limbs(mesh: TemplateMesh) -> Limbs:
+    """None of the shell's vertices."""
+    count = len(mesh.ids)
+    return Limbs(np.full(count, -1), np.zeros(count, np.bool_), np.zeros(count, np.float32))
+
+
+def without_head(labels: Labels) -> Labels:
+    """Labels of who has no head: what is nearest to the trunk of it is the trunk's."""
+    found = labels.labels.copy()
+    head = found == HEAD
+    under = head & dilate_mask(found == TRUNK, TRUNK_UNDERLAP_PIXELS)
+    found[head] = -1
+    found[under] = TRUNK
+    loose = (found == TRUNK) & ~largest_piece(found == TRUNK) & dilate_mask(head, TRUNK_UNDERLAP_PIXELS)
+    found[loose] = -1
+    return replace(labels, labels=found)
+
+
+def joined_at_the_neck(
+    mesh: TemplateMesh, pictured: NDArray[np.float64], shown: Limbs, trunk: ClosedMesh, labels: Labels
+) -> tuple[NDArray[np.float64], ClosedMesh]:
+    """The shell's vertices (V, 3) and the trunk, so that the head is before the trunk where the picture shows it, `labels`, behind its front where that
+    is seen, and what of it goes on in the trunk is within."""
+    shape = (labels.labels.shape[0], labels.labels.shape[1])
+    body = trunk.triangles[(trunk.layer == 0)[trunk.triangles].all(1)]
+    front = -rasterise(trunk.vertices * [1, 1, -1], body, shape).depth
+    back = rasterise(trunk.vertices, body, shape).depth
+    own = shown.limb == HEAD
+    row, column = _pixels(pictured, shape)
+    covered = own & np.isfinite(front[row, column]) & np.isfinite(back[row, column])
+    head = labels.labels == HEAD
+    cloth = (labels.labels == TRUNK) & ~dilate_mask(head, LABEL_TOLERANCE_PIXELS)
+    z = pictured[:, 2].copy()
+    least, most = back[row, column] + INSET_PIXELS, front[row, column] - INSET_PIXELS
+    down = covered & (shown.overlap | cloth[row, column])
+    z[down] = np.minimum(z, most)[down]
+    up = covered & shown.overlap
+    z[up] = np.maximum(z, np.minimum(least, most))[up]
+    moved = pictured.copy()
+    moved[own, 2] += _spread(mesh, z - pictured[:, 2])[own]
+    return moved, _beneath(mesh.triangles[own[mesh.triangles].all(1)], moved, trunk, head)
+
+
+def _beneath(
+    triangles: NDArray[np.int32], places: NDArray[np.float64], trunk: ClosedMesh, head: NDArray[np.bool_]
+) -> ClosedMesh:
+    """The trunk with what of it the picture shows as `head` (h, w) within the head's `triangles`, before and behind."""
+    shape = (head.shape[0], head.shape[1])
+    front = -rasterise(places * [1, 1, -1], triangles, shape).depth - INSET_PIXELS
+    back = rasterise(places, triangles, shape).depth + INSET_PIXELS
+    row, column = _pixels(trunk.vertices, shape)
+    front, back = front[row, column], back[row, column]
+    under = (trunk.layer == 0) & head[row, column] & np.isfinite(front) & np.isfinite(back) & (back < front)
+    vertices = trunk.vertices.copy()
+    vertices[under, 2] = np.clip(vertices[under, 2], back[under], front[under])
+    return replace(trunk, vertices=vertices)
+
+
+def _pixels(places: NDArray[np.floating], shape: tuple[int, int]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Rows and columns (N,) of the pixels of the grid that places (N, 3) are in."""
+    column, row = np.clip(np.rint(places[:, :2]), 0, [shape[1] - 1, shape[0] - 1]).astype(np.intp).T
+    return row, column
+
+
+def _spread(mesh: TemplateMesh, change: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A change (V,) of vertices carried on to those around, less and less."""
+    beside = neighbours(mesh.triangles, len(change))
+    count = np.maximum(np.asarray(beside.sum(1)).ravel(), 1)
+    spread = change
+    for _ in range(WEIGHT_SMOOTHING_ROUNDS):
+        spread = (beside @ spread) / count
+        spread = np.where(np.abs(change) > np.abs(spread), change, spread)
+    return spread

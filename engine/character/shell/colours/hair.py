@@ -1,0 +1,132 @@
+"""Hair on the unrolled head: where it begins, and its strands.
+
+What the picture shows of a hairline is followed to where it ends; behind that hair begins where it does on heads, before the ear
+and down to the nape. Strands are noise drawn out along them, as strong as what is fine about the hair that is seen: what a
+picture shows of the front, laid behind, is a second face of hair.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import median_filter
+
+from engine.character.shell.colours.head_map import HeadMap
+from engine.character.shell.colours.unrolled import COLUMNS, ROW_METRES
+from engine.imaging.filling.nearest import nearest_in
+
+HAIR_EDGE_RADIANS = {
+    "nape": 2.45,
+    "nose": 2.05,
+    "ears": 1.55,
+    "eyes": 1.42,
+    "brow": 1.28,
+    "forehead": 0.95,
+    "crown": 0.0,
+}
+"""Radians from the face's middle beyond which hair is, by the height: behind the ear, before it in sideburns, and at the temple."""
+LONG_HAIR_EDGE_RADIANS = 1.3
+"""The same, at most, of hair that falls over the ears."""
+MIN_EDGE_RADIANS = 0.45
+"""Radians from the face's middle from which on a hairline is looked for."""
+EDGE_CELLS = 6
+"""Cells at the end of what is seen of a row that must be hair for it to go on from there."""
+ROW_FILTER, ROW_SMOOTHING = 9, 3.0
+"""Rows over which what is seen of a hairline is the median, and averaged."""
+CROWN_SHARE = 0.7
+"""Share of the way from the hairline to the crown above which hair is all round."""
+UNEVENNESS_RADIANS, UNEVENNESS_ROWS = 0.04, 2.5
+"""By how much hair begins unevenly, and ends at the nape: standard deviation."""
+STRAND_SCALES = ((0.7, 7.0, 0.8), (2.5, 14.0, 0.6))
+"""Columns and rows over which strands are alike, and how much of them is so: single ones, and locks."""
+WAVE_CELLS, WAVE_COLUMNS = 18.0, 4.0
+"""Cells over which strands bend, and columns by which they do: standard deviation."""
+FINE_CELLS = 4.0
+"""Cells over which what is fine about hair averages out."""
+MAX_STRAND_LEVELS = 12.0
+"""sRGB levels of strands, at most: standard deviation."""
+MIN_STRAND_CELLS = 50
+"""Cells of hair that tell how strong strands are."""
+
+
+def hair_share(
+    head: HeadMap, hair: NDArray[np.bool_], known: NDArray[np.bool_], streaks: NDArray[np.float32], *, falls: bool
+) -> NDArray[np.bool_]:
+    """The cells (A, `COLUMNS`) of hair, from those that are `known` and those that are seen to be (A, `COLUMNS` each). `streaks`:
+    of `strand_noise`; hair that `falls` covers ears and neck."""
+    begins = _edges(head, hair, known, falls=falls) + UNEVENNESS_RADIANS * streaks
+    covered = head.angle > begins
+    if hair.any():  # above the forehead as the nearest that is seen is
+        wide, of_hair = (np.concatenate([each, each, each], 1) for each in (known, hair))
+        y, x = nearest_in(wide)
+        nearest = of_hair[y, x][:, COLUMNS : 2 * COLUMNS]
+        covered = np.where(head.above("hairline") & ~covered, nearest, covered)
+    line, crown = head.levels["hairline"], head.levels["crown"]
+    covered = covered | (head.height > line + CROWN_SHARE * (crown - line))
+    if not falls:
+        covered &= head.height > head.levels["nape"] + UNEVENNESS_ROWS * streaks
+    return np.asarray(covered, np.bool_)
+
+
+def _edges(head: HeadMap, hair: NDArray[np.bool_], known: NDArray[np.bool_], *, falls: bool) -> NDArray[np.float32]:
+    """Radians from the face's middle (A, `COLUMNS`) at which hair begins, on each side its own."""
+    names = sorted(HAIR_EDGE_RADIANS, key=lambda name: head.levels[name])
+    most = LONG_HAIR_EDGE_RADIANS if falls else np.inf
+    usual = np.interp(
+        head.height[:, 0],
+        [head.levels[name] for name in names],
+        [min(HAIR_EDGE_RADIANS[name], most) for name in names],
+    ).astype(np.float32)
+    half = COLUMNS // 2
+    aside = head.angle[0, half:]
+    found = np.empty((len(usual), 2), np.float32)
+    for side, columns in enumerate((slice(half - 1, None, -1), slice(half, None))):  # from the face's middle outwards
+        seen = (known & ~head.around_ears)[:, columns] & (aside > MIN_EDGE_RADIANS)
+        skin = median_filter(seen & ~hair[:, columns], (1, 5))
+        last = np.where(seen, aside, 0).max(1)
+        bare = np.where(skin, aside, MIN_EDGE_RADIANS).max(1)
+        goes_on = last - bare > EDGE_CELLS * (aside[1] - aside[0])
+        edge = np.where(goes_on, np.minimum(bare, usual), np.maximum(usual, last))
+        told = head.above("ears")[:, 0] & (seen.sum(1) >= EDGE_CELLS)
+        found[:, side] = np.where(told, edge, usual)
+    smooth = cv2.GaussianBlur(median_filter(found, (ROW_FILTER, 1)), (1, 0), 1, sigmaY=ROW_SMOOTHING)
+    return np.repeat(np.asarray(smooth, np.float32), half, 1)
+
+
+def strand_noise(shape: tuple[int, int]) -> NDArray[np.float32]:
+    """Noise (A, `COLUMNS`) drawn out along strands that fall from the crown, of mean 0 and deviation 1; always the same, and
+    going on across the ends of rows."""
+    random = np.random.default_rng(0)
+    rows, columns = shape
+    white = random.standard_normal((rows, columns)).astype(np.float32)
+    wide = np.concatenate([white, white, white], 1)
+    streaks = np.zeros_like(wide)
+    for across, along, share in STRAND_SCALES:
+        drawn = cv2.GaussianBlur(wide, (0, 0), sigmaX=across, sigmaY=along)
+        streaks += share * drawn / drawn.std()
+    white = random.standard_normal((rows, columns)).astype(np.float32)
+    bends = np.asarray(cv2.GaussianBlur(np.concatenate([white, white, white], 1), (0, 0), WAVE_CELLS), np.float32)
+    y, x = np.mgrid[0:rows, 0 : 3 * columns].astype(np.float32)
+    waved = cv2.remap(streaks, x + WAVE_COLUMNS * bends / bends.std(), y, cv2.INTER_LINEAR)
+    own = waved[:, columns : 2 * columns]
+    return np.asarray((own - own.mean()) / own.std(), np.float32)
+
+
+def strand_levels(colours: NDArray[np.floating], hair: NDArray[np.bool_]) -> float:
+    """How strong strands are, sRGB levels: the deviation of what is fine about the `hair` (A, `COLUMNS`) of `colours` (A,
+    `COLUMNS`, 3), told by its median: a parting or a comb is no strand."""
+    light = colours.mean(-1).astype(np.float32)
+    whole = cv2.erode(hair.astype(np.uint8), np.ones((3, 3), np.uint8)).astype(np.float32)
+    around = np.maximum(cv2.GaussianBlur(whole, (0, 0), FINE_CELLS), 1e-3)
+    fine = (light - cv2.GaussianBlur(light * whole, (0, 0), FINE_CELLS) / around)[whole > 0]
+    if len(fine) < MIN_STRAND_CELLS:
+        return 0.0
+    return float(min(1.4826 * np.median(np.abs(fine - np.median(fine))), MAX_STRAND_LEVELS))
+
+
+def smoothed_rows(colours: NDArray[np.floating], metres: float) -> NDArray[np.float32]:
+    """Colours (A, `COLUMNS`, 3) averaged over rows: what lies across hair are lights on it."""
+    flat = np.ascontiguousarray(colours.reshape(len(colours), -1), np.float32)
+    blurred = cv2.GaussianBlur(flat, (1, 0), 1, sigmaY=metres / ROW_METRES, borderType=cv2.BORDER_REPLICATE)
+    return np.asarray(blurred, np.float32).reshape(colours.shape)

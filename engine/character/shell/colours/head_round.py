@@ -1,0 +1,196 @@
+"""The head's colours all round: skin and hair each go on as what they are, and which of them a place shows is known of heads.
+
+Beyond the paper, whose back is the front mirrored. A head's side is seen in a strip of few pixels, and its back not at all: colours that
+go round in their rows lay a face's edge, an ear and a collar behind. So a place is told to be skin or hair first: by the picture where it
+is well seen, and elsewhere by where hair begins on heads. A hat is hair of another colour: it goes round at its own height.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.character.shell.colours.hair import hair_share, smoothed_rows, strand_levels, strand_noise
+from engine.character.shell.colours.head_map import HeadMap, head_map
+from engine.character.shell.colours.round import COLUMN_SINES, joined, row_middles, row_model, turned_rows
+from engine.character.shell.colours.unrolled import COLUMNS, ROW_METRES
+
+MIN_WELL_SEEN_COSINE = 0.35
+"""Cosine to the viewer from which on a head's colours are told by the picture: beyond, few pixels are drawn out over its side."""
+FACE_EDGE_RADIANS, CHEEK_EDGE_RADIANS = 1.0, 0.65
+"""Radians from its middle to where a face ends and temples and ears begin; and up to where there is surely no hair beside it."""
+BARE_SKIN_RADIANS = 0.35
+"""Radians from its middle up to which a face is bare between eyes and nose, above all beards and below spectacles."""
+MIN_HALF_FACE_SHARE = 0.5
+"""Share of one half of a face, below which so little of it is seen that the other half says what it is."""
+MIN_HAIR_COLOUR_DISTANCE = 14.0
+"""CIE Lab distance, lightness counting 0.7 and hues 1.5, from which hair can be told from skin."""
+MIN_NOT_SKIN_COLOUR_DISTANCE = 25.0
+"""The same, from which a colour is no skin of this face ..."""
+MAX_LIGHTER_DISTANCE = 5.0
+"""... where no colour is lighter than its skin by more than this: light may fall on it."""
+MAX_HAIR_COLOUR_DISTANCE = 20.0
+"""The same, up to which what is beside the cheeks is of the hair's own colour."""
+MIN_COLOUR_CELLS = 40
+"""Cells from which a colour is known."""
+LONG_HAIR_SHARE = 0.5
+"""Share of what is beside the cheeks that is hair, if hair is long, and goes down to the neck."""
+SIDE_RADIANS = 0.9
+"""Radians from the face's middle beyond which is beside the cheeks."""
+HAIR_MARGIN_CELLS = 5
+"""Cells of a square that must all be hair where its colour is taken from: at its edge it is mixed with skin."""
+HAIR_SMOOTHING_METRES = 0.01
+"""Metres along the head over which the hair's colour is averaged."""
+CENTRE_WEIGHT = 0.3
+"""How much the middle counts beside the sides for the colour of hair."""
+EDGE_METRES = 0.004
+"""Metres over which hair and ears go over into skin."""
+SIDE_SKIN_RADIANS, JAW_RADIANS = 0.7, 1.2
+"""Radians from the face's middle between which what is not hair goes on beside the eyes; and up to which a jaw goes on with its beard."""
+MIN_CLOTH_SHARE, MIN_CLOTH_CELLS, MIN_CLOTH_ROWS = 0.75, 6, 8
+"""Of what is seen of a neck's row the share that is no skin, the cells seen, and the rows of that kind, for a neck to be in cloth."""
+LAB_WEIGHTS = np.array([0.7, 1.5, 1.5], np.float32)
+
+
+@dataclass(frozen=True)
+class _Kinds:
+    """What is well seen of a head, (A, `COLUMNS`) each: all that is `known`, and of that the bare skin, the hair (or hat), and what is
+    nearer to the skin's colour than to the hair's. `skin`: the mean colour, sRGB levels; `falls`: whether hair covers ears and neck."""
+
+    known: NDArray[np.bool_]
+    bare: NDArray[np.bool_]
+    hair: NDArray[np.bool_]
+    skin_like: NDArray[np.bool_]
+    skin: NDArray[np.floating]
+    falls: bool
+
+
+def head_round(
+    colours: NDArray[np.float32], source: NDArray[np.bool_], facing: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """The colours (A, `COLUMNS`, 3) of the unrolled head, as `round.coloured_round` has those of other parts."""
+    if not source.any():
+        return colours
+    head = head_map()
+    face = head.above("chin") & (head.angle < FACE_EDGE_RADIANS)
+    middle = head.between("chin", "hairline") & (head.angle < CHEEK_EDGE_RADIANS)
+    colours, known = _both_cheeks(colours, source & (facing > MIN_WELL_SEEN_COSINE), face, middle)
+    kinds = _kinds(head, colours, known)
+    streaks = strand_noise((len(colours), COLUMNS))
+    skin = _skin(head, colours, kinds)
+    if not kinds.hair.any():
+        return np.where(known[..., None], colours, skin).astype(np.float32)
+    share = _soft(hair_share(head, kinds.hair, known, streaks, falls=kinds.falls))
+    filled = share * _hair(colours, kinds, facing, streaks) + (1 - share) * skin
+    if not kinds.falls:
+        ear = _soft(head.ears)
+        filled = ear * kinds.skin + (1 - ear) * filled
+    return np.where(known[..., None], colours, filled).astype(np.float32)
+
+
+def _kinds(head: HeadMap, colours: NDArray[np.float32], known: NDArray[np.bool_]) -> _Kinds:
+    lab = cv2.cvtColor(np.clip(colours, 0, 255) / np.float32(255), cv2.COLOR_RGB2LAB)
+    beside = ~(head.between("chin", "hairline") & (head.angle < CHEEK_EDGE_RADIANS)) & ~head.ears
+    cheeks = known & (head.angle < BARE_SKIN_RADIANS) & head.between("nose", "eyes")
+    top = known & beside & head.above("hairline")
+    bare, skin_like, falls = np.zeros_like(known), np.zeros_like(known), False
+    if cheeks.sum() > MIN_COLOUR_CELLS:
+        skin = np.median(lab[cheeks], 0)
+        darker = np.minimum(lab - skin, [MAX_LIGHTER_DISTANCE, np.inf, np.inf])
+        bare = known & (np.linalg.norm(darker * LAB_WEIGHTS, axis=-1) < MIN_NOT_SKIN_COLOUR_DISTANCE)
+        skin_like = bare.copy()
+        if top.sum() > MIN_COLOUR_CELLS:
+            hair = np.median(lab[top], 0)
+            from_skin, from_hair = (np.linalg.norm((lab - one) * LAB_WEIGHTS, axis=-1) for one in (skin, hair))
+            skin_like = known & (from_skin < from_hair)
+            bare &= skin_like
+            if np.linalg.norm((skin - hair) * LAB_WEIGHTS) > MIN_HAIR_COLOUR_DISTANCE:
+                sides = known & (head.angle > SIDE_RADIANS) & head.between("chin", "nose")
+                of_hair = ~skin_like & (from_hair < MAX_HAIR_COLOUR_DISTANCE)
+                falls = bool(sides.sum() > MIN_COLOUR_CELLS and of_hair[sides].mean() > LONG_HAIR_SHARE)
+            else:  # as fair as the skin, or none: above the hairline the head is what it is there
+                bare &= ~head.above("hairline")
+    own = known & ~bare & beside & (falls | head.above("ears"))
+    return _Kinds(known, bare, own if top.sum() > MIN_COLOUR_CELLS else np.zeros_like(own), skin_like,
+                  _mean_skin(head, colours, known, bare, cheeks), falls)  # fmt: skip
+
+
+def _mean_skin(
+    head: HeadMap,
+    colours: NDArray[np.float32],
+    known: NDArray[np.bool_],
+    bare: NDArray[np.bool_],
+    cheeks: NDArray[np.bool_],
+) -> NDArray[np.floating]:
+    """The colour of the skin beside the face, sRGB levels."""
+    for cells in (bare & (head.angle > BARE_SKIN_RADIANS), cheeks, known):
+        if cells.sum() > MIN_COLOUR_CELLS:
+            return np.asarray(np.median(colours[cells], 0))
+    return np.asarray(np.median(colours[known], 0) if known.any() else colours.mean((0, 1)))
+
+
+def _skin(head: HeadMap, colours: NDArray[np.float32], kinds: _Kinds) -> NDArray[np.float32]:
+    """Skin all round (A, `COLUMNS`, 3), a beard fading out behind it; around the neck what is worn there."""
+    skin = np.broadcast_to(kinds.skin, colours.shape).astype(np.float32)
+    neck = _neck_cloth(head, colours, kinds)
+    if neck is not None:
+        skin[: len(neck)] = neck[:, None]
+    temples = (
+        kinds.skin_like & (head.angle > SIDE_SKIN_RADIANS) & (head.angle < JAW_RADIANS) & head.between("chin", "brow")
+    )
+    jaw = kinds.known & (head.angle < JAW_RADIANS) & head.between("chin", "ears") & ~kinds.falls
+    return joined(skin, colours, kinds.known, (kinds.bare | temples | jaw).astype(np.float32))
+
+
+def _neck_cloth(head: HeadMap, colours: NDArray[np.float32], kinds: _Kinds) -> NDArray[np.float32] | None:
+    """The colours (B, 3) of the neck's rows up to where what is worn around it ends; `None` of a bare neck."""
+    low = kinds.known & ~head.above("chin")
+    cells, cloth = low.sum(1), low & ~kinds.bare
+    share = cv2.blur((cloth.sum(1) / np.maximum(cells, 1)).astype(np.float32)[:, None], (1, 9))[:, 0]
+    rows = np.flatnonzero((share > MIN_CLOTH_SHARE) & (cells > MIN_CLOTH_CELLS) & cloth.any(1))
+    if len(rows) < MIN_CLOTH_ROWS:
+        return None
+    told = np.stack([np.median(colours[row][cloth[row]], 0) for row in rows])
+    nearest = np.abs(rows[None] - np.arange(rows[-1] + 1)[:, None]).argmin(1)
+    return np.asarray(cv2.GaussianBlur(told[nearest].astype(np.float32), (1, 9), 1), np.float32).reshape(-1, 3)
+
+
+def _hair(
+    colours: NDArray[np.float32], kinds: _Kinds, facing: NDArray[np.float32], streaks: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """Hair, or a hat, all round (A, `COLUMNS`, 3)."""
+    inner = cv2.erode(kinds.hair.astype(np.uint8), np.ones((HAIR_MARGIN_CELLS, HAIR_MARGIN_CELLS), np.uint8)) > 0
+    sure = inner if inner.sum() > MIN_COLOUR_CELLS else kinds.hair
+    turns = row_middles(facing)
+    seen, near, own = (turned_rows(each, -turns) for each in (colours, np.maximum(facing, 0), sure))
+    model = row_model(seen, own * near * (CENTRE_WEIGHT + COLUMN_SINES**2)).colours
+    model = smoothed_rows(model, HAIR_SMOOTHING_METRES) + strand_levels(seen, own) * streaks[..., None]
+    return joined(turned_rows(model, turns), colours, kinds.known, sure.astype(np.float32))
+
+
+def _both_cheeks(
+    colours: NDArray[np.float32], known: NDArray[np.bool_], on_face: NDArray[np.bool_], middle: NDArray[np.bool_]
+) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+    """A face that is seen from its side has on the other what it has on this one, in its own light: where it is `on_face`
+    (A, `COLUMNS`), if of its `middle` (A, `COLUMNS`) one half is hardly seen."""
+    mirrored, there = colours[:, ::-1], known[:, ::-1]
+    lacks = there & ~known & on_face
+    both = there & known & on_face
+    half = np.arange(COLUMNS) < COLUMNS // 2
+    lacking = half if (lacks & half).sum() > (lacks & ~half).sum() else ~half
+    if not lacks.any() or known[middle & lacking].mean() > MIN_HALF_FACE_SHARE:
+        return colours, known
+    near = both & lacking
+    gain = np.ones(3, np.float32)
+    if near.sum() > MIN_COLOUR_CELLS:
+        gain = np.clip(np.median(colours[near], 0) / np.maximum(np.median(mirrored[near], 0), 4), 0.4, 2.5)
+    return np.where(lacks[..., None], mirrored * gain, colours).astype(np.float32), known | lacks
+
+
+def _soft(mask: NDArray[np.bool_]) -> NDArray[np.float32]:
+    return np.asarray(cv2.GaussianBlur(mask.astype(np.float32), (0, 0), EDGE_METRES / ROW_METRES), np.float32)[
+        ..., None
+    ]
