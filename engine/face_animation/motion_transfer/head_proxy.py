@@ -3,7 +3,9 @@
 The paper warps in the plane and names turns of the head as its limit (section 7.3); its outlook is "to map the face over a
 template 3D face". Here every control point of the head has a depth: the mesh's own on the face, an ellipsoid's around it. The
 driver's motion is split into the head's rigid motion and the expression, and the rigid part moves all of the head in space.
-What the skull's outline shows is another part of it after a turn, and as wide: it goes along and turns in the plane alone.
+What the skull's outline shows is another part of it after a turn, and as wide: it goes along and turns in the plane alone. On the side that
+turns towards the viewer the picture has nothing of that other part. To keep the outline where it was would draw out the ear and the hair beside
+it to more than twice their width; there what is seen turns whole, and the surroundings, which have no such marks, make up for it.
 Towards the shoulders the head hands over to the body (`body_motion`).
 """
 
@@ -37,6 +39,10 @@ SKULL_HALF_WIDTH, SKULL_HEIGHT = 0.56, 1.5
 """Half axes of the skull seen from the front: in widths of the face, and in lengths from eyes to chin."""
 OUTLINE_RADII = (0.85, 1.15)
 """Radii of the skull between which its front passes over into its outline."""
+NEAR_RADII = (0.85, 1.45)
+"""The same on the side that turns towards the viewer: beyond ears."""
+NEAR_COSINES = (0.0, 0.7)
+"""Between the way inwards and the way that a turn takes a point from the outline, from and up to which it is on that side."""
 NOSE_BRIDGE = 168
 
 
@@ -44,13 +50,14 @@ NOSE_BRIDGE = 168
 class HeadProxy:
     """points : (C, 3) control points with depth, pixels.
     share : (C,) how far each belongs to the head [0, 1].
-    outline : (C,) how far each moves as the skull's outline does [0, 1]: 0 on the face.
+    outline : (C,) how far each moves as the skull's outline does [0, 1]: 0 on the face. near : (C,) the same on the side that a turn brings nearer.
     contour : (C - 478, 36) how far those around the face follow what the face's contour, `FACE_OVAL`, does beyond the head.
     """
 
     points: NDArray[np.float64]
     share: NDArray[np.float64]
     outline: NDArray[np.float64]
+    near: NDArray[np.float64]
     contour: NDArray[np.float64]
 
 
@@ -60,8 +67,11 @@ def build_head_proxy(points: NDArray[np.floating], mesh: NDArray[np.floating]) -
     face = even_depth(mesh)
     depth = np.concatenate([face, surface_depth(mesh, others)])
     share = np.concatenate([np.ones(MESH_SIZE), head_share(mesh, others)])
-    outline = np.concatenate([np.zeros(MESH_SIZE), outline_share(mesh, others)])
-    return HeadProxy(np.column_stack([points, depth]), share, outline, contour_weights(mesh, others))
+    outline, near = (
+        np.concatenate([np.zeros(MESH_SIZE), outline_share(mesh, others, radii)])
+        for radii in (OUTLINE_RADII, NEAR_RADII)
+    )
+    return HeadProxy(np.column_stack([points, depth]), share, outline, near, contour_weights(mesh, others))
 
 
 def contour_weights(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -94,10 +104,11 @@ def chin_lengths_below(mesh: NDArray[np.floating], points: NDArray[np.floating])
     return np.asarray((points - eyes) @ down / float(down @ down), float)
 
 
-def outline_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(P,) how far points (P, 2) outside the face move as the skull's outline does: none on its front, all beyond it."""
-    begin, end = OUTLINE_RADII
-    share = smoothstep(skull_radius(mesh, points), begin, end)
+def outline_share(
+    mesh: NDArray[np.floating], points: NDArray[np.floating], radii: tuple[float, float] = OUTLINE_RADII
+) -> NDArray[np.float64]:
+    """(P,) how far points (P, 2) outside the face move as the skull's outline does, between `radii` of it: none on its front, all beyond it."""
+    share = smoothstep(skull_radius(mesh, points), *radii)
     return share * smoothstep(_beyond_skin(mesh, points) / RIM_TO_OUTLINE)
 
 
@@ -176,8 +187,25 @@ def move_head(
     arm = points - pivot
     turned = np.einsum("nij,ncj->nci", rotation, arm)
     rolled = np.einsum("nij,ncj->nci", _roll(rotation), arm)
-    turned[..., :2] += proxy.outline[:, None] * (rolled - turned)[..., :2]
+    turned[..., :2] += _outline(proxy, turned, rolled)[..., None] * (rolled - turned)[..., :2]
     return np.asarray(motion.scale[:, None, None] * turned + pivot + shift[:, None], np.float32)
+
+
+def followed_outline(
+    proxy: HeadProxy, rotation: NDArray[np.float64], pivot: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """(N, C) how far the points of a proxy move as the skull's outline does where the head's `rotation` (N, 3, 3) about the `pivot` (3,) is."""
+    arm = proxy.points - pivot
+    turned, rolled = (np.einsum("nij,cj->nci", one, arm) for one in (rotation, _roll(rotation)))
+    return _outline(proxy, turned, rolled)
+
+
+def _outline(proxy: HeadProxy, turned: NDArray[np.float64], rolled: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The same, for points that are `turned` and `rolled` (N, C, 3) about the head's middle."""
+    inwards, back = -rolled[..., :2], (turned - rolled)[..., :2]
+    sizes = np.linalg.norm(inwards, axis=-1) * np.linalg.norm(back, axis=-1)
+    side = smoothstep((inwards * back).sum(axis=-1) / np.maximum(sizes, 1e-9), *NEAR_COSINES)
+    return np.asarray(proxy.outline + side * (proxy.near - proxy.outline))
 
 
 def _roll(rotation: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.body_motion import MIN_TRUSTED_POINTS, hair_share
 from engine.face_animation.motion_transfer.head_motion import HeadMotion, with_expression
-from engine.face_animation.motion_transfer.head_proxy import HeadProxy, chin_length, move_head
+from engine.face_animation.motion_transfer.head_proxy import HeadProxy, chin_length, followed_outline, move_head
 from engine.face_animation.motion_transfer.head_room import skull_centre, skull_shift
 from engine.perception.landmarks import MESH_SIZE, RIGID_VERTICES
 
@@ -63,7 +63,8 @@ def refine_pose(
         equations.add(across, seen[..., 0] - face[..., 0], share)
         equations.add(down, seen[..., 1] - face[..., 1], share)
         equations.add(_centred(deep), _centred(depth), DEPTH_WEIGHT * share)
-        across, down, _ = _derivatives(skull - middle[:, None], proxy.outline[MESH_SIZE:])
+        outline = followed_outline(proxy, motion.rotation, skull_centre(neutral))[:, MESH_SIZE:]
+        across, down, _ = _derivatives(skull - middle[:, None], outline)
         believed = hair / (1 + slipped**2) ** 2  # Geman and McClure
         equations.add(across, off[..., 0], believed)
         equations.add(down, off[..., 1], believed)
@@ -91,7 +92,7 @@ class _NormalEquations:
 def _derivatives(
     arm: NDArray[np.float64], outline: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """By the pose, of x, y and depth of points at `arm` (N, V, 3) from the head's middle, which go with the `outline` (V,): each (N, V, 6)."""
+    """By the pose, of x, y and depth of points at `arm` (N, V, 3) from the head's middle, which go with the `outline` (V,) or (N, V): each (N, V, 6)."""
     x, y, z = np.moveaxis(arm, -1, 0)
     turned, none, one = (1 - outline) * z, np.zeros_like(x), np.ones_like(x)
     across = np.stack([none, turned, -y, x, one, none], axis=-1)

@@ -115,6 +115,31 @@ def test_the_outline_of_the_skull_stays_as_wide_and_turns_in_the_plane(mesh: NDA
     assert np.rad2deg(np.arctan2(*(left - right)[::-1])) == pytest.approx(roll, abs=0.7)
 
 
+@pytest.mark.parametrize("yaw", [-20.0, 20.0])
+def test_an_ear_that_turns_towards_the_viewer_is_not_drawn_out(mesh: NDArray, yaw: float) -> None:
+    """From the contour to beyond the ear: on the near side no part becomes twice as wide, on the far one nothing folds over."""
+    row = [np.linspace(mesh[rim, 0], mesh[rim, 0] + side * 1.1 * UNIT, 12) for rim, side in ((234, -1), (454, 1))]
+    level = float(mesh[[234, 454], 1].mean())
+    beside = np.column_stack([np.concatenate(row), np.full(24, level)])
+    proxy = build_head_proxy(np.concatenate([mesh[:, :2], beside]).astype(float), mesh)
+    moved = move_head(proxy, acted(mesh, turn(yaw=yaw)), mesh)[0, MESH_SIZE:, 0].reshape(2, 12)
+    stretch = np.diff(moved) / np.diff(beside[:, 0].reshape(2, 12))
+    near, far = stretch if yaw > 0 else stretch[::-1]
+    assert (np.abs(moved - beside[:, 0].reshape(2, 12)) > 1).any()
+    assert near.max() < 1.85 and far.min() > 0
+
+
+def test_around_the_skull_a_turn_leaves_no_step(mesh: NDArray) -> None:
+    """What is on the near side passes over into what is not."""
+    around = np.deg2rad(np.arange(0, 360, 2.0))
+    ring = skull_centre(mesh)[:2] + UNIT * np.column_stack([2.0 * np.cos(around), 2.8 * np.sin(around)])
+    proxy = build_head_proxy(np.concatenate([mesh[:, :2], ring]).astype(float), mesh)
+    for motion in (turn(yaw=20), turn(yaw=15, pitch=10)):
+        offsets = (move_head(proxy, acted(mesh, motion), mesh)[0, MESH_SIZE:, :2]) - ring
+        steps = np.linalg.norm(np.diff(offsets, axis=0, append=offsets[:1]), axis=1)
+        assert steps.max() < 0.01 * UNIT
+
+
 def test_scale_and_shift_are_carried_in_the_target_s_own_size(mesh: NDArray) -> None:
     """The driver's face is half as large: what it moves by, the target moves by twice."""
     target = placed(2 * UNIT, (300.0, 300.0))
