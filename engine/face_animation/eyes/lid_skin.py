@@ -32,7 +32,7 @@ COLOUR_REACH_SHARE = 0.6
 """Share of the way from there up to below the brow that a lid's colours reach: upper lashes stand there in a picture."""
 LIGHTER_SKIN_SHARE = 0.5
 """Share of the skin above, its lighter part, whose colour a lid has: the rest is shadow, of the brow or in the crease."""
-MIN_CHEEK_SHARE = 0.68
+MIN_CHEEK_SHARE = 0.8
 """A lid's brightness, as a share of the cheek's, under which it is in the socket's shadow, as a shut lid is not."""
 SOCKET_SHADE_SHARE = 0.35
 """The share that is left of what the socket's shadow makes a lid darker."""
@@ -142,12 +142,11 @@ def _grain(
 
 
 def _out_of_the_shadow(colours: NDArray[np.float32], cheek: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Colours (1, w, 3) that are much darker than the cheek (3,), made brighter, and nearer to its hue."""
+    """Colours (1, w, 3) that are much darker than the cheek (3,), made brighter in their own hue: shaded skin is redder than the cheek, which made it grey."""
     least = MIN_CHEEK_SHARE * float(cheek.mean())
     bright = np.maximum(colours.mean(axis=2, keepdims=True), 1)
     wanted = np.where(bright < least, least - SOCKET_SHADE_SHARE * (least - bright), bright)
-    own = bright / wanted
-    brighter = own * colours * (wanted / bright) + (1 - own) * cheek * (wanted / cheek.mean())
+    brighter = colours * (wanted / bright)
     width = colours.shape[1]
     from_corner = np.minimum(np.arange(width), np.arange(width)[::-1]) / (CORNER_FADE_EYE_WIDTHS * width)
     middle = np.sin(np.pi / 2 * np.clip(from_corner, 0, 1))[:, None] ** 2
