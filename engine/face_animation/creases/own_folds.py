@@ -33,7 +33,7 @@ BESIDE_MIDDLE = (0.12, 0.3)
 """Eye distances to either side of the face's middle from which folds are eased: the groove below a nose, a chin and what grows there are none."""
 INSIDE_CONTOUR = 0.25
 """Eye distances from the face's contour to where they are eased fully."""
-NARROW_MOUTH_FADE = (0.05, 0.25)
+NARROW_MOUTH_FADE = (0.04, 0.16)
 """Shares by which the mouth is narrower than the picture's from which on folds fade, and at which they are gone."""
 MOUSTACHE_LIGHT = (0.45, 0.55)
 """Of the cheeks' light: an upper lip darker than the first wears a moustache, whose ends are no folds; one lighter than the second does not."""

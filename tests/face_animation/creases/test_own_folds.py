@@ -62,10 +62,10 @@ def test_a_mouth_as_wide_as_in_its_picture_keeps_its_folds() -> None:
         np.testing.assert_array_equal(eased(picture(), share), picture())
 
 
-def test_a_mouth_a_quarter_narrower_has_none() -> None:
+def test_a_mouth_a_sixth_narrower_has_none() -> None:
     """They are within a sixth of the skin's light again, half-way by half; lips and the skin further away stay."""
     skin, dark = float(np.mean(SKIN)), on_folds(picture())
-    half, whole = eased(picture(), 0.15), eased(picture(), 0.25)
+    half, whole = eased(picture(), 0.1), eased(picture(), 0.16)
     assert on_folds(whole) > skin - (skin - dark) / 6
     assert on_folds(half) == pytest.approx((on_folds(whole) + dark) / 2, abs=2)
     lips = np.zeros(SIZE[::-1], np.uint8)
