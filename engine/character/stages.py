@@ -287,13 +287,21 @@ def make_headed_character(
     back: BackTexture,
 ) -> Character:
     """Relief and head painted, bound in T-pose, put together and brought down to a number of triangles."""
-    character = make_character(figure, silhouette, fitted, headed.labels, headed.relief, triangles, back)
+    found = (figure, silhouette, fitted)
     if headed.shell is None or headed.shown is None:
-        return character
+        return make_character(*found, headed.labels, headed.relief, triangles, back)
     alone = replace(headed.shell, mesh=cut_off(headed.shell.mesh, headed.shown))
+    beside = _left_for_a_relief(triangles, alone)
+    character = make_character(*found, headed.labels, headed.relief, beside, back)
     texture = paint_shell(figure.rgb, silhouette, labels, headed.shell, back, alone.mesh.triangles)
     character = together(bind_shell(alone, figure, silhouette, fitted, texture), character)
     return replace(character, mesh=fewer_triangles(character, triangles))
+
+
+def _left_for_a_relief(triangles: int, beside: Shell) -> int:
+    """How many of so many triangles a relief may have beside a part of a shell, which is brought down with it only where it has most of
+    them: an even template loses more by that than a grid."""
+    return max(triangles - len(beside.mesh.triangles), triangles // 2)
 
 
 def make_shell_character(
@@ -331,8 +339,8 @@ def make_hybrid_character(
     seen = mirrored_behind(figure.rgb, behind > 0, (silhouette.alpha > OPAQUE_ALPHA) & (gone == 0))
     nothing = LimbSurfaces(np.zeros_like(limbs), np.zeros_like(limbs))
     tiles = _painted(replace(figure, rgb=seen), alone, own, nothing, back)
-    relief = _made_of(figure, alone, fitted, own, trunk, tiles, triangles)
     shown = limbs_alone(hybrid)
+    relief = _made_of(figure, alone, fitted, own, trunk, tiles, _left_for_a_relief(triangles, shown))
     filled: BackTexture = "inpaint" if back == "inpaint" else "mirror"
     texture = paint_shell(figure.rgb, silhouette, labels, hybrid.shell, filled, shown.mesh.triangles)
     clean = nearest_colours(
