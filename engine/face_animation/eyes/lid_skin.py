@@ -48,8 +48,12 @@ GRAIN_EYE_WIDTHS = 0.1
 """Eye widths below which what is seen of the skin is its grain."""
 MAX_GRAIN_GREY_LEVELS = 12.0
 """Grey levels up to which structure counts as grain: what is stronger are lashes, brows and paint."""
-EDGE_SHADE_SHARE = 0.12
+EDGE_SHADE_SHARE = 0.16
 """By how much a lid is darker at its edge."""
+BALL_LIGHT_SHARE = 0.12
+"""By how much it is lighter in its middle, over the eyeball."""
+CREASE_PLACE_SHARE, CREASE_WIDTH_SHARE, CREASE_SHADE_SHARE = 0.36, 0.07, 0.16
+"""Where the crease above it is, as a share of the way from the skin above to its edge, how wide, and by how much it is darker there."""
 _STRIP_TRIANGLES = np.array([t for k in range(8) for t in ((k, k + 1, 9 + k), (k + 1, 10 + k, 9 + k))], np.int32)
 
 
@@ -106,8 +110,17 @@ def _skin(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDAr
         height,
         round(float(np.linalg.norm(_strip(mesh, side)[1:8] - mesh[list(LOWER_LID_EDGES[side]), :2], axis=1).mean())),
     )
-    shading = 1 - EDGE_SHADE_SHARE * np.linspace(0, 1, tall, dtype=np.float32)[:, None, None]
-    return np.asarray(colours * shading + _grain(rgb, mesh, side, (tall, width)), np.float32)
+    return np.asarray(colours * _shading(tall, width) + _grain(rgb, mesh, side, (tall, width)), np.float32)
+
+
+def _shading(height: int, width: int) -> NDArray[np.float32]:
+    """(h, w, 1) the light on a lid: it lies over a ball, ends in a crease above, and its edge is in the lashes' shade."""
+    down, across = np.linspace(0, 1, height)[:, None], np.linspace(-1, 1, width)[None]
+    round_ = np.sqrt(1 - across**2)
+    ball = round_ * np.sin(np.pi * np.clip((down - CREASE_PLACE_SHARE) / (1 - CREASE_PLACE_SHARE), 0, 1))
+    crease = round_ * np.exp(-(((down - CREASE_PLACE_SHARE) / CREASE_WIDTH_SHARE) ** 2))
+    shade = 1 - EDGE_SHADE_SHARE * down + BALL_LIGHT_SHARE * ball - CREASE_SHADE_SHARE * crease
+    return np.asarray(shade, np.float32)[..., None]
 
 
 def _along_the_lid(above: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -12,6 +12,7 @@ from engine.face_animation.eyes.eyeball import prepare_eyes
 from engine.face_animation.eyes.eyes import lid_closing_share
 from engine.face_animation.eyes.lid_skin import (
     BELOW_BROW_VERTICES,
+    CREASE_PLACE_SHARE,
     EDGE_SHADE_SHARE,
     MAX_GRAIN_GREY_LEVELS,
     MIN_CHEEK_SHARE,
@@ -56,7 +57,8 @@ def test_a_lid_that_closes_is_skin_and_no_drawn_out_lashes(side: int) -> None:
     draw_lid(frame, skin, closed[:, :2], side, 0.0)
     np.testing.assert_array_equal(frame, before)
     draw_lid(frame, skin, closed[:, :2], side, 1.0)
-    assert np.abs(frame[y, x] - 0.9 * np.array(SKIN)).max() < 12
+    shares = frame[y, x] / np.array(SKIN)
+    assert shares.min() > 0.85 and shares.max() < 1.08 and np.ptp(shares) < 0.04, "skin, in its own hue"
     other = lid(closed, 1 - side)
     np.testing.assert_array_equal(frame[other[1], other[0]], before[other[1], other[0]])
     changed = (frame != before).any(axis=2)
@@ -65,6 +67,17 @@ def test_a_lid_that_closes_is_skin_and_no_drawn_out_lashes(side: int) -> None:
     right, bottom = strip.max(axis=0) + 25
     ys, xs = np.nonzero(changed)
     assert xs.min() >= left and xs.max() <= right and ys.min() >= top and ys.max() <= bottom
+
+
+def test_a_lid_lies_over_a_ball_below_its_crease() -> None:
+    skin = lid_skins(made_up(FACE), FACE)[0].mean(axis=2)
+    middle = skin[:, skin.shape[1] // 2]
+    crease = round(CREASE_PLACE_SHARE * (len(middle) - 1))
+    ball = round((1 + CREASE_PLACE_SHARE) / 2 * (len(middle) - 1))
+    assert middle[crease] < 0.93 * middle[ball]
+    assert middle[-1] < 0.95 * middle[ball], "lashes shade its edge"
+    corner = skin[:, 0]
+    assert np.abs(np.diff(corner)).max() < 6, "neither crease nor ball at the corners"
 
 
 @pytest.mark.parametrize("side", [0, 1])
@@ -95,8 +108,9 @@ def test_a_lid_is_not_as_dark_as_the_socket_s_shadow(side: int) -> None:
 
 def test_its_grain_is_not_drawn_out() -> None:
     rng = np.random.default_rng(1)
-    picture = (painted(FACE, SIZE) + rng.normal(0, 4, (SIZE[1], SIZE[0], 1))).round().clip(0, 255).astype(np.uint8)
-    skin = lid_skins(picture, FACE)[0].mean(axis=2)
+    plain = painted(FACE, SIZE)
+    picture = (plain + rng.normal(0, 4, (SIZE[1], SIZE[0], 1))).round().clip(0, 255).astype(np.uint8)
+    skin = (lid_skins(picture, FACE)[0] - lid_skins(plain, FACE)[0]).mean(axis=2)
     down = np.abs(np.diff(skin, axis=0)).mean()
     across = np.abs(np.diff(skin, axis=1)).mean()
     assert down == pytest.approx(across, rel=0.25)
