@@ -2,15 +2,61 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+
+from engine.perception.landmarks import eye_distance
 
 UPPER_INNER_LIP = (78, 191, 80, 81, 82, 13, 312, 311, 310, 415, 308)
 LOWER_INNER_LIP = (78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308)
 """Facing vertices of the inner lips from corner to corner."""
 MIN_TEETH_OPENING = 0.08
 """Opening of a mouth, its gap over its width, from which its picture may show teeth."""
+
+SEAM_SHARE, MAX_SEAM_EYE_DISTANCES = 0.05, 0.012
+"""By how much the outline of an open mouth goes into each lip: share of its gap, and eye distances at most."""
+SAMPLES_PER_EDGE = 5
+"""Points of the outline for each of the contour's vertices."""
+
+
+def inner_lip_outline(face: NDArray[np.floating]) -> NDArray[np.float32]:
+    """(P, 2) float32 the outline between the lips of a face (478, 2), as round as lips are: a Catmull-Rom spline through the vertices of each, from
+    corner to corner. Straight from vertex to vertex a mouth that opens wide is a polygon. Where it gapes it takes in what the picture
+    has where its lips meet, which is drawn out along their edges."""
+    curve = _spline(len(UPPER_INNER_LIP))
+    upper, lower = (curve @ np.asarray(face[list(lip), :2], np.float64) for lip in (UPPER_INNER_LIP, LOWER_INNER_LIP))
+    gap = lower - upper
+    wide = np.linalg.norm(gap, axis=1, keepdims=True)
+    most = MAX_SEAM_EYE_DISTANCES * float(eye_distance(face))
+    further = np.minimum(SEAM_SHARE, most / np.maximum(wide, 1e-6)) * gap
+    upper, lower = upper - further, lower + further
+    return np.concatenate([upper, lower[-2:0:-1]]).astype(np.float32)
+
+
+@cache
+def _spline(count: int) -> NDArray[np.float64]:
+    """(S, `count`) what points of an open Catmull-Rom spline take of those that it goes through; its ends go on as the next ones do.
+
+    Source: E. Catmull, R. Rom, A class of local interpolating splines, 1974.
+    """
+    slopes = np.zeros((count, count))
+    for k in range(count):
+        before, after = max(k - 1, 0), min(k + 1, count - 1)
+        slopes[k, after] += 1 / (after - before)
+        slopes[k, before] -= 1 / (after - before)
+    places = np.linspace(0, count - 1, SAMPLES_PER_EDGE * (count - 1) + 1)
+    first = np.minimum(places.astype(int), count - 2)
+    t = (places - first)[:, None]
+    ends = np.eye(count)
+    return np.asarray(
+        (2 * t**3 - 3 * t**2 + 1) * ends[first]
+        + (t**3 - 2 * t**2 + t) * slopes[first]
+        + (3 * t**2 - 2 * t**3) * ends[first + 1]
+        + (t**3 - t**2) * slopes[first + 1]
+    )
 
 
 def box_around(points: NDArray[np.float32], shape: tuple[int, int]) -> tuple[int, int, int, int] | None:

@@ -56,7 +56,7 @@ def test_at_rest_a_closed_mouth_stays_as_it_is_and_what_opens_is_drawn_within_th
         mouth.draw(frame, face[:, :2], 0)
         changed = (frame != 128).any(axis=-1)
         assert changed.any() == drawn
-        assert not changed[cv2.dilate(inside(face).astype(np.uint8), np.ones((9, 9), np.uint8)) == 0].any()
+        assert not changed[cv2.dilate(inside(face).astype(np.uint8), np.ones((13, 13), np.uint8)) == 0].any()
 
 
 def test_what_parted_lips_show_but_for_crowns_is_never_seen() -> None:

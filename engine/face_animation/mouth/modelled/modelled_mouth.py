@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.mouth.lip_contours import box_around, soft_polygon
+from engine.face_animation.mouth.lip_contours import box_around, inner_lip_outline, soft_polygon
 from engine.face_animation.mouth.modelled.jaw import Jaw, held_between, jaw_of
 from engine.face_animation.mouth.modelled.mouth_colours import RAMP_PIXELS, MouthColours
 from engine.face_animation.mouth.modelled.mouth_light import mouth_light
@@ -98,7 +98,7 @@ class ModelledMouth:
 
     def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], driver_frame: int) -> None:
         """As `MouthInterior.draw`."""
-        inner = face[list(LIPS_INNER), :2].astype(np.float32)
+        inner = inner_lip_outline(face)
         box = box_around(inner, frame.shape[:2])
         share = shown_share(face, self._appearing)
         if box is None or share == 0 or float(mouth_opening(face)) < CLOSED_OPENING or cv2.contourArea(inner) < 1:

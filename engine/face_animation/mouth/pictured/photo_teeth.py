@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.mouth.lip_contours import box_around, soft_polygon
+from engine.face_animation.mouth.lip_contours import box_around, inner_lip_outline, soft_polygon
 from engine.face_animation.mouth.modelled.modelled_mouth import (
     LIP_SOFTNESS_EYE_DISTANCES,
     MIN_LIP_SOFTNESS_PIXELS,
@@ -24,7 +24,7 @@ from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
 from engine.face_animation.mouth.pictured.teeth_strip import ARCH_CURVATURE, TeethStrip, teeth_strip
 from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, is_grey, skin_colour
-from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, eye_distance, mouth_opening
+from engine.perception.landmarks import FACE_OVAL, eye_distance, mouth_opening
 
 APPEARING_OPENING = 0.03
 """Of the mouth, from which on the inside appears."""
@@ -72,7 +72,7 @@ class PhotoTeeth:
         """As `MouthInterior.draw`."""
         self._behind.draw(frame, face, driver_frame)
         share = shown_share(face, self._appearing)
-        inner = face[list(LIPS_INNER), :2].astype(np.float32)
+        inner = inner_lip_outline(face)
         box = box_around(inner, frame.shape[:2])
         if share == 0 or box is None:
             return
