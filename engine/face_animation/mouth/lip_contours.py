@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -26,8 +24,7 @@ def inner_lip_outline(face: NDArray[np.floating]) -> NDArray[np.float32]:
     """(P, 2) float32 the outline between the lips of a face (478, 2), as round as lips are: a Catmull-Rom spline through the vertices of each, from
     corner to corner. Straight from vertex to vertex a mouth that opens wide is a polygon. Where it gapes it takes in what the picture
     has where its lips meet, which is drawn out along their edges."""
-    curve = _spline(len(UPPER_INNER_LIP))
-    upper, lower = (curve @ np.asarray(face[list(lip), :2], np.float64) for lip in (UPPER_INNER_LIP, LOWER_INNER_LIP))
+    upper, lower = (_spline(np.asarray(face[list(lip), :2], np.float64)) for lip in (UPPER_INNER_LIP, LOWER_INNER_LIP))
     gap = lower - upper
     wide = np.linalg.norm(gap, axis=1, keepdims=True)
     most = MAX_SEAM_EYE_DISTANCES * float(eye_distance(face))
@@ -36,25 +33,25 @@ def inner_lip_outline(face: NDArray[np.floating]) -> NDArray[np.float32]:
     return np.concatenate([upper, lower[-2:0:-1]]).astype(np.float32)
 
 
-@cache
-def _spline(count: int) -> NDArray[np.float64]:
-    """(S, `count`) what points of an open Catmull-Rom spline take of those that it goes through; its ends go on as the next ones do.
+def _spline(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(S, 2) a Catmull-Rom spline through points (P, 2), whose ends go on as the next ones do. No slope is longer than the shorter edge beside it, so
+    that where lips bend sharply it does not swing out.
 
     Source: E. Catmull, R. Rom, A class of local interpolating splines, 1974.
     """
-    slopes = np.zeros((count, count))
-    for k in range(count):
-        before, after = max(k - 1, 0), min(k + 1, count - 1)
-        slopes[k, after] += 1 / (after - before)
-        slopes[k, before] -= 1 / (after - before)
+    count = len(points)
+    steps = np.diff(points, axis=0)
+    lengths = np.linalg.norm(steps, axis=1)
+    slopes = np.concatenate([steps[:1], (steps[:-1] + steps[1:]) / 2, steps[-1:]])
+    shorter = np.concatenate([lengths[:1], np.minimum(lengths[:-1], lengths[1:]), lengths[-1:]])
+    slopes *= np.minimum(1, shorter / np.maximum(np.linalg.norm(slopes, axis=1), 1e-9))[:, None]
     places = np.linspace(0, count - 1, SAMPLES_PER_EDGE * (count - 1) + 1)
     first = np.minimum(places.astype(int), count - 2)
     t = (places - first)[:, None]
-    ends = np.eye(count)
     return np.asarray(
-        (2 * t**3 - 3 * t**2 + 1) * ends[first]
+        (2 * t**3 - 3 * t**2 + 1) * points[first]
         + (t**3 - 2 * t**2 + t) * slopes[first]
-        + (3 * t**2 - 2 * t**3) * ends[first + 1]
+        + (3 * t**2 - 2 * t**3) * points[first + 1]
         + (t**3 - t**2) * slopes[first + 1]
     )
 
