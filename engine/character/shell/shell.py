@@ -27,12 +27,15 @@ from engine.character.shell.skirt import skirt_of
 from engine.character.shell.template_mesh import MIN_HEAD_WEIGHT, TemplateMesh, template_mesh
 from engine.character.shell.thickness import thickened
 from engine.geometry.skinning import bone_transforms, skin
+from engine.imaging.masks.mask_distance import distance_to
 from engine.perception.landmarks import fiducials
 
 JAW_LANDMARK_COUNT = 17
 """The first of the 68 fiducials are the jaw's line: where it is seen depends on the view, and so they are no points of the face."""
 HEAD_SURROUND_METRES = 0.12
 """Metres beyond the head's radius in which what is around gives way where it is displaced."""
+EAR_TOLERANCE_PIXELS, MIN_EAR_SHARE = 0.5, 0.25
+"""Pixels of the grid by which an ear may stand out of the outline, and share of its width aside that it keeps."""
 LID_RADII = 1.35
 """Radii of an eye from its centre within which the skin is its lids'."""
 
@@ -105,7 +108,27 @@ def shaped_head(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
     displaced = displace(own, template[which], outlines, replace(known, vertices=again[known.vertices]))
     pictured = template.copy()
     pictured[which] = thickened(own, template[which], displaced)
-    return Shape(straight, template, eyes_in_sockets(mesh, template, pictured))
+    return Shape(straight, template, ears_laid_back(mesh, eyes_in_sockets(mesh, template, pictured), silhouette.mask))
+
+
+def ears_laid_back(mesh: TemplateMesh, pictured: NDArray[np.float64], mask: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """The vertices `pictured` (V, 3) with each ear turned towards the head, about where it begins, as far as it stands out of the person's `mask`
+    (h, w): hair lies over it, or it is closer to the head than the template's."""
+    moved, beyond = pictured.copy(), distance_to(mask)
+    ears = np.flatnonzero(mesh.ear)
+    middle = np.median(pictured[(mesh.head > MIN_HEAD_WEIGHT) & ~mesh.ear, 0])
+    for ear in (ears[pictured[ears, 0] < middle], ears[pictured[ears, 0] >= middle]):
+        if not len(ear):
+            continue
+        column, row = np.clip(np.rint(pictured[ear, :2]), 0, [mask.shape[1] - 1, mask.shape[0] - 1]).astype(int).T
+        stands_out = float(beyond[row, column].max()) - EAR_TOLERANCE_PIXELS
+        aside = np.sign(pictured[ear, 0].mean() - middle)
+        base = (aside * pictured[ear, 0]).min()
+        wide = np.ptp(pictured[ear, 0])
+        if stands_out > 0 and wide > 0:
+            kept = max(1 - stands_out / wide, MIN_EAR_SHARE)
+            moved[ear, 0] = aside * (base + kept * (aside * pictured[ear, 0] - base))
+    return moved
 
 
 def eyes_in_sockets(

@@ -25,7 +25,7 @@ from engine.character.hybrid.limbs import cut_off
 from engine.character.hybrid.passing_legs import legs_pass
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import LEG_LABELS
-from engine.character.shell.shell import eyes_in_sockets, shaped_head
+from engine.character.shell.shell import ears_laid_back, eyes_in_sockets, shaped_head
 from engine.character.shell.template_mesh import template_mesh
 from engine.character.stages import build_mesh
 from engine.geometry.welding import is_closed
@@ -174,3 +174,21 @@ def test_legs_that_pass_are_told_by_the_fit(found: Found) -> None:
         crossed[load_human().rig.index(f"{side}UpLeg")] = turn
     assert legs_pass(silhouette, replace(fitted, fit=replace(fitted.fit, rotations=crossed)), labels)
     assert set(LEG_LABELS) <= set(np.unique(labels.labels))
+
+
+def test_ears_that_stand_out_of_the_outline_are_laid_back() -> None:
+    mesh = template_mesh()
+    places = load_human().space.mean[mesh.ids].astype(np.float64) * [600, -600, 600] + [100, 1200, 0]
+    ear, skull = mesh.ear, (mesh.head > 0.9) & ~mesh.ear
+    wide = np.ones((1300, 220), np.bool_)
+    assert (ears_laid_back(mesh, places, wide) == places).all(), "none of those that are within"
+    edge = places[skull, 0].max()
+    narrow = np.zeros_like(wide)
+    narrow[:, : round(edge) + 1] = True
+    laid = ears_laid_back(mesh, places, narrow)
+    assert (laid[~ear] == places[~ear]).all()
+    left = ear & (places[:, 0] > 100)
+    assert (laid[ear & ~left] == places[ear & ~left]).all(), "each for itself"
+    assert places[left, 0].max() > edge + 2 and laid[left, 0].max() < edge + 1.6
+    order = np.argsort(places[left, 0])
+    assert (np.diff(laid[left, 0][order]) >= -1e-9).all(), "it is narrower, and no fold is turned over"
