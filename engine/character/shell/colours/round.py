@@ -52,9 +52,8 @@ OTHER_SIDE_WEIGHT = 0.03
 """How much the other side of a row counts where this one is seen."""
 BEST_SEEN_HALF_WIDTHS = 0.8
 """How far aside the sides are seen best, in half widths: the maximum of cos x sin^2 x."""
-BORDER_SMOOTHING_METRES, BORDER_INSET_CELLS = 0.02, 3
-"""Metres along a part over which the border of what is seen is smoothed before what lies beyond it is reflected there; and cells by which that
-border is within."""
+BORDER_SMOOTHING_METRES = 0.02
+"""Metres along a part over which the border of what is seen is smoothed before what lies beyond it is reflected there."""
 OTHER_SIDE_BLEND_SHARE = 0.3
 """Share of what is not seen of a row, in its middle, in which what comes from one side goes over into what comes from the other."""
 
@@ -116,7 +115,7 @@ def coloured_round(
 def reflections(known: NDArray[np.bool_]) -> list[tuple[NDArray[np.intp], NDArray[np.float32]]]:
     """For each cell (A, `COLUMNS`) the column that is as far within the border of what is `known` of its row, the middle column facing
     the viewer, as the cell is beyond it: of the border at its left and of that at its right, and how much each counts. So what is seen goes on
-    at its border without a seam, to and fro; behind, one side goes over into the other."""
+    at its border without a seam, to and fro; behind, one side goes over into the other. What is within is itself."""
     middle, columns = COLUMNS // 2, np.arange(COLUMNS)
     quarter = COLUMNS // 4
     there = known & (np.abs(columns - middle) <= quarter)
@@ -130,16 +129,18 @@ def reflections(known: NDArray[np.bool_]) -> list[tuple[NDArray[np.intp], NDArra
         _blurred(np.interp(rows, rows[told], one[told])[:, None].astype(np.float32), BORDER_SMOOTHING_METRES)
         for one in (first, last)
     )
-    first, last = np.minimum(first + BORDER_INSET_CELLS, middle - 1), np.maximum(last - BORDER_INSET_CELLS, middle + 1)
+    first, last = np.minimum(first, middle - 1), np.maximum(last, middle + 1)
     found = []
     gap = COLUMNS - (last - first)
+    inside = (columns >= first) & (columns <= last)
     for border, inwards in ((last, -1), (first, 1)):
         beyond = (-inwards * (columns - border)) % COLUMNS  # around the back, from this border on
         fold = beyond % (2 * (last - first))
         within = np.minimum(fold, 2 * (last - first) - fold)
         partner = np.rint(border + inwards * within).astype(np.intp) % COLUMNS
         share = np.clip(0.5 + (0.5 - beyond / gap) / OTHER_SIDE_BLEND_SHARE, 0, 1)
-        found.append((partner, np.asarray(share * share * (3 - 2 * share), np.float32)))
+        share = np.where(inside, inwards < 0, share * share * (3 - 2 * share))
+        found.append((np.where(inside, columns, partner), np.asarray(share, np.float32)))
     return found
 
 

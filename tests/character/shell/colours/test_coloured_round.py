@@ -7,7 +7,6 @@ import pytest
 from numpy.typing import NDArray
 
 from engine.character.shell.colours.round import (
-    BORDER_INSET_CELLS,
     COLUMN_RADIANS,
     COLUMN_SINES,
     coloured_round,
@@ -134,7 +133,8 @@ def test_what_a_leg_shows_is_reflected_at_its_border() -> None:
     known[:, COLUMNS // 2 - half : COLUMNS // 2 + half + 1] = True
     (right, of_right), (left, of_left) = reflections(known)
     np.testing.assert_allclose(of_right + of_left, 1, atol=1e-6)
-    border = COLUMNS // 2 + half - BORDER_INSET_CELLS
+    assert (right[known] == np.broadcast_to(np.arange(COLUMNS), known.shape)[known]).all()
+    border = COLUMNS // 2 + half
     for beyond in (1, 10, half):
         assert (right[:, border + beyond] == border - beyond).all()
     inside = known[0]
