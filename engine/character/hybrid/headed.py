@@ -17,7 +17,7 @@ from engine.character.hybrid.head import (
 )
 from engine.character.hybrid.limbs import Limbs
 from engine.character.parts.label_map import Labels
-from engine.character.shell.shell import Shell, shaped_head, shell_of
+from engine.character.shell.shell import Shell, as_fitted, shaped_head, shell_of
 from engine.character.shell.template_mesh import template_mesh
 from engine.character.surface.sheets import ClosedMesh
 
@@ -41,9 +41,10 @@ def make_headed_relief(
     build: Callable[[Figure, Silhouette, FittedBody, Labels], ClosedMesh],
 ) -> HeadedRelief:
     """The relief, as `build` makes it of a figure, with the shell's head if that is its shape."""
-    mesh, shape = template_mesh(), shaped_head(figure, silhouette, fitted, labels)
-    if not hair_keeps_to_the_head(figure, silhouette, labels, mesh, shape.template):
+    mesh = template_mesh()
+    if not hair_keeps_to_the_head(figure, silhouette, labels, mesh, as_fitted(silhouette, fitted)[1]):
         return HeadedRelief(build(figure, silhouette, fitted, labels), labels)
+    shape = shaped_head(figure, silhouette, fitted, labels)
     layered = labels.layered
     beheaded = without_head(layered)
     shown = with_head(no_limbs(mesh), mesh, fitted)

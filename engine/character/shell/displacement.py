@@ -123,7 +123,7 @@ class _Energy:
         count = self.count
         alone = np.bincount(known.vertices, np.full(len(known.vertices), KNOWN_POINT_WEIGHT), count).astype(np.float64)
         fixed = stiffness * self.bending + self.staying + sp.diags_array(alone)
-        mean = np.bincount(lines.vertices, lines.weights / 2, count)
+        mean = np.bincount(lines.vertices, lines.weights / 2, count).astype(np.float64)
         factor = splu(
             sp.csc_array(fixed + sp.diags_array(mean)), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}
         )
@@ -151,4 +151,4 @@ class _Energy:
     def _gathered(self, lines: _Lines, along: NDArray[np.float64]) -> NDArray[np.float64]:
         """(V, 2) the sum of values (N,) along the lines' normals, at their vertices."""
         columns = [np.bincount(lines.vertices, along * lines.normals[:, axis], self.count) for axis in range(2)]
-        return np.stack(columns, 1)
+        return np.stack(columns, 1).astype(np.float64)  # of no lines at all they are counts

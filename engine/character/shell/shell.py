@@ -91,11 +91,17 @@ def shaped(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: L
     return Shape(straight, template, eyes_in_sockets(mesh, template, thickened(mesh, template, displaced)))
 
 
-def shaped_head(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Shape:
-    """The same of the head alone, what is far from it as the fit has it."""
+def as_fitted(silhouette: Silhouette, fitted: FittedBody) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The template's vertices (V, 3) in T-pose, barefoot, metres, and as the fit has them in the picture."""
     mesh, camera = template_mesh(), silhouette.camera(fitted.picture_camera())
     straight = load_human().space.vertices(fitted.fit.coefficients)[mesh.ids].astype(np.float64)
-    template = camera.to_picture(posed(mesh, straight, fitted))
+    return straight, camera.to_picture(posed(mesh, straight, fitted))
+
+
+def shaped_head(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Shape:
+    """The same of the head alone, what is far from it as the fit has it."""
+    mesh = template_mesh()
+    straight, template = as_fitted(silhouette, fitted)
     places = load_human().space.mean[mesh.ids]
     head = mesh.head > MIN_HEAD_WEIGHT
     reach = HEAD_SURROUND_METRES + np.linalg.norm(places[head] - places[head].mean(0), axis=1).max()

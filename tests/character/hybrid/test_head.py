@@ -21,6 +21,7 @@ from engine.character.hybrid.head import (
     with_head,
     without_head,
 )
+from engine.character.hybrid.headed import make_headed_relief
 from engine.character.hybrid.limbs import cut_off
 from engine.character.hybrid.passing_legs import legs_pass
 from engine.character.parts.label_map import Labels
@@ -149,6 +150,16 @@ def test_no_gap_opens_at_the_neck(
     column, row = np.rint(neck[:2]).astype(int)
     about = holes[row - 40 : row + 40, column - 40 : column + 40]
     assert about.sum() < 4, f"{count} pieces"
+
+
+def test_whose_head_is_not_seen_keeps_the_relief(found: Found) -> None:
+    """A mask that a hand painted without a head: nothing is displaced, and nothing breaks."""
+    figure, fitted, silhouette, labels = found
+    headless = replace(labels, labels=np.where(labels.labels == HEAD, -1, labels.labels).astype(np.int8))
+    headed = make_headed_relief(figure, silhouette, fitted, headless, build_mesh)
+    assert headed.shell is None and headed.labels is headless
+    shape = shaped_head(replace(figure, face=None), silhouette, fitted, headless)
+    assert np.isfinite(shape.pictured).all()
 
 
 def test_eyes_go_with_their_lids_as_a_whole() -> None:
