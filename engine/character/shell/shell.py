@@ -80,15 +80,14 @@ def make_shell(figure: Figure, silhouette: Silhouette, fitted: FittedBody, label
 
 def shaped(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Shape:
     """The template in its shoes, displaced to the outlines."""
-    mesh, human = template_mesh(), load_human()
-    camera = silhouette.camera(fitted.picture_camera())
-    straight = human.space.vertices(fitted.fit.coefficients)[mesh.ids].astype(np.float64)
-    template = camera.to_picture(posed(mesh, straight, fitted))
+    mesh, camera = template_mesh(), silhouette.camera(fitted.picture_camera())
+    straight, template = as_fitted(silhouette, fitted)
     if not barefoot(figure, silhouette, labels, template):
         straight = in_shoes(straight)
         template = camera.to_picture(posed(mesh, straight, fitted))
     displaced = displace(mesh, template, part_outlines(labels.layered), face_points(figure, silhouette, mesh))
-    return Shape(straight, template, eyes_in_sockets(mesh, template, thickened(mesh, template, displaced)))
+    pictured = eyes_in_sockets(mesh, template, thickened(mesh, template, displaced))
+    return Shape(straight, template, ears_laid_back(mesh, pictured, silhouette.mask))
 
 
 def as_fitted(silhouette: Silhouette, fitted: FittedBody) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -116,7 +116,7 @@ const english = {
     noLevels: 'None',
     surface: 'Surface',
     surfaces: {
-      auto: 'The picture in relief, with the head and, where legs pass, the limbs of a body',
+      auto: 'Chosen for the picture',
       hybrid: 'The picture in relief, with head and limbs of a body',
       relief: 'The picture in relief',
       shell: 'A body, shaped to the outline',
