@@ -23,11 +23,11 @@ from numpy.typing import NDArray
 
 from benchmarks.character_figures.steps import wake
 from benchmarks.presentation.tables import machine, table
+from engine.character.film.background import fill_background
 from engine.character.film.cast_shadow import ground_shadow
 from engine.character.film.film import film, film_size
 from engine.character.film.motions import MotionChoice, choose_motion
 from engine.character.rig.measures import picture_camera
-from engine.character.stages import fill_background
 from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.geometry.skinning import skin

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from engine.character.drawing.flat_character import close_drawing
 from engine.character.figure.figure import Choice, Figure, find_figure
 from engine.character.figure.silhouette import Silhouette, cut_out
+from engine.character.film.background import Background, fill_background
 from engine.character.film.cast_shadow import ground_shadow
 from engine.character.film.film import DEFAULT_VIDEO_PIXELS, cast_of, film, film_size
 from engine.character.film.findings import character_names, write_findings
@@ -27,10 +28,8 @@ from engine.character.rig.measures import measure, picture_camera
 from engine.character.shell.extremities import with_relaxed_hands
 from engine.character.shell.shell import make_shell
 from engine.character.stages import (
-    Background,
     build_mesh,
     fewer_triangles,
-    fill_background,
     fit_drawn,
     fit_template,
     label,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -19,7 +19,6 @@ from engine.character.figure.face_region import face_ellipse, face_turn, in_prof
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.figure.strokes import read_labels, relabel
-from engine.character.film.cast_shadow import CastShadow, find_cast_shadow
 from engine.character.fit.hands import turn_hands
 from engine.character.fit.head import turn_head
 from engine.character.fit.second_look import look_again
@@ -53,10 +52,8 @@ from engine.character.texture.round_sides import with_round_sides
 from engine.character.texture.texture import OPAQUE_ALPHA, BackTexture, PictureOnGrid, Tiles, atlas, paint_tiles
 from engine.geometry.simplification.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.imaging.filling.background_plate import background_plate
 from engine.imaging.filling.nearest import nearest_colours
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
-from engine.media.image import is_cut_out, over_white
 from engine.media.limits import Limits
 
 FACE_OVAL_FACTORS = np.array([1, 1, 1.1, 1.1, 1])
@@ -73,9 +70,6 @@ EDGE_BAND_PIXELS = 2.5
 """Pixels of the grid within the outline in which the colours of a limb's edge are not its own."""
 TRUNK_MARGIN_PIXELS = 6
 """Pixels around the trunk within which it is painted behind limbs."""
-HOLE_MARGIN_SHARE = 0.012
-"""How far the hole behind the person reaches beyond the mask, as a share of the picture's longer side: hair and the
-shadow at the feet are not in the mask."""
 
 
 def label(
@@ -386,31 +380,3 @@ def fewer_triangles(character: Character, triangles: int) -> SkinnedMesh:
     pictured = replace(mesh, vertices=pose(character, character.pictured))
     fewer, kept = decimate(pictured, triangles, joint_importance(mesh, {"Head": FACE_COUNTS}))
     return replace(fewer, vertices=mesh.vertices[kept])
-
-
-MIN_VISIBLE_ALPHA = 0.02
-"""Alpha below which nothing is seen."""
-
-
-@dataclass(frozen=True)
-class Background:
-    """The picture without the person: `rgb` (H, W, 3), over white where it is cut out; the shadow that they cast in it has
-    gone, too. `empty`: of a cut-out picture, nothing is left."""
-
-    rgb: NDArray[np.uint8]
-    shadow: CastShadow
-    empty: bool = False
-
-
-def fill_background(figure: Figure, silhouettes: tuple[Silhouette, ...]) -> Background:
-    """Fill the hole that those leave who walk out."""
-    radius = max(3, round(HOLE_MARGIN_SHARE * max(figure.rgb.shape[:2])))
-    disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1, 2 * radius + 1))
-    alpha = np.max([one.alpha for one in silhouettes], axis=0)
-    seen = over_white(figure.rgb, figure.alpha)
-    shadow = find_cast_shadow(seen, alpha)
-    gone = np.maximum(alpha > 0.02, shadow.mask > 0.1).astype(np.float32)
-    hole = np.asarray(cv2.dilate(gone, disk), np.float32)
-    plate = background_plate(seen, hole, reach=float(np.sqrt(hole.sum())))
-    left = np.zeros_like(alpha) if figure.alpha is None else figure.alpha * (1 - hole)
-    return Background(plate, shadow, is_cut_out(figure.alpha) and bool(left.max() < MIN_VISIBLE_ALPHA))

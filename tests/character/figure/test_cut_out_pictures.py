@@ -12,8 +12,8 @@ import pytest
 from engine.character.figure.figure import Choice, Figure, find_figure
 from engine.character.figure.silhouette import Silhouette, cut_out
 from engine.character.figure.strokes import read_mask
+from engine.character.film.background import fill_background
 from engine.character.sample import FLOOR_COLOUR, WALL_COLOUR, sample_picture
-from engine.character.stages import fill_background
 from engine.media.image import write_image
 from engine.media.limits import Limits
 

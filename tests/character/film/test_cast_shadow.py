@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from benchmarks.character_figures.steps import Woken, wake
+from engine.character.film.background import fill_background
 from engine.character.film.cast_shadow import find_cast_shadow, ground_shadow
 from engine.character.rig.measures import picture_camera, pose
 from engine.character.sample import sample_picture
-from engine.character.stages import fill_background
 from engine.media.image import write_image
 from engine.render.ground_shadow import GroundShadow, cast_on_ground
 
