@@ -54,10 +54,10 @@ def opened(mesh: NDArray, gap: float) -> NDArray[np.float32]:
 
 def shut(mesh: NDArray, share: float = 0.0) -> NDArray[np.float32]:
     """The face with its upper lids lowered until `share` of the gap is left."""
-    from engine.face_animation.motion_transfer.lids_and_lips import LID_PAIRS
+    from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS
 
     out = mesh.copy()
-    upper, lower = np.array(LID_PAIRS).T
+    upper, lower = np.array(LID_EDGE_VERTEX_PAIRS).T
     out[upper] = out[lower] + share * (out[upper] - out[lower])
     return out
 

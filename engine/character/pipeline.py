@@ -76,11 +76,11 @@ STAGES = {
 
 STAGES_PER_PERSON = ("cut_out", "fit_template", "label_parts", "build_mesh", "make_character", "measure")
 """Those that come once for each person."""
-MAX_PEOPLE = 6
+MAX_ANIMATED_PEOPLE = 6
 """People who are woken together."""
-MAX_BYTES = 10_000_000
+MAX_GLB_BYTES = 10_000_000
 """Of a character's GLB; levels of detail are files of their own."""
-LEAVE_OUT = ("not_full_body", "person_too_small", "person_lying")
+SKIPPED_REFUSALS = ("not_full_body", "person_too_small", "person_lying")
 """Of all, those who are refused for this stay in the picture."""
 
 
@@ -160,7 +160,7 @@ def find_figures(photo: Path, options: CharacterOptions, run: Run) -> list[Figur
         return [find(options.person_index)]
     figures: list[Figure] = []
     refused: list[InputError] = []
-    for index in range(MAX_PEOPLE):
+    for index in range(MAX_ANIMATED_PEOPLE):
         if figures and index >= len(figures[0].people):
             break
         try:
@@ -168,14 +168,17 @@ def find_figures(photo: Path, options: CharacterOptions, run: Run) -> list[Figur
         except InputError as error:
             if refused and error.code == "person_index_out_of_range":
                 break
-            if error.code not in LEAVE_OUT:
+            if error.code not in SKIPPED_REFUSALS:
                 raise
             refused.append(error)
             run.warn("person_left_out", f"Person {index + 1} stays in the picture: {error.detail}")
     if not figures:
         raise refused[0]
-    if len(figures[0].people) > MAX_PEOPLE:
-        run.warn("person_left_out", f"Of {len(figures[0].people)} people the {MAX_PEOPLE} largest walk out together.")
+    if len(figures[0].people) > MAX_ANIMATED_PEOPLE:
+        run.warn(
+            "person_left_out",
+            f"Of {len(figures[0].people)} people the {MAX_ANIMATED_PEOPLE} largest walk out together.",
+        )
     return figures
 
 
@@ -322,11 +325,11 @@ def write_film(
 
 
 def write_small_glb(path: Path, mesh: SkinnedMesh, clips: Sequence[Clip], run: Run) -> None:
-    """A GLB of at most `MAX_BYTES`; the report says what that took, or that it was not to be had."""
+    """A GLB of at most `MAX_GLB_BYTES`; the report says what that took, or that it was not to be had."""
     written = write_glb(
-        path, CharacterModel(mesh, clips), synthetic=run.mark_synthetic, most=MAX_BYTES, check=run.check
+        path, CharacterModel(mesh, clips), synthetic=run.mark_synthetic, most=MAX_GLB_BYTES, check=run.check
     )
-    if written.size > MAX_BYTES:
+    if written.size > MAX_GLB_BYTES:
         run.warn(
             "glb_too_large",
             f"{path.name} has {written.size / 1e6:.1f} MB, however its texture is written; fewer triangles help, or a shorter motion.",
@@ -336,7 +339,7 @@ def write_small_glb(path: Path, mesh: SkinnedMesh, clips: Sequence[Clip], run: R
         run.warn(
             "texture_reduced",
             f"The texture of {path.name} has {size}, at JPEG quality {written.quality}: the file would have had more than"
-            f" {MAX_BYTES / 1e6:.0f} MB.",
+            f" {MAX_GLB_BYTES / 1e6:.0f} MB.",
         )
 
 

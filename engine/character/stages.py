@@ -60,13 +60,13 @@ FACE_OVAL_FACTORS = np.array([1, 1, 1.1, 1.1, 1])
 """How much larger than its oval a face may be."""
 MAX_EDGE_SCALE = 3.0
 """Pixels of a limb's edge for each of the grid's, at most."""
-ARM_JOINT_NAMES, MIN_ARM_WEIGHT = ("Arm", "Hand"), 0.05
+MOVING_ARM_JOINT_NAMES, MIN_ARM_WEIGHT = ("Arm", "Hand"), 0.05
 """What is in the names of joints of arms, and the share in what moves the body from which on it is moved by them."""
 MIN_HAND_WEIGHT = 0.3
 """Share in what moves an arm from which on it is moved by the hand."""
-FACE_COUNTS = 6.0
+HEAD_TRIANGLE_WEIGHT = 6.0
 """How much more a triangle of the head counts where triangles are saved."""
-EDGE_BAND_PIXELS = 2.5
+LIMB_COLOUR_MARGIN_PIXELS = 2.5
 """Pixels of the grid within the outline in which the colours of a limb's edge are not its own."""
 TRUNK_MARGIN_PIXELS = 6
 """Pixels around the trunk within which it is painted behind limbs."""
@@ -338,7 +338,8 @@ def make_hybrid_character(
     filled: BackTexture = "inpaint" if back == "inpaint" else "mirror"
     texture = paint_shell(figure.rgb, silhouette, labels, hybrid.shell, filled, shown.mesh.triangles)
     clean = nearest_colours(
-        figure.rgb, distance_inside(silhouette.alpha > OPAQUE_ALPHA) > EDGE_BAND_PIXELS / silhouette.to_grid[0, 0]
+        figure.rgb,
+        distance_inside(silhouette.alpha > OPAQUE_ALPHA) > LIMB_COLOUR_MARGIN_PIXELS / silhouette.to_grid[0, 0],
     )
     texture = with_the_trunks_colours(texture, hybrid, tiles, clean, silhouette.to_grid)
     shell = bind_shell(shown, figure, silhouette, fitted, texture)
@@ -358,7 +359,9 @@ def _along_with_arms(mesh: ClosedMesh, labels: Labels) -> NDArray[np.bool_]:
     names = load_human().rig.names
     along = np.zeros(labels.labels.shape, np.bool_)
     for arm, side in zip(ARM_LABELS, ("Left", "Right"), strict=True):
-        own = np.array([name.startswith(side) and any(part in name for part in ARM_JOINT_NAMES) for name in names])
+        own = np.array(
+            [name.startswith(side) and any(part in name for part in MOVING_ARM_JOINT_NAMES) for name in names]
+        )
         goes = (mesh.layer == 0) & ((mesh.weights * own[mesh.bones]).sum(1) > MIN_ARM_WEIGHT)
         along |= mesh.pixels(np.flatnonzero(goes), along.shape) & (labels.labels == arm)
     return along
@@ -378,5 +381,5 @@ def fewer_triangles(character: Character, triangles: int) -> SkinnedMesh:
     if len(mesh.triangles) <= triangles:
         return mesh
     pictured = replace(mesh, vertices=pose(character, character.pictured))
-    fewer, kept = decimate(pictured, triangles, joint_importance(mesh, {"Head": FACE_COUNTS}))
+    fewer, kept = decimate(pictured, triangles, joint_importance(mesh, {"Head": HEAD_TRIANGLE_WEIGHT}))
     return replace(fewer, vertices=mesh.vertices[kept])

@@ -41,7 +41,7 @@ FRAMES_AHEAD = 2
 
 FREE_RIM_EYE_DISTANCES = 0.3
 """Eye distances inside the contour up to which the face gives way where the picture would fold."""
-FOLD_DISTANCE = 8.0
+MIN_FOLD_DISTANCE_PIXELS = 8.0
 """Pixels of the enlarged picture by which neighbours are apart where lips or lids fold over the skin beside them."""
 
 
@@ -158,7 +158,9 @@ class FaceAnimation:
         origin = self._rig.mesh.inverse_map(moved[:, :2], moved[:, 2], 2, window.shape)
         layer = warp_layer(self._person, origin + np.float32(2 * self._margin))
         frame = composite_over(layer, np.ascontiguousarray(self._plate[window.pixels]))
-        smooth_folds(frame, origin, FOLD_DISTANCE, self._rig.mesh.vertices + moved[:, :2], self._rig.mesh.triangles)
+        smooth_folds(
+            frame, origin, MIN_FOLD_DISTANCE_PIXELS, self._rig.mesh.vertices + moved[:, :2], self._rig.mesh.triangles
+        )
         face = self.face(motion) - corner
         if self._folds is not None:
             self._folds.ease(frame, origin, 2, face)

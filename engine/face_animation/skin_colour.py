@@ -9,21 +9,21 @@ from engine.perception.landmarks import eye_distance
 
 LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114], np.float32)
 """Of red, green and blue, sRGB (ITU-R BT.601)."""
-SKIN_RING = (164, 167, 393, 18, 200, 92, 322, 186, 410)
+MOUTH_SKIN_VERTICES = (164, 167, 393, 18, 200, 92, 322, 186, 410)
 """Vertices on the skin around the mouth."""
-SAMPLE_RADIUS = 0.06
+SKIN_SAMPLE_EYE_DISTANCES = 0.06
 """Eye distances about each of them."""
 CHROMA_FLOOR = 48.0
 """Added to the sum of a colour's channels, so that the dark has no colour."""
-GREY_SATURATION = 0.06
+MAX_GREY_SATURATION = 0.06
 """Of skin, below which a picture is black and white."""
 
 
 def skin_colour(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:
     """(3,) the mean sRGB of the skin around the mouth of a face at `mesh` (478, 2 or 3) of a picture."""
-    reach = max(round(SAMPLE_RADIUS * float(eye_distance(mesh[:, :2]))), 1)
+    reach = max(round(SKIN_SAMPLE_EYE_DISTANCES * float(eye_distance(mesh[:, :2]))), 1)
     patches = []
-    for x, y in np.rint(mesh[list(SKIN_RING), :2]).astype(int):
+    for x, y in np.rint(mesh[list(MOUTH_SKIN_VERTICES), :2]).astype(int):
         patch = rgb[max(y - reach, 0) : max(y + reach + 1, 0), max(x - reach, 0) : max(x + reach + 1, 0)]
         if patch.size:
             patches.append(patch.reshape(-1, 3).mean(axis=0))
@@ -33,7 +33,7 @@ def skin_colour(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[n
 def is_grey(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> bool:
     """Whether a picture of a face at `mesh` (478, 2 or 3) is black and white."""
     skin = skin_colour(rgb, mesh)
-    return float((skin.max() - skin.min()) / max(float(skin.max()), 1.0)) < GREY_SATURATION
+    return float((skin.max() - skin.min()) / max(float(skin.max()), 1.0)) < MAX_GREY_SATURATION
 
 
 def chroma(colours: NDArray[np.number]) -> NDArray[np.float32]:

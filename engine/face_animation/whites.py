@@ -14,24 +14,24 @@ from numpy.typing import NDArray
 from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, skin_colour
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
-USUAL_SHARE, SHARE_RANGE = 0.25, (0.15, 0.45)
+USUAL_WHITE_HUE_SHARE, WHITE_HUE_SHARE_RANGE = 0.25, (0.15, 0.45)
 """Of the skin's hue in what is white, where no eye shows it, and between which it is."""
 WHITE_PERCENTILE = 60
 """Of the light beside an iris, from which on it is the white's: lids shade the rest."""
-IRIS_MARGIN = 1.2
+IRIS_MARGIN_RADII = 1.2
 """Radii of the iris within which nothing is white."""
 MIN_WHITE_PIXELS = 12
 
 
 def white_tint(
-    rgb: NDArray[np.uint8], mesh: NDArray[np.floating], shares: tuple[float, float] = SHARE_RANGE
+    rgb: NDArray[np.uint8], mesh: NDArray[np.floating], shares: tuple[float, float] = WHITE_HUE_SHARE_RANGE
 ) -> NDArray[np.float64]:
     """(3,) the colour of what is white, at luminance 1, in a picture (H, W, 3) of a face at `mesh` (478, 2 or 3), with the skin's hue
     between two `shares`."""
     skin = np.maximum(skin_colour(rgb, mesh), 1.0)
     hue = np.log(skin / float(skin @ LUMINANCE_WEIGHTS))
     whites = np.concatenate([eye_whites(rgb, mesh, side) for side in range(2)])
-    share = USUAL_SHARE
+    share = USUAL_WHITE_HUE_SHARE
     if len(whites) >= MIN_WHITE_PIXELS and float(hue @ hue) > 1e-4:
         white = np.maximum(whites.mean(axis=0), 1.0)
         share = float(np.log(white / float(white @ LUMINANCE_WEIGHTS)) @ hue) / float(hue @ hue)
@@ -52,7 +52,7 @@ def eye_whites(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) ->
     centre = mesh[iris[0], :2]
     radius = float(np.linalg.norm(mesh[list(iris[1:]), :2] - centre, axis=1).mean())
     mask = np.asarray(cv2.erode(mask, np.ones((3, 3), np.uint8)))
-    cv2.circle(mask, np.rint(centre - low).astype(int).tolist(), max(round(IRIS_MARGIN * radius), 1), 0, -1)
+    cv2.circle(mask, np.rint(centre - low).astype(int).tolist(), max(round(IRIS_MARGIN_RADII * radius), 1), 0, -1)
     colours = rgb[low[1] : high[1], low[0] : high[0]][mask > 0].astype(np.float64)
     if not len(colours):
         return colours.reshape(0, 3)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from template_character import template_character
 
-from engine.character.pipeline import MAX_BYTES, write_small_glb
+from engine.character.pipeline import MAX_GLB_BYTES, write_small_glb
 from engine.errors import Canceled
 from engine.export.glb import TEXTURE_REDUCTIONS
 from engine.geometry.skinned_mesh import SkinnedMesh
@@ -32,7 +32,7 @@ def noisy(height: int, width: int) -> SkinnedMesh:
 def test_a_texture_of_noise_is_made_to_fit(tmp_path: Path, height: int, width: int, warned: str | None) -> None:
     with Run() as run:
         write_small_glb(tmp_path / "character.glb", noisy(height, width), (), run)
-    assert (tmp_path / "character.glb").stat().st_size <= MAX_BYTES
+    assert (tmp_path / "character.glb").stat().st_size <= MAX_GLB_BYTES
     assert [notice.code for notice in run.notices] == ["texture_reduced"] * (warned is not None)
     assert all(warned is not None and warned in notice.message for notice in run.notices)
 
@@ -42,7 +42,7 @@ def test_a_surface_that_is_too_large_by_itself_is_told_of(tmp_path: Path) -> Non
     heavy = replace(mesh, triangles=np.tile(mesh.triangles, (80, 1)))
     with Run() as run:
         write_small_glb(tmp_path / "character.glb", heavy, (), run)
-    assert (tmp_path / "character.glb").stat().st_size > MAX_BYTES
+    assert (tmp_path / "character.glb").stat().st_size > MAX_GLB_BYTES
     assert [notice.code for notice in run.notices] == ["glb_too_large"]
 
 

@@ -8,7 +8,7 @@ from made_face import BROWN, SKIN, WHITE, painted, placed, shut
 from numpy.typing import NDArray
 
 from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS
-from engine.face_animation.whites import SHARE_RANGE, eye_whites, white_tint
+from engine.face_animation.whites import WHITE_HUE_SHARE_RANGE, eye_whites, white_tint
 
 SIZE = (360, 320)
 
@@ -40,7 +40,7 @@ def test_the_tint_is_between_grey_and_the_skin_whatever_the_eyes_show(mesh: NDAr
     white = np.abs(rgb.astype(int) - WHITE).max(axis=2) < 12
     rgb[white] = np.array(WHITE) * cast
     share = hue_share(white_tint(rgb, mesh), np.array(SKIN, float))
-    assert SHARE_RANGE[0] - 0.05 <= share <= SHARE_RANGE[1] + 0.05
+    assert WHITE_HUE_SHARE_RANGE[0] - 0.05 <= share <= WHITE_HUE_SHARE_RANGE[1] + 0.05
 
 
 def test_a_varnish_over_all_tints_whites_more_than_clean_light(mesh: NDArray) -> None:

@@ -29,9 +29,9 @@ from engine.motion.clip import Clip
 
 HALF_THICKNESS_SHARE, ROUNDED_EDGE_SHARE = 0.012, 0.03
 """Half a cut-out's thickness, and how far from its edge it has it, as shares of the figure's height on the grid."""
-OPAQUE_COVERAGE = 0.9
+OPAQUE_COVERAGE_SHARE = 0.9
 """Share of a pixel that the figure covers from which on its colour is the figure's own."""
-LARGEST_TEXTURE = 2048
+MAX_TEXTURE_TEXELS = 2048
 """Texels of the texture's longer side, at most."""
 MARGIN_PIXELS = 6
 """Texels around the figure."""
@@ -139,13 +139,13 @@ def _bones(figure: Figure, silhouette: Silhouette) -> list[NDArray[np.float64]]:
 def _texture(figure: Figure, silhouette: Silhouette, mesh: ClosedMesh) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """The part of the picture that shows the figure, whose colours go on beyond its edge, and each vertex's place on it (V, 2)."""
     rows, columns = bounding_box(silhouette.alpha > 0.02, MARGIN_PIXELS)
-    own = silhouette.alpha[rows, columns] > OPAQUE_COVERAGE
+    own = silhouette.alpha[rows, columns] > OPAQUE_COVERAGE_SHARE
     colours = continued_colours(np.ascontiguousarray(figure.rgb[rows, columns]), own)
     size = np.array(colours.shape[1::-1])
     matrix = np.asarray(cv2.invertAffineTransform(silhouette.to_grid))
     at = mesh.vertices[:, :2] @ matrix[:, :2].T + matrix[:, 2]
     uv = (at - [columns.start, rows.start] + 0.5) / size
-    if (factor := LARGEST_TEXTURE / size.max()) < 1:
+    if (factor := MAX_TEXTURE_TEXELS / size.max()) < 1:
         smaller = (max(1, round(float(size[0] * factor))), max(1, round(float(size[1] * factor))))
         colours = np.asarray(cv2.resize(colours, smaller, interpolation=cv2.INTER_AREA), np.uint8)
     return colours, np.clip(uv, 0, 1).astype(np.float32)

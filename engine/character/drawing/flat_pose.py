@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from engine.body.fitting.body_fitting import Fit
 from engine.body.rest_pose import T_POSE_DIRECTIONS
 from engine.character.figure.figure import Figure
-from engine.character.fit.template_fit import FOCAL_LENGTH_SIDES, FittedBody, load_human
+from engine.character.fit.template_fit import FIGURE_FOCAL_LENGTH_SIDES, FittedBody, load_human
 from engine.geometry.camera import Camera
 from engine.geometry.joint_names import FINGERS, SIDES
 from engine.geometry.skeleton import Skeleton
@@ -32,7 +32,7 @@ FINGER_JOINTS = (0.45, 0.65, 0.82)
 """Where finger joints are on the way from wrist to fingertip."""
 TOES_FORWARD_METRES = 0.1
 """Metres by which toes are before the ankle: feet roll over them although they are drawn flat."""
-JOINT_LANDMARKS = {
+DRAWING_JOINT_LANDMARKS = {
     "Arm": "Shoulder",
     "ForeArm": "Elbow",
     "Hand": "Wrist",
@@ -79,7 +79,7 @@ def flat_pose(figure: Figure) -> FlatPose:
             chest + COLLARBONE_JOINT_SHARE * (at[f"{side}Shoulder"] - chest),
             upright,
         )
-        for joint, mark in JOINT_LANDMARKS.items():
+        for joint, mark in DRAWING_JOINT_LANDMARKS.items():
             begin, end = at[f"{side}{mark}"], at[f"{side}{BONE_END_LANDMARKS[joint]}"]
             places[f"{side}{joint}"] = begin
             straight = T_POSE_DIRECTIONS.get(f"{side}{joint}")
@@ -99,7 +99,10 @@ def fit_drawing(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
     rows, _ = bounding_box(mask)
     height, width = mask.shape
     camera = Camera(
-        (0.0, 0.0, 0.0), FOCAL_LENGTH_SIDES * max(height, width), ((width - 1) / 2, (height - 1) / 2), (height, width)
+        (0.0, 0.0, 0.0),
+        FIGURE_FOCAL_LENGTH_SIDES * max(height, width),
+        ((width - 1) / 2, (height - 1) / 2),
+        (height, width),
     )
     distance = camera.focal * DRAWING_HEIGHT_METRES / (rows.stop - rows.start)
     pose, parents = flat_pose(figure), human.rig.parents
@@ -142,5 +145,5 @@ def _turn(way: NDArray[np.float64], straight: tuple[float, ...]) -> float:
 
 
 def _landmarks() -> list[str]:
-    marks = {"Ear", *JOINT_LANDMARKS.values(), *BONE_END_LANDMARKS.values()}
+    marks = {"Ear", *DRAWING_JOINT_LANDMARKS.values(), *BONE_END_LANDMARKS.values()}
     return ["Nose", *(f"{side}{mark}" for side in SIDES for mark in sorted(marks))]

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.fitting.observation import Crossing
-from engine.character.figure.figure import SEEN_JOINT_CONFIDENCE, Figure
+from engine.character.figure.figure import MIN_JOINT_CONFIDENCE, Figure
 from engine.geometry.joint_names import SIDES, Side
 from engine.imaging.masks.colour_segmentation import ColourMixture
 from engine.perception.body import BODY_LANDMARKS
@@ -26,7 +26,7 @@ MIN_VISIBILITY_MARGIN = 0.06
 """By how much more of its place one hand must show than the other to be the one that is seen."""
 MAX_SKIN_SHARE = 0.5
 """Share of the sleeves that may look like skin; of bare arms nothing can be said."""
-WORKING_SIZE_PIXELS, MIN_SAMPLE_PIXELS = 640, 60
+COLOUR_COPY_SIZE_PIXELS, MIN_SAMPLE_PIXELS = 640, 60
 """Pixels of the longer side of the copy in which colours are compared, and of face or sleeves, at least, to be compared."""
 SLEEVE_HALF_WIDTH_ARMS = 0.12
 """Half the width of a sleeve that is looked at, in lengths of the upper arm."""
@@ -68,9 +68,7 @@ def _are_seen(figure: Figure) -> bool:
     """Whether elbows and a wrist are, of somebody who faces the viewer: wrists that are tucked away or cut off are made up."""
 
     def sure(name: str) -> list[bool]:
-        return [
-            bool(figure.confidence[BODY_LANDMARKS.index(f"{side}{name}")] > SEEN_JOINT_CONFIDENCE) for side in SIDES
-        ]
+        return [bool(figure.confidence[BODY_LANDMARKS.index(f"{side}{name}")] > MIN_JOINT_CONFIDENCE) for side in SIDES]
 
     faces = figure.point("LeftShoulder")[0] > figure.point("RightShoulder")[0]
     return bool(faces) and all(sure("Elbow")) and any(sure("Wrist"))
@@ -93,7 +91,7 @@ def _skin(figure: Figure, mask: NDArray[np.bool_], at: dict[str, NDArray[np.floa
     too little of either, or both are alike."""
     if figure.face is None:
         return None
-    factor = min(1.0, WORKING_SIZE_PIXELS / max(mask.shape))
+    factor = min(1.0, COLOUR_COPY_SIZE_PIXELS / max(mask.shape))
     size = (round(mask.shape[1] * factor), round(mask.shape[0] * factor))
     person = cv2.resize(mask.astype(np.uint8), size, interpolation=cv2.INTER_NEAREST_EXACT) > 0
     face, sleeves = np.zeros(person.shape, np.uint8), np.zeros(person.shape, np.uint8)

@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
 from engine.character.figure.figure import Figure
-from engine.character.figure.placed_joints import REQUIRED_JOINTS
+from engine.character.figure.placed_joints import REQUIRED_PLACED_JOINTS
 from engine.errors import InputError
 from engine.imaging.masks.mask_distance import distance_to
 from engine.perception.body import BODY_LANDMARKS
 
-SEEN_JOINT_CONFIDENCE = 0.8
+SURE_JOINT_CONFIDENCE = 0.8
 """Confidence of joints that are seen. Of those that are guessed, behind a table or another arm, a mask need not have any."""
 MASK_TOLERANCE_SHARE = 0.02
 """How far from the mask a joint may be, as a share of the skeleton's height: perception errs by so much."""
@@ -26,7 +26,7 @@ MAX_MASK_SIZE_RATIO = 6.0
 long skirts have 3, a child's drawing 4.6, whole pictures 7 to 19."""
 MIN_LABELLED_SHARE = 0.3
 """Share of the person's pixels in which a label map must say something."""
-MIN_TRUNK_SHARE = 0.02
+MIN_TRUNK_LABEL_SHARE = 0.02
 """Share of them that a trunk has at least."""
 MIN_LIMB_LABEL_SHARE = 0.2
 """Share of a forearm or shin that has its label at least."""
@@ -43,7 +43,11 @@ def doubt_mask(
 ) -> None:
     """Warn of `mask_misses_joints` and `mask_too_large`. `mask` (H, W): the person's; `skeleton` (H, W): trunk and limbs,
     as thick as sticks."""
-    at = np.rint([figure.point(name) for name in REQUIRED_JOINTS if _is_seen(figure, name)]).astype(int).reshape(-1, 2)
+    at = (
+        np.rint([figure.point(name) for name in REQUIRED_PLACED_JOINTS if _is_seen(figure, name)])
+        .astype(int)
+        .reshape(-1, 2)
+    )
     away = distance_to(mask)
     height = float(np.ptp(figure.points[figure.confidence > 0, 1]))
     held = int((away[at[:, 1], at[:, 0]] <= MASK_TOLERANCE_SHARE * height).sum())
@@ -75,7 +79,7 @@ def require_labels(given: NDArray[np.integer], mask: NDArray[np.bool_]) -> None:
             "body in the colours of labels.png.",
             ("labels",),
         )
-    if (shown == BODY_PARTS.index("torso")).mean() < MIN_TRUNK_SHARE:
+    if (shown == BODY_PARTS.index("torso")).mean() < MIN_TRUNK_LABEL_SHARE:
         raise InputError(
             "labels_unreadable",
             "The label map shows no trunk: paint all parts of the body in the colours of labels.png.",
@@ -123,5 +127,5 @@ def _is_seen(figure: Figure, name: str) -> bool:
     """Whether a joint is in the picture and not hidden."""
     height, width = figure.rgb.shape[:2]
     x, y = figure.point(name)
-    sure = figure.confidence[BODY_LANDMARKS.index(name)] > SEEN_JOINT_CONFIDENCE
+    sure = figure.confidence[BODY_LANDMARKS.index(name)] > SURE_JOINT_CONFIDENCE
     return bool(sure and 0 <= x <= width - 1 and 0 <= y <= height - 1)

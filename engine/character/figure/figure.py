@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.figure.placed_joints import REQUIRED_JOINTS, check_places, check_skeleton, in_words
+from engine.character.figure.placed_joints import REQUIRED_PLACED_JOINTS, check_places, check_skeleton, in_words
 from engine.character.figure.posture import check_posture
 from engine.errors import InputError
 from engine.geometry.joint_names import SIDES
@@ -32,11 +32,11 @@ HAND_LANDMARK_JOINTS = {"Wrist": "", "Index": "Index1", "Pinky": "Pinky1", "Thum
 """Landmarks of the body that are among the hand's, as joints: where a hand is seen closely, they are where it has them."""
 LOWER_BODY_JOINTS = ("LeftHip", "RightHip", "LeftKnee", "RightKnee", "LeftAnkle", "RightAnkle")
 """What `partial` does without: where it is cut off or hidden, the network of body poses guesses it well."""
-SEEN_JOINT_CONFIDENCE = 0.35
+MIN_JOINT_CONFIDENCE = 0.35
 """Confidence below which a joint is not in the picture."""
 BOX_MARGIN_SHARE = 0.1
 """By how much more than a box drawn by hand is looked at, as a share of its sides: it may be drawn too tightly."""
-CROWD_PEOPLE = 10
+MIN_CROWD_PEOPLE = 10
 """People among whom the largest is not taken for the one who is meant."""
 FACE_CROP_PIXELS = 320
 """Pixels to which a small head is enlarged where its face is looked for."""
@@ -114,11 +114,11 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
     if body is not None and index == len(people):  # found in a box alone
         people = [*people, body]
     sketched = None if body is not None else _sketched(shown, choice, scale)
-    if body is None and sketched is None and not set(REQUIRED_JOINTS) <= set(joints):
+    if body is None and sketched is None and not set(REQUIRED_PLACED_JOINTS) <= set(joints):
         raise InputError(
             "no_person",
             "No person was found in the picture: choose one that shows somebody whole, or place the joints by hand "
-            f"({in_words(REQUIRED_JOINTS)}).",
+            f"({in_words(REQUIRED_PLACED_JOINTS)}).",
             ("joints", "person_box"),
         )
     points = np.zeros((len(BODY_LANDMARKS), 2), np.float32) if body is None else body.points.copy()
@@ -209,7 +209,7 @@ def _chosen(
             ("person_index", "person_box"),
             {"people": boxes},
         )
-    if len(people) >= CROWD_PEOPLE and choice.index is None and not choice.placed:
+    if len(people) >= MIN_CROWD_PEOPLE and choice.index is None and not choice.placed:
         raise InputError(
             "crowd",
             f"The picture shows a crowd ({len(people)} people and more): choose the one who is meant, or draw a "
@@ -285,11 +285,11 @@ def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]
     limit = np.array([width, height])
     off = np.abs(figure.points / limit - 0.5).max(axis=1)
     seen = {
-        name for i, name in enumerate(BODY_LANDMARKS) if off[i] < 0.55 and figure.confidence[i] > SEEN_JOINT_CONFIDENCE
+        name for i, name in enumerate(BODY_LANDMARKS) if off[i] < 0.55 and figure.confidence[i] > MIN_JOINT_CONFIDENCE
     }
     nose = BODY_LANDMARKS.index("Nose")
     if (
-        off[nose] > 0.5 and figure.confidence[nose] > SEEN_JOINT_CONFIDENCE
+        off[nose] > 0.5 and figure.confidence[nose] > MIN_JOINT_CONFIDENCE
     ):  # the network guesses a head that the picture cuts off
         raise InputError(
             "not_full_body",

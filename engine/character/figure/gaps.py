@@ -24,20 +24,20 @@ from engine.imaging.masks.mask_pieces import bounding_box, mask_height, pieces_b
 
 WORKING_HEIGHT_PIXELS = 500
 """Pixels of the person's height at which gaps are looked for."""
-ARM_WIDTH_SHARE, LEG_WIDTH_SHARE = 0.035, 0.04
+SURE_ARM_WIDTH_SHARE, SURE_LEG_WIDTH_SHARE = 0.035, 0.04
 """Width of what is surely an arm or a leg, as a share of the person's height."""
-HAND_WIDTH_SHARE, FINGERTIP_EXTENSION = 0.03, 2.2
+POSSIBLE_HAND_WIDTH_SHARE, FINGERTIP_TO_KNUCKLE_RATIO = 0.03, 2.2
 """Width of where a hand may be, and how much further its tips are from the wrist than its knuckles."""
 BACKGROUND_REACH_SHARE, COLOUR_REACH_SHARE = 0.125, 0.05
 """How far from the person background is, and how far from a place colours tell of it, as shares of their height."""
-MIN_LOG_LIKELIHOOD_RATIO, MIN_LOG_LIKELIHOOD_RATIO_IN_DOUBT = 2.0, 1.2
+MIN_BACKGROUND_LOG_LIKELIHOOD_RATIO, MIN_BACKGROUND_LOG_LIKELIHOOD_RATIO_IN_DOUBT = 2.0, 1.2
 """By how much (a logarithm) background has to be likelier, and where networks waver and the colours are those close by."""
 MAX_LOG_LIKELIHOOD_RATIO, MAX_LOG_LIKELIHOOD_RATIO_AT_EDGES = 10.0, 3.0
 """By how much a pixel's colours count at most (a logarithm): where gaps are looked for, and where their edges are."""
 MIN_GAP_AREA_SHARE, MIN_GAP_WIDTH_SHARE = 2.4e-4, 0.01
 """Area of a gap as a share of the height's square, and its width as a share of the height, at least: what is smaller is a
 crease or a braid."""
-EDGE_BAND_PIXELS, MIN_EDGE_CONTRAST_LEVELS = 4, 8.0
+GAP_EDGE_BAND_PIXELS, MIN_GAP_EDGE_CONTRAST_LEVELS = 4, 8.0
 """Pixels around a gap within which its edge is found, and levels by which colours differ there."""
 MIN_CONTRAST_EDGE_SHARE = 0.2
 """Share of a gap's edge at which colours differ by as much, at least: a fold in dark cloth fades into it."""
@@ -75,10 +75,10 @@ def gaps(
     if not found.any():
         return none
     found = _to_their_ends(small, mask, found, limbs, hands, height)
-    around = dilate_mask(found, EDGE_BAND_PIXELS)
+    around = dilate_mask(found, GAP_EDGE_BAND_PIXELS)
     large = cv2.resize(found.astype(np.float32), (rgb.shape[1], rgb.shape[0]), interpolation=cv2.INTER_LINEAR)
-    reach = max(2, round(EDGE_BAND_PIXELS / scale))
-    fine = cv2.ximgproc.guidedFilter(rgb, large, reach, MIN_EDGE_CONTRAST_LEVELS**2)
+    reach = max(2, round(GAP_EDGE_BAND_PIXELS / scale))
+    fine = cv2.ximgproc.guidedFilter(rgb, large, reach, MIN_GAP_EDGE_CONTRAST_LEVELS**2)
     near = cv2.resize(around.astype(np.uint8), (rgb.shape[1], rgb.shape[0]), interpolation=cv2.INTER_NEAREST) > 0
     return np.where(near, np.clip(1.5 * np.asarray(fine) - 0.25, 0, 1), 0).astype(np.float32)
 
@@ -96,11 +96,11 @@ def _by_joints(
         arm = [f"{side}{joint}" for joint in ("Shoulder", "Elbow", "Wrist")]
         leg = [f"{side}{joint}" for joint in ("Hip", "Knee", "Ankle")]
         cv2.fillPoly(inside, [places(*arm, f"{side}Hip")], (1,))
-        for chain, wide in ((arm, ARM_WIDTH_SHARE), (leg, LEG_WIDTH_SHARE)):
+        for chain, wide in ((arm, SURE_ARM_WIDTH_SHARE), (leg, SURE_LEG_WIDTH_SHARE)):
             cv2.polylines(limbs, [places(*chain)], False, (1,), max(1, round(wide * height)))
         wrist, *knuckles = places(f"{side}Wrist", f"{side}Index", f"{side}Pinky")
-        tips = np.rint(wrist + FINGERTIP_EXTENSION * (np.mean(knuckles, axis=0) - wrist)).astype(np.int32)
-        cv2.polylines(hands, [np.stack([wrist, tips])], False, (1,), max(1, round(HAND_WIDTH_SHARE * height)))
+        tips = np.rint(wrist + FINGERTIP_TO_KNUCKLE_RATIO * (np.mean(knuckles, axis=0) - wrist)).astype(np.int32)
+        cv2.polylines(hands, [np.stack([wrist, tips])], False, (1,), max(1, round(POSSIBLE_HAND_WIDTH_SHARE * height)))
     cv2.fillPoly(inside, [places("LeftHip", "LeftAnkle", "RightAnkle", "RightHip")], (1,))
     cv2.fillPoly(limbs, [places("LeftShoulder", "RightShoulder", "RightHip", "LeftHip")], (1,))
     return inside > 0, limbs > 0, hands > 0
@@ -120,11 +120,15 @@ def _by_colour(
     outside = (alpha < 0.05) & (
         cv2.dilate((alpha > 0.5).astype(np.uint8), _square(BACKGROUND_REACH_SHARE * height)) > 0
     )
-    in_doubt = np.where(belief < MAX_PERSON_PROBABILITY, MIN_LOG_LIKELIHOOD_RATIO_IN_DOUBT, MIN_LOG_LIKELIHOOD_RATIO)
+    in_doubt = np.where(
+        belief < MAX_PERSON_PROBABILITY,
+        MIN_BACKGROUND_LOG_LIKELIHOOD_RATIO_IN_DOUBT,
+        MIN_BACKGROUND_LOG_LIKELIHOOD_RATIO,
+    )
     large = pieces_by_area(asked, MIN_GAP_AREA_SHARE * height**2)
     found = np.zeros(asked.shape, np.bool_)
     for part, enough in (
-        (asked, np.full_like(in_doubt, MIN_LOG_LIKELIHOOD_RATIO)),
+        (asked, np.full_like(in_doubt, MIN_BACKGROUND_LOG_LIKELIHOOD_RATIO)),
         *((piece, in_doubt) for piece in large),
     ):
         near = cv2.dilate(part.astype(np.uint8), _square(COLOUR_REACH_SHARE * height)) > 0
@@ -148,7 +152,7 @@ def _large_with_edges(
     depth = np.asarray(cv2.distanceTransform(likely.astype(np.uint8), cv2.DIST_L2, 5))
     rest = (alpha > 0.5) & ~likely
     edge = likely & dilate_mask(rest, 1)
-    steps = np.linalg.norm(_around(lab, likely) - _around(lab, rest), axis=2) > MIN_EDGE_CONTRAST_LEVELS
+    steps = np.linalg.norm(_around(lab, likely) - _around(lab, rest), axis=2) > MIN_GAP_EDGE_CONTRAST_LEVELS
     for own in pieces_by_area(likely, MIN_GAP_AREA_SHARE * height**2):
         if belief[own].mean() > MAX_PERSON_PROBABILITY or 2 * depth[own].max() < MIN_GAP_WIDTH_SHARE * height:
             continue
@@ -196,7 +200,9 @@ def _cut(
     pixels = lab[zone]
     likelier = body.negative_log_likelihood(pixels) - behind.negative_log_likelihood(pixels)
     likelier = np.clip(
-        likelier - MIN_LOG_LIKELIHOOD_RATIO, -MAX_LOG_LIKELIHOOD_RATIO_AT_EDGES, MAX_LOG_LIKELIHOOD_RATIO_AT_EDGES
+        likelier - MIN_BACKGROUND_LOG_LIKELIHOOD_RATIO,
+        -MAX_LOG_LIKELIHOOD_RATIO_AT_EDGES,
+        MAX_LOG_LIKELIHOOD_RATIO_AT_EDGES,
     )
     costs = np.stack([np.maximum(likelier, 0), np.maximum(-likelier, 0)], 1)
     seeds = np.where(core, 1, np.where(asked | gap, UNSEEDED, 0))[zone]

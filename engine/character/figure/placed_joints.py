@@ -13,7 +13,7 @@ from engine.perception.body import BODY_LANDMARKS
 
 PLACEABLE_JOINTS = tuple(name for name in BODY_LANDMARKS if not name.endswith(("Inner", "Outer")))
 """The joints that can be placed by hand."""
-REQUIRED_JOINTS = tuple(
+REQUIRED_PLACED_JOINTS = tuple(
     f"{side}{joint}" for side in ("Left", "Right") for joint in ("Shoulder", "Elbow", "Wrist", "Hip", "Knee", "Ankle")
 )
 """What must be placed where nobody is found."""
@@ -22,7 +22,7 @@ MAX_OUTSIDE_SHARE = 0.25
 MIN_SPREAD_RATIO = 0.03
 """How much less than along them joints must spread across, to be taken for a line: somebody seen from the side has twice as
 much."""
-MIN_TRUNK_SHARE = 0.05
+MIN_TRUNK_SKELETON_SHARE = 0.05
 """Size of a trunk that is none, as a share of the skeleton's."""
 MAX_LIMB_TRUNK_LENGTHS = 2.5
 """Lengths of the trunk from which a limb, of which a person's have 0.9, is doubted; drawn ones may be long."""
@@ -87,7 +87,7 @@ def check_skeleton(points: NDArray[np.floating], warn: Callable[[str, str], None
     ------
     InputError : `joints_invalid`. Warns of `joints_out_of_proportion`.
     """
-    at = {name: points[BODY_LANDMARKS.index(name)].astype(np.float64) for name in REQUIRED_JOINTS}
+    at = {name: points[BODY_LANDMARKS.index(name)].astype(np.float64) for name in REQUIRED_PLACED_JOINTS}
     places = np.stack(list(at.values()))
     along, across = np.linalg.svd(places - places.mean(0), compute_uv=False)
     if across <= MIN_SPREAD_RATIO * along:
@@ -97,7 +97,7 @@ def check_skeleton(points: NDArray[np.floating], warn: Callable[[str, str], None
     shoulders, hips = ((at[f"Left{joint}"] + at[f"Right{joint}"]) / 2 for joint in ("Shoulder", "Hip"))
     widths = [_between(at[f"Left{joint}"], at[f"Right{joint}"]) for joint in ("Shoulder", "Hip")]
     trunk = max(_between(shoulders, hips), *widths)
-    if trunk < MIN_TRUNK_SHARE * float(np.ptp(places, axis=0).max()):
+    if trunk < MIN_TRUNK_SKELETON_SHARE * float(np.ptp(places, axis=0).max()):
         raise InputError(
             "joints_invalid",
             "Shoulders and hips lie in one place: place them where they are seen.",

@@ -34,11 +34,11 @@ GRID_MARGIN_PIXELS = 24
 """Pixels of the grid around the person."""
 MIN_PERSON_PIXELS = 400
 """Pixels of a person."""
-MIN_PIECE_SHARE = 0.02
+MIN_TOLD_PIECE_SHARE = 0.02
 """Size from which another piece of the mask is told of, as a share of the person's."""
 CROP_MARGIN_SHARE = 0.15
 """How much of the picture around a person is looked at where others are in it, as a share of the box."""
-FOREARM_WIDTH_SHARE, HAND_WIDTH_SHARE, FINGER_WIDTH_SHARE, SEEN_JOINT_CONFIDENCE = 0.02, 0.02, 0.006, 0.7
+FOREARM_WIDTH_SHARE, SURE_HAND_WIDTH_SHARE, FINGER_WIDTH_SHARE, DRAWN_JOINT_CONFIDENCE = 0.02, 0.02, 0.006, 0.7
 """Widths of what is surely a forearm, a hand or a finger, as shares of the person's height, and the confidence from which
 a joint is seen ..."""
 HAND_REACH_SHARE = 0.043
@@ -101,7 +101,7 @@ def cut_out(
             "No person stands out in the picture: choose one in which somebody is clearly seen, or paint the mask by hand.",
             ("mask_strokes", "mask"),
         )
-    if rest > MIN_PIECE_SHARE * piece.sum():
+    if rest > MIN_TOLD_PIECE_SHARE * piece.sum():
         warn(
             "mask_in_pieces",
             "The mask is in pieces, and the person was made of the one that holds most of the joints: if another "
@@ -181,7 +181,7 @@ def seen_limbs(figure: Figure) -> NDArray[np.float32]:
         names = [f"{side}{joint}" for joint in ("Elbow", "Wrist", "Index", "Pinky")]
         elbow, wrist, *fingers = (figure.point(name) for name in names)
         sure = figure.confidence[[BODY_LANDMARKS.index(name) for name in names]]
-        if min(sure[:2]) > SEEN_JOINT_CONFIDENCE:
+        if min(sure[:2]) > DRAWN_JOINT_CONFIDENCE:
             line(np.stack([elbow, wrist]), FOREARM_WIDTH_SHARE)
             if hand is None:
                 along = (wrist - elbow) / max(float(np.linalg.norm(wrist - elbow)), 1.0)
@@ -190,13 +190,13 @@ def seen_limbs(figure: Figure) -> NDArray[np.float32]:
             cv2.fillConvexPoly(seed, np.rint(hand[[0, 1, 5, 9, 13, 17], :2]).astype(np.int32), (1,))
             for first in (1, 5, 9, 13, 17):
                 line(hand[first : first + 4, :2], FINGER_WIDTH_SHARE)
-        elif min(sure[1:]) > SEEN_JOINT_CONFIDENCE:
-            line(np.stack([wrist, np.mean(fingers, axis=0)]), HAND_WIDTH_SHARE)
+        elif min(sure[1:]) > DRAWN_JOINT_CONFIDENCE:
+            line(np.stack([wrist, np.mean(fingers, axis=0)]), SURE_HAND_WIDTH_SHARE)
     reach = max(1, round(HAND_REACH_SHARE * height))
     near = cv2.dilate(np.maximum(seed, beyond), np.ones((2 * reach + 1, 2 * reach + 1), np.uint8))
     for side in ("Left", "Right"):
         names = [f"{side}Shoulder", f"{side}Elbow"]
-        if min(figure.confidence[[BODY_LANDMARKS.index(name) for name in names]]) > SEEN_JOINT_CONFIDENCE:
+        if min(figure.confidence[[BODY_LANDMARKS.index(name) for name in names]]) > DRAWN_JOINT_CONFIDENCE:
             line(np.stack([figure.point(name) for name in names]), FOREARM_WIDTH_SHARE)
     return np.asarray(np.maximum(LIKELY_BELIEF * seed, DOUBTFUL_BELIEF * near), np.float32)
 
@@ -208,11 +208,11 @@ def seen_bones(figure: Figure) -> NDArray[np.bool_]:
     for side in ("Left", "Right"):
         for chain in (("Shoulder", "Elbow", "Wrist"), ("Hip", "Knee", "Ankle", "FootIndex"), ("Ankle", "Heel")):
             for ends in pairwise(f"{side}{joint}" for joint in chain):
-                if min(figure.confidence[BODY_LANDMARKS.index(name)] for name in ends) > SEEN_JOINT_CONFIDENCE:
+                if min(figure.confidence[BODY_LANDMARKS.index(name)] for name in ends) > DRAWN_JOINT_CONFIDENCE:
                     line = np.rint(np.stack([figure.point(name) for name in ends])).astype(np.int32)
                     cv2.polylines(drawn, [line], False, (1,), width)
     trunk = ("LeftShoulder", "RightShoulder", "RightHip", "LeftHip")
-    if min(figure.confidence[BODY_LANDMARKS.index(name)] for name in trunk) > SEEN_JOINT_CONFIDENCE:
+    if min(figure.confidence[BODY_LANDMARKS.index(name)] for name in trunk) > DRAWN_JOINT_CONFIDENCE:
         cv2.fillPoly(drawn, [np.rint(np.stack([figure.point(name) for name in trunk])).astype(np.int32)], (1,))
     return drawn > 0
 
@@ -223,7 +223,7 @@ def _hands(figure: Figure) -> NDArray[np.float32]:
         np.concatenate([hand[:, :2] for hand in figure.hands if hand is not None] or [np.zeros((0, 2), np.float32)])
     ]
     for name in (f"{side}{mark}" for side in ("Left", "Right") for mark in ("Wrist", "Index", "Pinky")):
-        if figure.confidence[BODY_LANDMARKS.index(name)] > SEEN_JOINT_CONFIDENCE:
+        if figure.confidence[BODY_LANDMARKS.index(name)] > DRAWN_JOINT_CONFIDENCE:
             seen.append(figure.point(name)[None])
     return np.concatenate(seen).astype(np.float32)
 

@@ -21,7 +21,7 @@ LABEL_COLOURS = np.array(
 """Of `labels.png`: head, torso, left arm, right arm, left leg, right leg, nobody."""
 STROKE_COLOUR_TOLERANCE_LEVELS = 40
 """Distance, in levels of red, green and blue, up to which a colour is taken for one of these: JPEG changes them a little."""
-SUBPIXEL_BITS = 4
+STROKE_SUBPIXEL_BITS = 4
 """Bits behind the point of a stroke's coordinates."""
 
 
@@ -78,8 +78,8 @@ def painted(
         if len(path) == 1:
             path = np.repeat(path, 2, axis=0)
         thickness = max(1, round(2 * radius))
-        at = np.rint(path * 2**SUBPIXEL_BITS).astype(np.int32)
-        cv2.polylines(drawn, [at], False, (255,), thickness, cv2.LINE_AA, SUBPIXEL_BITS)
+        at = np.rint(path * 2**STROKE_SUBPIXEL_BITS).astype(np.int32)
+        cv2.polylines(drawn, [at], False, (255,), thickness, cv2.LINE_AA, STROKE_SUBPIXEL_BITS)
         yield drawn.astype(np.float32) / np.float32(255)
 
 

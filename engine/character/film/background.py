@@ -17,7 +17,7 @@ from engine.media.image import is_cut_out, over_white
 HOLE_MARGIN_SHARE = 0.012
 """How far the hole behind the person reaches beyond the mask, as a share of the picture's longer side: hair and the
 shadow at the feet are not in the mask."""
-MIN_VISIBLE_ALPHA = 0.02
+MIN_FILLED_ALPHA = 0.02
 """Alpha below which nothing is seen."""
 
 
@@ -42,4 +42,4 @@ def fill_background(figure: Figure, silhouettes: tuple[Silhouette, ...]) -> Back
     hole = np.asarray(cv2.dilate(gone, disk), np.float32)
     plate = background_plate(seen, hole, reach=float(np.sqrt(hole.sum())))
     left = np.zeros_like(alpha) if figure.alpha is None else figure.alpha * (1 - hole)
-    return Background(plate, shadow, is_cut_out(figure.alpha) and bool(left.max() < MIN_VISIBLE_ALPHA))
+    return Background(plate, shadow, is_cut_out(figure.alpha) and bool(left.max() < MIN_FILLED_ALPHA))

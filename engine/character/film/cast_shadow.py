@@ -30,9 +30,9 @@ MAX_SHADOW_HUE_CHANGE = 12.0
 """By how much the colour (CIE a and b, 8 bits) may change in the shadow."""
 MIN_SHADOW_AREA_RATIO, MAX_SHADOW_AREA_RATIO = 0.01, 1.0
 """Areas of shadows, as shares of the person's."""
-LIGHT_TILTS = np.linspace(-2.0, 2.0, 21)
+TRIED_LIGHT_SLOPES = np.linspace(-2.0, 2.0, 21)
 """Light's directions that are tried: metres sideways for a metre down."""
-WORKING_SIZE_PIXELS = 480
+SHADOW_COPY_SIZE_PIXELS = 480
 """Longest side, in pixels, at which they are."""
 MIN_SHADOW_IOU, EQUIVALENT_IOU_SHARE = 0.35, 0.9
 """Overlap (intersection over union) with what the person would cast, from which a direction is believed; the share of the
@@ -108,14 +108,14 @@ def ground_shadow(shadow: CastShadow, character: Character, fitted: FittedBody) 
     height, width = shadow.mask.shape
     camera = picture_camera(character, fitted, (height, width))
     posed = pose(character, character.pictured)[::3]
-    factor = min(1.0, WORKING_SIZE_PIXELS / max(height, width))
+    factor = min(1.0, SHADOW_COPY_SIZE_PIXELS / max(height, width))
     size = max(1, round(width * factor)), max(1, round(height * factor))
     wanted = cv2.resize(shadow.mask, size, interpolation=cv2.INTER_AREA) > 0.5
     person = camera.project(posed)[:, :2] * factor
     standing = _splat(person, size)
     overlaps: dict[tuple[float, float], float] = {}
-    for tilt in LIGHT_TILTS:
-        for away in LIGHT_TILTS:
+    for tilt in TRIED_LIGHT_SLOPES:
+        for away in TRIED_LIGHT_SLOPES:
             ground = np.stack(
                 [posed[:, 0] + posed[:, 1] * tilt, np.zeros(len(posed)), posed[:, 2] + posed[:, 1] * away], 1
             )

@@ -35,10 +35,10 @@ MAX_RETREAT_METRES = 1.2
 STANDING_ROOM = MovementRoom(0.0, MAX_RETREAT_METRES, 0.0, 0.0)
 MIN_APPROACH_METRES = 0.3
 """Metres by which a motion comes nearer that is on its way, and no sway."""
-BISECTION_STEPS = 5
+RETREAT_BISECTION_STEPS = 5
 MAX_SAMPLED_FRAMES = 48
 """Of a film those that are looked at, evenly spread: between them nobody gets through the margin."""
-ARM_JOINT_NAMES = ("Arm", "Hand")
+SWUNG_ARM_JOINT_NAMES = ("Arm", "Hand")
 
 
 @dataclass(frozen=True)
@@ -145,7 +145,7 @@ def _least(fits: Callable[[float], bool]) -> float:
     if fits(0.0):
         return 0.0
     low, high = 0.0, 1.0
-    for _ in range(BISECTION_STEPS):
+    for _ in range(RETREAT_BISECTION_STEPS):
         middle = (low + high) / 2
         low, high = (low, middle) if fits(middle) else (middle, high)
     return high
@@ -155,7 +155,7 @@ def _view(character: Character, camera_at: Callable[[float], Camera], film: Clip
     mesh, camera = character.mesh, camera_at(0.0)
     bone = mesh.bones[np.arange(len(mesh.bones)), mesh.weights.argmax(1)]
     outer = np.concatenate([_outermost(mesh.vertices, np.flatnonzero(bone == one)) for one in np.unique(bone)])
-    arms = np.array([any(part in name for part in ARM_JOINT_NAMES) for name in mesh.skeleton.names])[bone[outer]]
+    arms = np.array([any(part in name for part in SWUNG_ARM_JOINT_NAMES) for name in mesh.skeleton.names])[bone[outer]]
     height, width = camera.size
     margin = FRAME_MARGIN_SHARE * height
     view = _View(mesh, camera_at, outer, arms, np.full(2, margin), np.array([width, height]) - 1 - margin)

@@ -14,7 +14,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.figure.figure import SEEN_JOINT_CONFIDENCE, Figure, moved_along
+from engine.character.figure.figure import MIN_JOINT_CONFIDENCE, Figure, moved_along
 from engine.imaging.masks.mask_pieces import bounding_box
 from engine.perception.body import BODY_LANDMARKS, FAINT_CONFIDENCE, Body, find_body
 
@@ -100,7 +100,7 @@ def _in_agreement(looks: Sequence[Figure], height: float) -> list[Figure]:
 
 def _agree(one: Figure, other: Figure, height: float) -> bool:
     away = np.linalg.norm(one.points[COMPARED_LANDMARKS, :] - other.points[COMPARED_LANDMARKS, :], axis=1)
-    seen = np.minimum(one.confidence, other.confidence)[list(COMPARED_LANDMARKS)] > SEEN_JOINT_CONFIDENCE
+    seen = np.minimum(one.confidence, other.confidence)[list(COMPARED_LANDMARKS)] > MIN_JOINT_CONFIDENCE
     return bool((away[seen] < MAX_JOINT_DISAGREEMENT_SHARE * height).all())
 
 

@@ -33,7 +33,7 @@ from engine.render.rasteriser import rasterise
 
 RIG_NAME = "mixamo"
 """The rig of a character, who is one surface: the joints of `engine.body.rig.FACE_JOINTS` would move nothing that opens or turns."""
-FOCAL_LENGTH_SIDES = 2.2
+FIGURE_FOCAL_LENGTH_SIDES = 2.2
 """Focal length in longer sides of the picture: a moderate telephoto lens, as people are photographed."""
 LANDMARK_WEIGHTS = {
     "Nose": 4.0,
@@ -48,7 +48,7 @@ LANDMARK_WEIGHTS = {
 } | dict.fromkeys(("EyeInner", "EyeOuter", "MouthLeft", "MouthRight"), 0.0)
 """How much these landmarks count; the others count 1. Nose and eyes are found best of all; with ears they say enough of the
 head, whose turn is found by all of its face points."""
-ARM_FORWARD_METRES, TRUNK_CORE_SHARE, SEEN_JOINT_CONFIDENCE = 0.2, 0.9, 0.5
+ARM_FORWARD_METRES, TRUNK_CORE_SHARE, FREE_ARM_JOINT_CONFIDENCE = 0.2, 0.9, 0.5
 """Metres from the trunk's middle to an arm before it; the share of the trunk's outline that is surely the trunk's; the
 confidence from which a joint is seen and not hidden."""
 FOREARM_DEPTH_BIAS = 0.25
@@ -60,9 +60,9 @@ vectors) below which what it has is rather noise."""
 LANDMARK_ERROR_WEIGHT = 2.0
 """How much more a share of the height by which landmarks are off counts than a share of overlap, where one of several fits is
 chosen: front and back have one outline."""
-WORKING_SIZE_PIXELS = 480
+MASK_COPY_SIZE_PIXELS = 480
 """Pixels of the picture's longer side at which templates are held against a mask."""
-JOINT_LANDMARKS = {
+LIMB_LANDMARKS = {
     "Arm": "Shoulder",
     "ForeArm": "Elbow",
     "Hand": "Wrist",
@@ -125,10 +125,10 @@ def fit_figure(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
     trust = np.array([LANDMARK_WEIGHTS.get(_part(name), 1.0) for name in landmarks.names], np.float32)
     height, width = figure.rgb.shape[:2]
     centre = (width - 1) / 2, (height - 1) / 2
-    camera = Camera((0.0, 0.0, 0.0), FOCAL_LENGTH_SIDES * max(height, width), centre, (height, width))
+    camera = Camera((0.0, 0.0, 0.0), FIGURE_FOCAL_LENGTH_SIDES * max(height, width), centre, (height, width))
     places = {
         f"{side}{joint}": BODY_LANDMARKS.index(f"{side}{mark}")
-        for joint, mark in JOINT_LANDMARKS.items()
+        for joint, mark in LIMB_LANDMARKS.items()
         for side in ("Left", "Right")
     }
     world = arms_before_the_trunk(figure) if figure.spatial else _in_the_plane(figure.points)
@@ -170,7 +170,7 @@ def fit_best(figures: Sequence[Figure], mask: NDArray[np.bool_]) -> FittedBody:
 
 def _overlap(fitted: FittedBody, mask: NDArray[np.bool_]) -> float:
     """Intersection over union of the bare template and the mask (H, W)."""
-    scale = min(1.0, WORKING_SIZE_PIXELS / max(mask.shape))
+    scale = min(1.0, MASK_COPY_SIZE_PIXELS / max(mask.shape))
     size = max(1, round(mask.shape[0] * scale)), max(1, round(mask.shape[1] * scale))
     small = cv2.resize(mask.astype(np.uint8), size[::-1], interpolation=cv2.INTER_NEAREST_EXACT) > 0
     template = pose_template(fitted, fitted.picture_camera(), load_human())
@@ -205,7 +205,7 @@ def arms_before_the_trunk(figure: Figure) -> NDArray[np.float32]:
         for joint in ("Elbow", "Wrist"):
             at = BODY_LANDMARKS.index(f"{side}{joint}")
             x, y = (float(value) for value in figure.points[at])
-            if figure.confidence[at] > SEEN_JOINT_CONFIDENCE and cv2.pointPolygonTest(trunk, (x, y), False) > 0:
+            if figure.confidence[at] > FREE_ARM_JOINT_CONFIDENCE and cv2.pointPolygonTest(trunk, (x, y), False) > 0:
                 world[at, 2] = max(world[at, 2], float(depths.mean()) + ARM_FORWARD_METRES)
     return world
 

@@ -26,8 +26,8 @@ from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import largest_piece
 from engine.render.rasteriser import rasterise
 
-HEAD, TRUNK = BODY_PARTS.index("head"), BODY_PARTS.index("torso")
-MIN_HEAD_SHARE = 0.3
+HEAD_LABEL, TRUNK_LABEL = BODY_PARTS.index("head"), BODY_PARTS.index("torso")
+MIN_HEAD_WEIGHT = 0.3
 """Share of the head in what moves a vertex that may show in its outline."""
 HAIR_DEPTH_SHARE = 0.09
 """How far hair that keeps to the skull stands off it, as a share of the head's height."""
@@ -41,9 +41,9 @@ MOUTH_LANDMARK = 62
 """Of the 68 points of a face, the middle of the upper lip's lower edge."""
 NECK_OVERLAP_METRES = 0.1
 """Metres at rest around the neck's joint in which the shell of the head goes on in the trunk."""
-TRUNK_UNDERLAP_PIXELS = 5
+TRUNK_BEHIND_HEAD_PIXELS = 5
 """Pixels by which the trunk goes on behind the head: what lies between two borders of pixels would gape."""
-LABEL_TOLERANCE_PIXELS = 2
+HEAD_LABEL_TOLERANCE_PIXELS = 2
 """Pixels around the head's label in which it may be what is seen: the border is not exact."""
 
 
@@ -54,19 +54,19 @@ def hair_keeps_to_the_head(
     or one in profile, whose turn is not found, or where the picture cuts the head off."""
     if figure.face is None or in_profile(figure):
         return False
-    own = labels.labels == HEAD
+    own = labels.labels == HEAD_LABEL
     skull = template[mesh.head > 0.5]
     places = (skull[:, :2] - silhouette.to_grid[:, 2]) / np.diag(silhouette.to_grid)
     height, width = silhouette.alpha.shape
     if not own.any() or (places < 0).any() or (places > [width - 1, height - 1]).any():
         return False
-    of_head, size = mesh.parts[:, HEAD] > MIN_HEAD_SHARE, np.ptp(skull[:, 1])
+    of_head, size = mesh.parts[:, HEAD_LABEL] > MIN_HEAD_WEIGHT, np.ptp(skull[:, 1])
     covered, neck = (_covered(mesh, template, each, own.shape) for each in (of_head, of_head & _below_the_mouth(mesh)))
     loose = (own & ~dilate_mask(covered, round(HAIR_DEPTH_SHARE * size))).sum() / own.sum()
     at_neck = dilate_mask(neck, round(NECK_SURROUND_SHARE * size)) & ~dilate_mask(
-        covered & ~neck, LABEL_TOLERANCE_PIXELS
+        covered & ~neck, HEAD_LABEL_TOLERANCE_PIXELS
     )
-    beyond = own & ~dilate_mask(covered, max(LABEL_TOLERANCE_PIXELS, round(COLLAR_DEPTH_SHARE * size)))
+    beyond = own & ~dilate_mask(covered, max(HEAD_LABEL_TOLERANCE_PIXELS, round(COLLAR_DEPTH_SHARE * size)))
     fallen = (beyond & at_neck).sum() / max(neck.sum(), 1)
     beside = (covered & (labels.labels < 0)).sum() / max(covered.sum(), 1)
     return bool(loose < MAX_LOOSE_HAIR_SHARE and fallen < MAX_FALLEN_HAIR_SHARE and beside < MAX_UNCOVERED_SHARE)
@@ -92,10 +92,10 @@ def with_head(limbs: Limbs, mesh: TemplateMesh, fitted: FittedBody) -> Limbs:
     space, coefficients = load_human().space, fitted.fit.coefficients
     at, heads = space.vertices(coefficients)[mesh.ids], space.joints(coefficients)
     most, limb = mesh.parts.argmax(1), limbs.limb.copy()
-    limb[(most == HEAD) | mesh.eye] = HEAD
+    limb[(most == HEAD_LABEL) | mesh.eye] = HEAD_LABEL
     distance = np.linalg.norm(at - heads[mesh.names.index("Neck")], axis=1)
-    beyond = (most == TRUNK) & (distance < NECK_OVERLAP_METRES) & (limb < 0)
-    limb[beyond] = HEAD
+    beyond = (most == TRUNK_LABEL) & (distance < NECK_OVERLAP_METRES) & (limb < 0)
+    limb[beyond] = HEAD_LABEL
     return replace(limbs, limb=limb, overlap=limbs.overlap | beyond)
 
 
@@ -108,11 +108,11 @@ def no_limbs(mesh: TemplateMesh) -> Limbs:
 def without_head(labels: Labels) -> Labels:
     """Labels of who has no head: what is nearest to the trunk of it is the trunk's."""
     found = labels.labels.copy()
-    head = found == HEAD
-    under = head & dilate_mask(found == TRUNK, TRUNK_UNDERLAP_PIXELS)
+    head = found == HEAD_LABEL
+    under = head & dilate_mask(found == TRUNK_LABEL, TRUNK_BEHIND_HEAD_PIXELS)
     found[head] = -1
-    found[under] = TRUNK
-    loose = (found == TRUNK) & ~largest_piece(found == TRUNK) & dilate_mask(head, TRUNK_UNDERLAP_PIXELS)
+    found[under] = TRUNK_LABEL
+    loose = (found == TRUNK_LABEL) & ~largest_piece(found == TRUNK_LABEL) & dilate_mask(head, TRUNK_BEHIND_HEAD_PIXELS)
     found[loose] = -1
     return replace(labels, labels=found)
 
@@ -126,11 +126,11 @@ def joined_at_the_neck(
     body = trunk.triangles[(trunk.layer == 0)[trunk.triangles].all(1)]
     front = -rasterise(trunk.vertices * [1, 1, -1], body, shape).depth
     back = rasterise(trunk.vertices, body, shape).depth
-    own = shown.limb == HEAD
+    own = shown.limb == HEAD_LABEL
     row, column = _pixels(pictured, shape)
     covered = own & np.isfinite(front[row, column]) & np.isfinite(back[row, column])
-    head = labels.labels == HEAD
-    cloth = (labels.labels == TRUNK) & ~dilate_mask(head, LABEL_TOLERANCE_PIXELS)
+    head = labels.labels == HEAD_LABEL
+    cloth = (labels.labels == TRUNK_LABEL) & ~dilate_mask(head, HEAD_LABEL_TOLERANCE_PIXELS)
     z = pictured[:, 2].copy()
     least, most = back[row, column] + INSET_PIXELS, front[row, column] - INSET_PIXELS
     down = covered & (shown.overlap | cloth[row, column])

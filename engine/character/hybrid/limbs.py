@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
 from engine.character.fit.template_fit import FittedBody, load_human
-from engine.character.hybrid.trunk import LIMB_LABELS, TRUNK_UNDERLAP_PIXELS
+from engine.character.hybrid.trunk import LIMB_LABELS, TRUNK_BEHIND_LIMBS_PIXELS
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
 from engine.character.shell.template_mesh import TemplateMesh
@@ -29,7 +29,7 @@ from engine.imaging.masks.mask_pieces import rows_apart
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import rasterise
 
-SHOULDER_OVERLAP_METRES, HIP_OVERLAP_METRES = 0.15, 0.16
+SHELL_SHOULDER_OVERLAP_METRES, SHELL_HIP_OVERLAP_METRES = 0.15, 0.16
 """Metres at rest around the joint in which the shell of arm or leg goes on in the trunk."""
 LEG_UNDER_CLOTH_SHARE = 0.06
 """How far a leg goes on under cloth that hangs, as a share of the person's height."""
@@ -75,7 +75,9 @@ def limbs_of(
     overlap, near = np.zeros(len(most), np.bool_), np.zeros(len(most), np.float32)
     for part in LIMB_LABELS:
         side = "Left" if BODY_PARTS[part].startswith("left") else "Right"
-        name, reach = ("Arm", SHOULDER_OVERLAP_METRES) if part in ARM_LABELS else ("UpLeg", HIP_OVERLAP_METRES)
+        name, reach = (
+            ("Arm", SHELL_SHOULDER_OVERLAP_METRES) if part in ARM_LABELS else ("UpLeg", SHELL_HIP_OVERLAP_METRES)
+        )
         distance = np.linalg.norm(at - heads[mesh.names.index(f"{side}{name}")], axis=1)
         if part in LEG_LABELS and hangs:
             continue
@@ -110,7 +112,7 @@ def joined_in_depth(
     behind its front, and what of them goes on in it is within: around joints the trunk is as deep as the shell."""
     moved = pictured.copy()
     trunk = _as_deep(mesh, moved, limbs, trunk)
-    beside = dilate_mask(trunk.mask & ~np.isin(labels.labels, LIMB_LABELS), TRUNK_UNDERLAP_PIXELS + 1)
+    beside = dilate_mask(trunk.mask & ~np.isin(labels.labels, LIMB_LABELS), TRUNK_BEHIND_LIMBS_PIXELS + 1)
     for part in LIMB_LABELS:
         own, chosen = labels.labels == part, (limbs.limb == part) & ~limbs.overlap
         if not (own.any() and chosen.any()):

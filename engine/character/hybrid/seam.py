@@ -22,7 +22,7 @@ TRUNK_WEIGHT_THRESHOLD = 0.5
 """Share of the trunk in what moves a vertex from which on its colours go over to the trunk's."""
 MIN_PICTURED_COSINE, FULLY_PICTURED_COSINE = 0.12, 0.3
 """Cosine to the viewer from which on what is seen of a limb is more and more, and all, the picture's."""
-LABEL_TOLERANCE_PIXELS = 5
+LIMB_LABEL_TOLERANCE_PIXELS = 5
 """Pixels of the grid around a limb's label in which its surface may be what is seen: neither's border is exact."""
 VISIBILITY_TOLERANCE_PIXELS = 3.0
 """Pixels of the grid by which a point may be behind what is nearest at its place and yet be seen."""
@@ -71,7 +71,7 @@ def _around_limbs(labels: NDArray[np.integer]) -> NDArray[np.bool_]:
     around = np.zeros((len(BODY_PARTS), *labels.shape), np.bool_)
     for limb in LIMB_LABELS:
         others = np.isin(labels, [other for other in LIMB_LABELS if other != limb])
-        around[limb] = dilate_mask(labels == limb, LABEL_TOLERANCE_PIXELS) & ~dilate_mask(others, 2)
+        around[limb] = dilate_mask(labels == limb, LIMB_LABEL_TOLERANCE_PIXELS) & ~dilate_mask(others, 2)
         around[limb] |= labels == limb
     return around
 

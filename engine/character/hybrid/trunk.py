@@ -27,7 +27,7 @@ from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import largest_piece
 
 LIMB_LABELS = (*ARM_LABELS, *LEG_LABELS)
-TRUNK_UNDERLAP_PIXELS = 3
+TRUNK_BEHIND_LIMBS_PIXELS = 3
 """Pixels by which the trunk goes on behind limbs everywhere: what lies between two borders of pixels would gape."""
 
 
@@ -52,7 +52,7 @@ def trunk_region(labels: Labels, template: PosedTemplate, rig: Rig) -> Region:
     seen = (labels.labels >= 0) & ~limbs
     whole = template.covers(own, seen.shape)
     body = completed(seen, limbs, labels.occlusion, whole)
-    return Region(largest_piece(body | (limbs & dilate_mask(body, TRUNK_UNDERLAP_PIXELS))), own)
+    return Region(largest_piece(body | (limbs & dilate_mask(body, TRUNK_BEHIND_LIMBS_PIXELS))), own)
 
 
 def _within_cloth(labels: Labels, template: PosedTemplate, part: NDArray[np.intp]) -> NDArray[np.bool_]:

@@ -33,7 +33,7 @@ PALM_HALF_WIDTH_METRES, BENT_FINGERS_HALF_WIDTH_METRES = 0.045, 0.03
 """Metres that half the width of a hand has, at palm and bent fingers."""
 HAND_REACH_METRES = 0.13
 """Metres from the wrist to the middle of bent fingers."""
-OUTLINE_BAND_PIXELS = 4.0
+UNTUCKED_BAND_PIXELS = 4.0
 """Pixels of the grid from the person's outline in which no hand is tucked away."""
 CIRCLES_PER_BONE = 24
 """Circles that make an arm from one joint to the next."""
@@ -78,7 +78,7 @@ def label_crossed(
     }
     hands = {side: arm.hand(mask.shape) & mask for side, arm in own.items()}
     if arms.crossing.tucked_at is not None:  # at the outline the arm before it is too thin to hide it from all sides
-        hands[back] &= distance_inside(mask) > OUTLINE_BAND_PIXELS
+        hands[back] &= distance_inside(mask) > UNTUCKED_BAND_PIXELS
     reach = dilate_mask(hands[front] | covers[front], 2)
     seen = largest_piece(covers[front] | (hands[front] & skin & reach))
     whole = covers[back] | hands[back]

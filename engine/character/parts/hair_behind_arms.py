@@ -6,16 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
-from engine.character.parts.labels import ARM_LABELS, MIN_PIECE_PIXELS
+from engine.character.parts.labels import ARM_LABELS, MIN_LABEL_PIECE_PIXELS
 from engine.imaging.masks.colour_segmentation import MIN_MIXTURE_PIXELS, ColourMixture, log_likelihood_ratio
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import pieces_touching, without_small_pieces
 
 ARM_OUTLINE_TOLERANCE_SHARE = 0.008
 """How far around the template's outline an arm's may be, as a share of the height."""
-MIN_LOG_LIKELIHOOD_RATIO = 3.0
+MIN_HAIR_LOG_LIKELIHOOD_RATIO = 3.0
 """By how much likelier hair must be where the template has its arm (logarithms of probabilities)."""
-ARM_WIDTH_SHARE = 0.05
+PASSING_ARM_WIDTH_SHARE = 0.05
 """How wide an arm is that passes before hair, as a share of the height."""
 HAIR_LIKELIHOOD_PERCENTILE, MIN_NOT_HAIR_SHARE = 98.0, 0.4
 """Percent of hair whose colours say what may be hair; share of an arm that may not be, at least, to be told from hair."""
@@ -44,15 +44,20 @@ def hair_behind_arms(
         bare[inner] = of_hair.negative_log_likelihood(colours[inner]) > hairy
         doubtful = (labels == arm) & (sure != arm)
         doubtful[chin:] = False
-        if bare.sum() < max(MIN_MIXTURE_PIXELS, MIN_NOT_HAIR_SHARE * inner.sum()) or doubtful.sum() < MIN_PIECE_PIXELS:
+        if (
+            bare.sum() < max(MIN_MIXTURE_PIXELS, MIN_NOT_HAIR_SHARE * inner.sum())
+            or doubtful.sum() < MIN_LABEL_PIECE_PIXELS
+        ):
             continue
         likelier = log_likelihood_ratio(
             colours, doubtful, of_hair, ColourMixture.fit(colours[bare]), LIKELIHOOD_BLUR_PIXELS
         )
-        clear = np.where(_grown_by_share(template == arm, ARM_OUTLINE_TOLERANCE_SHARE), MIN_LOG_LIKELIHOOD_RATIO, 0)
+        clear = np.where(
+            _grown_by_share(template == arm, ARM_OUTLINE_TOLERANCE_SHARE), MIN_HAIR_LOG_LIKELIHOOD_RATIO, 0
+        )
         given = doubtful & (likelier > clear)
-        near = _grown_by_share(labels == head, ARM_WIDTH_SHARE)
-        found[pieces_touching(without_small_pieces(given, MIN_PIECE_PIXELS), near)] = head
+        near = _grown_by_share(labels == head, PASSING_ARM_WIDTH_SHARE)
+        found[pieces_touching(without_small_pieces(given, MIN_LABEL_PIECE_PIXELS), near)] = head
     return found
 
 

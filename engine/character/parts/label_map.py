@@ -34,7 +34,7 @@ from engine.character.parts.shoulders import labelled_shoulders
 from engine.character.parts.unfound_hands import UnfoundHand
 from engine.render.attributes import interpolate
 
-LEGS_APART = 0.05
+MIN_LEG_SEPARATION_METRES = 0.05
 """Metres at rest between points of the legs that touch in the picture and are not joined: near the crotch they are."""
 
 
@@ -160,7 +160,9 @@ def _with_occlusion(
     parting = np.zeros(labels.shape, np.bool_)
     for leg in LEG_LABELS:
         only = [where if part in LEG_LABELS else np.full_like(where, np.nan) for part, where in enumerate(places)]
-        parting |= occlusion_pixels(np.where(np.isin(labels, LEG_LABELS), labels, -1), leg, only, LEGS_APART)
+        parting |= occlusion_pixels(
+            np.where(np.isin(labels, LEG_LABELS), labels, -1), leg, only, MIN_LEG_SEPARATION_METRES
+        )
     if before is not None:
         pixels = {before: beside_the_other(labels, before)} | pixels
     return Labels(

@@ -21,7 +21,7 @@ from engine.imaging.masks.mask_pieces import pieces_touching
 
 ARM_LABELS = (BODY_PARTS.index("left_arm"), BODY_PARTS.index("right_arm"))
 LEG_LABELS = (BODY_PARTS.index("left_leg"), BODY_PARTS.index("right_leg"))
-OTHER_SIDE = {one: other for pair in (ARM_LABELS, LEG_LABELS) for one, other in (pair, pair[::-1])}
+OPPOSITE_LABEL = {one: other for pair in (ARM_LABELS, LEG_LABELS) for one, other in (pair, pair[::-1])}
 """The limb of the other side."""
 MIN_LIMB_PIXELS = 50
 """Pixels of a limb that is worth being a part of its own."""
@@ -40,7 +40,7 @@ SLEEVE_REACH_SHARE, BEYOND_SLEEVE_COST = 0.04, 2.0
 further away is unlikely to be an arm's."""
 BORDER_SMOOTHING_PIXELS = 0.7
 """Pixels of the small labels over which their borders are smoothed."""
-MIN_PIECE_PIXELS = 40
+MIN_LABEL_PIECE_PIXELS = 40
 """Pixels below which a piece of a label is an error of the colours' model: a crease, a cuff, a shadow."""
 MIN_SECOND_PIECE_SHARE = 0.25
 """Share of an arm's largest piece below which another one is not the arm's."""
@@ -125,9 +125,9 @@ def without_specks(
             continue
         areas = stats[:count, cv2.CC_STAT_AREA]
         known = np.bincount(pieces[(sure == part) & (pieces > 0)], minlength=count)
-        small = areas < MIN_PIECE_PIXELS
+        small = areas < MIN_LABEL_PIECE_PIXELS
         if part in ARM_LABELS:
-            other = (labels == OTHER_SIDE[part]).astype(np.uint8)
+            other = (labels == OPPOSITE_LABEL[part]).astype(np.uint8)
             met = np.unique(pieces[(cv2.dilate(other, np.ones((5, 5), np.uint8)) > 0) | plain])
             least = areas[known.argmax()] if known.any() else MIN_SECOND_PIECE_SHARE * areas[1:].max()
             small |= (areas < least) & ~np.isin(np.arange(count), met)

@@ -10,10 +10,10 @@ from engine.imaging.masks.mask_distance import dilate_mask
 
 EDGE_TOLERANCE_SHARE = 0.004
 """How far a limb's edge may lie from that of its label, as a share of the person's height."""
-MIN_EDGE_CONTRAST_LEVELS = 12.0
+MIN_LIMB_EDGE_CONTRAST_LEVELS = 12.0
 """Levels by which colours differ on two sides of an edge, at least."""
 
-COLOUR_EDGE_BAND_PIXELS = 3
+LIMB_EDGE_BAND_PIXELS = 3
 """Pixels of the grid around the rest of the person within which a limb ends where its colours do, and not where the mask does."""
 
 
@@ -22,7 +22,7 @@ def border(limb: NDArray[np.bool_], person: NDArray[np.bool_], rgb: NDArray[np.u
     of the rest of the `person` (h, w) is near."""
     size = (limb.shape[1], limb.shape[0])
     soft = np.asarray(cv2.resize(soft_limbs(limb, rgb), size, interpolation=cv2.INTER_AREA), np.float32)
-    return np.where(dilate_mask(person & ~limb, COLOUR_EDGE_BAND_PIXELS), soft, 1).astype(np.float32)
+    return np.where(dilate_mask(person & ~limb, LIMB_EDGE_BAND_PIXELS), soft, 1).astype(np.float32)
 
 
 def soft_limbs(limbs: NDArray[np.bool_], rgb: NDArray[np.uint8]) -> NDArray[np.float32]:
@@ -31,6 +31,6 @@ def soft_limbs(limbs: NDArray[np.bool_], rgb: NDArray[np.uint8]) -> NDArray[np.f
     size = (rgb.shape[1], rgb.shape[0])
     large = np.asarray(cv2.resize(limbs.astype(np.float32), size, interpolation=cv2.INTER_LINEAR))
     reach = max(2, round(EDGE_TOLERANCE_SHARE * size[1]))
-    likely = cv2.ximgproc.guidedFilter(rgb, large, reach, MIN_EDGE_CONTRAST_LEVELS**2)
+    likely = cv2.ximgproc.guidedFilter(rgb, large, reach, MIN_LIMB_EDGE_CONTRAST_LEVELS**2)
     close = cv2.dilate((large > 0.5).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=reach)
     return np.where(close > 0, np.clip(likely, 0, 1), 0).astype(np.float32)

@@ -14,7 +14,7 @@ from engine.body.parts import vertex_parts
 from engine.body.rig import Rig
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.fit.template_maps import side_maps
-from engine.character.parts.labels import LEG_LABELS, OTHER_SIDE
+from engine.character.parts.labels import LEG_LABELS, OPPOSITE_LABEL
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 
 CROSSING_RADIUS_METRES = 0.04
@@ -87,13 +87,13 @@ def as_the_template(labels: NDArray[np.integer], template: NDArray[np.integer], 
     other as it stands off elsewhere."""
     away = {leg: distance_to(template == leg) for leg in LEG_LABELS}
     off = standing_off(labels, before, away[before])
-    front = away[before] <= np.maximum(away[OTHER_SIDE[before]], off)
-    return np.where(np.isin(labels, LEG_LABELS), np.where(front, before, OTHER_SIDE[before]), labels)
+    front = away[before] <= np.maximum(away[OPPOSITE_LABEL[before]], off)
+    return np.where(np.isin(labels, LEG_LABELS), np.where(front, before, OPPOSITE_LABEL[before]), labels)
 
 
 def beside_the_other(labels: NDArray[np.integer], leg: int) -> NDArray[np.bool_]:
     """The pixels (h, w) of a leg beside which the other one shows."""
-    return (labels == leg) & dilate_mask(labels == OTHER_SIDE[leg], 1)
+    return (labels == leg) & dilate_mask(labels == OPPOSITE_LABEL[leg], 1)
 
 
 def hidden_leg(
@@ -102,6 +102,6 @@ def hidden_leg(
     """The pixels (h, w) of the leg behind the one that is `before`, wherever it may be seen: the template's, and what is worn on it,
     as on the other. `part` (T, 3): that of each corner of the template's triangles."""
     front, behind = (
-        distance_to(template.covers((part == leg).all(1), labels.shape)) for leg in (before, OTHER_SIDE[before])
+        distance_to(template.covers((part == leg).all(1), labels.shape)) for leg in (before, OPPOSITE_LABEL[before])
     )
     return np.asarray(behind <= standing_off(labels, before, front))

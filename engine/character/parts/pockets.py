@@ -35,13 +35,13 @@ PARTED_RADIUS_HAND_LENGTHS, CLOTH_RADIUS_HAND_LENGTHS, MIN_CLOTH_DISTANCE_HAND_L
 that is from the template's hand, at least: the hand may be beside it."""
 CUFF_LENGTH_HAND_LENGTHS = 0.3
 """Lengths of the hand by which a sleeve reaches beyond the wrist."""
-MIN_LOG_LIKELIHOOD_RATIO = 3.0
+MIN_CLOTH_LOG_LIKELIHOOD_RATIO = 3.0
 """By how much (a logarithm) a colour has to be likelier."""
 MIN_NOT_SKIN_SHARE = 0.7
 """Share of the template's hand that is surely no skin where a hand is hidden."""
 MIN_HUE_DISTANCE = 8.0
 """Distance of two hues (CIE Lab, 8 bits, without lightness) below which they say nothing."""
-COLOUR_BLUR_PIXELS, CUFF_SHADOW_PIXELS = 1.0, 2
+HAND_COLOUR_BLUR_PIXELS, CUFF_SHADOW_PIXELS = 1.0, 2
 """Pixels of the grid over which colours are taken together, and which part a hand from its cuff."""
 FINGER_CLOSING_PIXELS = 7
 """Pixels between fingers that are closed: of a hidden hand they are together."""
@@ -107,8 +107,8 @@ def parted(
             ColourMixture.fit(hand.skin).widened(SKIN_COLOUR_VARIANCE).negative_log_likelihood(colours[around])
         )
         worn_cost = np.minimum(cost["cloth"], cost["sleeve"])
-        like_skin = smoothed_map(worn_cost - cost["skin"], around, COLOUR_BLUR_PIXELS)
-        if (like_skin < -MIN_LOG_LIKELIHOOD_RATIO)[
+        like_skin = smoothed_map(worn_cost - cost["skin"], around, HAND_COLOUR_BLUR_PIXELS)
+        if (like_skin < -MIN_CLOTH_LOG_LIKELIHOOD_RATIO)[
             seen
         ].mean() < MIN_NOT_SKIN_SHARE or stands_out > CLOTH_WITHOUT_SKIN_SHARE:
             return None if hand.before else _bare(like_skin, arm, around)
@@ -117,13 +117,17 @@ def parted(
     ):
         return None
     of_arm = np.minimum(cost["sleeve"], cost.get("skin", np.inf))
-    sleeved = smoothed_map(cost["cloth"] - of_arm, around, COLOUR_BLUR_PIXELS)
+    sleeved = smoothed_map(cost["cloth"] - of_arm, around, HAND_COLOUR_BLUR_PIXELS)
     cloth = (
         arm
         & around
         & (
             sleeved
-            < np.where(beyond > CUFF_LENGTH_HAND_LENGTHS * length, MIN_LOG_LIKELIHOOD_RATIO, -MIN_LOG_LIKELIHOOD_RATIO)
+            < np.where(
+                beyond > CUFF_LENGTH_HAND_LENGTHS * length,
+                MIN_CLOTH_LOG_LIKELIHOOD_RATIO,
+                -MIN_CLOTH_LOG_LIKELIHOOD_RATIO,
+            )
         )
     )
     fingers = (
@@ -137,7 +141,7 @@ def parted(
 
 def _bare(like_skin: NDArray[np.float32], arm: NDArray[np.bool_], around: NDArray[np.bool_]) -> PartedHand:
     """A hand that is seen: what is like skin (h, w), joined with its arm (h, w) where both are `around` (h, w) its place."""
-    bare = pieces_touching(around & (like_skin > 0), like_skin > MIN_LOG_LIKELIHOOD_RATIO)
+    bare = pieces_touching(around & (like_skin > 0), like_skin > MIN_CLOTH_LOG_LIKELIHOOD_RATIO)
     nothing = np.zeros_like(arm)
     return PartedHand(_joined(bare, arm) & around, nothing, nothing)
 

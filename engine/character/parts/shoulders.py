@@ -19,7 +19,7 @@ from engine.imaging.masks.mask_pieces import pieces_touching
 
 SHOULDER_RADIUS_METRES, TRUNK_SAMPLE_RADIUS_METRES = 0.13, 0.35
 """Metres around a shoulder in which labels may go by colours, and in which the trunk's are learned."""
-MIN_LOG_LIKELIHOOD_RATIO = 4.0
+MIN_LABEL_LOG_LIKELIHOOD_RATIO = 4.0
 """By how much a colour must be likelier of one than of the other, in units of equation 16."""
 MIN_AGREEING_SHARE, MAX_TRUNK_COLOURED_ARM_SHARE = 0.8, 0.3
 """Share of the pixels that must be so, and of those labelled an arm that may be of the trunk's colours: more are a sleeve's, cut
@@ -50,7 +50,7 @@ def labelled_shoulders(
         likelier = costs[:, 0] - costs[:, 1]
         of_the_trunk = (likelier < 0) & own[here]
         if (
-            abs(likelier) > MIN_LOG_LIKELIHOOD_RATIO
+            abs(likelier) > MIN_LABEL_LOG_LIKELIHOOD_RATIO
         ).mean() > MIN_AGREEING_SHARE and of_the_trunk.sum() <= MAX_TRUNK_COLOURED_ARM_SHARE * own[here].sum():
             found = ContrastGraph.of(colours, here).cut(costs, costs.argmin(1))
             whole = out.copy()
@@ -67,5 +67,5 @@ def _hair(head: NDArray[np.float64], arm: ColourMixture) -> list[ColourMixture]:
     if len(head) < MIN_MIXTURE_PIXELS:
         return []
     likelier = arm.negative_log_likelihood(head) - ColourMixture.fit(head).negative_log_likelihood(head)
-    hair = head[likelier > MIN_LOG_LIKELIHOOD_RATIO]
+    hair = head[likelier > MIN_LABEL_LOG_LIKELIHOOD_RATIO]
     return [ColourMixture.fit(hair)] if len(hair) >= MIN_MIXTURE_PIXELS else []

@@ -21,7 +21,7 @@ from engine.character.fit.head import joint_axes
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, MIN_LIMB_PIXELS, OTHER_SIDE
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, MIN_LIMB_PIXELS, OPPOSITE_LABEL
 from engine.imaging.masks.mask_pieces import largest_piece
 
 MIN_VERTICES_INSIDE_SHARE = 0.97
@@ -79,7 +79,7 @@ def not_seen(labels: Labels) -> list[int]:
     skirt = labels.cloth is not None and labels.cloth.hangs
     return [
         limb
-        for limb, other in OTHER_SIDE.items()
+        for limb, other in OPPOSITE_LABEL.items()
         if (labels.labels == limb).sum() < MIN_LIMB_PIXELS
         and not (labels.hidden == limb).any()
         and largest_piece(labels.labels == other).sum() >= MIN_LIMB_PIXELS

@@ -15,7 +15,7 @@ WHOLE_OVERLAP_SHARE = 0.98
 """Overlap of the character's silhouette with the outline from which it is said to be whole."""
 OUTLINE_TOLERANCE_SHARE = 0.004
 """Half the width of what is no more than the outline's own uncertainty, as a share of the person's height."""
-MIN_PIECE_SHARE = 0.002
+MIN_LOST_PIECE_SHARE = 0.002
 """Share of the outline's pixels from which a piece is told of."""
 
 
@@ -37,7 +37,7 @@ def left_out(mask: NDArray[np.bool_], drawn: NDArray[np.bool_]) -> list[LeftOut]
     thick = cv2.morphologyEx((mask & ~drawn).astype(np.uint8), cv2.MORPH_OPEN, disk) > 0
     area = int(mask.sum())
     found = []
-    for piece in pieces_by_area(thick, MIN_PIECE_SHARE * area, connectivity=8):
+    for piece in pieces_by_area(thick, MIN_LOST_PIECE_SHARE * area, connectivity=8):
         rows, columns = bounding_box(piece)
         box = (columns.start, rows.start, columns.stop - columns.start, rows.stop - rows.start)
         found.append(LeftOut(box, float(piece.sum() / area)))

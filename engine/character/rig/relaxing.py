@@ -28,13 +28,13 @@ MAX_STIFFENING_FACTOR = 10.0
 """By how much at most an edge is made stiffer in a round: how much more the difference of its ends' weights counts than what
 these were."""
 RELAXATION_ROUNDS = 7
-STIFFENING_RINGS, STIFFENING_DECAY = 4, 0.8
+STIFFENING_RINGS, STIFFENING_DECAY_PER_RING = 4, 0.8
 """How far around an edge others are made stiffer, in edges, and what is left of it with each."""
 CLIP_FRAME_STEP = 10
 """Frames of the built-in clips by which it is tried."""
 MIN_EDGE_METRES = 1e-4
 """Metres: what is shorter counts as so long."""
-CHUNK_FRAMES = 16
+POSED_CHUNK_FRAMES = 16
 """Frames that are posed together."""
 
 
@@ -118,8 +118,8 @@ def _stretch(surface: SurfaceGraph, bound: _Bound, frames: NDArray[np.float32]) 
     """How many times as long as pictured each edge (E,) becomes in frames (F, J, 4, 4), and the share of edges beyond
     `FULL_STRETCH_RATIO` in the worst of them."""
     most, worst = np.zeros(len(surface.edges)), 0
-    for start in range(0, len(frames), CHUNK_FRAMES):
-        posed = skin(bound.places, bound.bones, bound.weights, frames[start : start + CHUNK_FRAMES])
+    for start in range(0, len(frames), POSED_CHUNK_FRAMES):
+        posed = skin(bound.places, bound.bones, bound.weights, frames[start : start + POSED_CHUNK_FRAMES])
         worst = max(worst, _longest(posed, surface.edges, surface.lengths, most))
     return most, worst / max(len(most), 1)
 
@@ -148,7 +148,7 @@ def _spread(surface: SurfaceGraph, wanted: NDArray[np.float64]) -> NDArray[np.fl
         np.maximum.at(spread, end, wanted)
     degree = np.maximum(np.asarray(surface.neighbours.sum(1)).ravel(), 1)
     for _ in range(STIFFENING_RINGS):
-        spread = np.maximum(spread, STIFFENING_DECAY * (surface.neighbours @ spread) / degree)
+        spread = np.maximum(spread, STIFFENING_DECAY_PER_RING * (surface.neighbours @ spread) / degree)
     return spread
 
 

@@ -22,7 +22,7 @@ MIN_VOLUME_RATIO, TARGET_VOLUME_RATIO = 0.35, 0.6
 """What blending turns may leave of a volume. Where it leaves less halfway between a vertex's two strongest joints, as in a
 sharply bent elbow, the way back to T-pose is no longer one: there the vertex goes with the strongest, as much more as
 it takes to keep the second."""
-BISECTION_STEPS = 7
+VOLUME_BISECTION_STEPS = 7
 """Of the share that is asked for how much more."""
 
 
@@ -104,7 +104,7 @@ def at_rest(
     kept = weights.copy()
     own, mixed = turned[bones[crushed, 0]], blended[crushed]
     more, step = np.ones(len(crushed)), 0.5
-    for _ in range(BISECTION_STEPS):
+    for _ in range(VOLUME_BISECTION_STEPS):
         enough = _volume(_between(mixed, own, more - step)) >= least[crushed]
         more -= np.where(enough, step, 0)
         step /= 2

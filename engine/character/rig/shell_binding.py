@@ -19,7 +19,7 @@ from engine.character.shell.shell import Shell
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.imaging.masks.mask_pieces import bounding_box
 
-OUTLINE_BAND_PIXELS = 1.5
+MIXED_COLOUR_BAND_PIXELS = 1.5
 """Pixels of the grid within the outline from which on its colours are the person's alone."""
 CROP_MARGIN_PIXELS = 4
 """Pixels of the picture around the person that go into the texture."""
@@ -79,7 +79,9 @@ class _Beside:
 
     def __init__(self, figure: Figure, silhouette: Silhouette, chart: NDArray[np.uint8]) -> None:
         self.to_picture = np.linalg.inv(np.vstack([silhouette.to_grid, [0, 0, 1]]))[:2]
-        within = distance_transform_edt(silhouette.alpha > 0.5) > OUTLINE_BAND_PIXELS / float(silhouette.to_grid[0, 0])
+        within = distance_transform_edt(silhouette.alpha > 0.5) > MIXED_COLOUR_BAND_PIXELS / float(
+            silhouette.to_grid[0, 0]
+        )
         nearest = distance_transform_edt(~within, return_distances=False, return_indices=True)
         rows, columns = bounding_box(silhouette.alpha > 0.5)
         self.first = np.array([max(columns.start - CROP_MARGIN_PIXELS, 0), max(rows.start - CROP_MARGIN_PIXELS, 0)])

@@ -15,7 +15,7 @@ from engine.geometry.welding import weld
 from engine.motion.kinematics import pose_transforms
 from engine.render.rasteriser import rasterise
 
-SMOOTHING_ROUNDS = 6
+MAX_TURNED_SMOOTHING_ROUNDS = 6
 """How often points are drawn to their neighbours at most; a round that shows more backs than the one before is not taken."""
 
 
@@ -28,7 +28,7 @@ def without_backs_in_view(character: Character, camera: Camera) -> Character:
     beside = neighbours(point[mesh.triangles], len(first))
     pictured = pose_transforms(mesh.skeleton, character.pictured.rotations, character.pictured.root)[0]
     best, fewest = character, backs_in_view(character, camera)
-    for _ in range(SMOOTHING_ROUNDS):
+    for _ in range(MAX_TURNED_SMOOTHING_ROUNDS):
         if not len(fewest):
             break
         posed = pose(best, best.pictured)

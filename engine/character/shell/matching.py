@@ -16,7 +16,7 @@ from engine.character.shell.template_mesh import TemplateMesh
 
 MAX_RIM_NORMAL_DEPTH = 0.5
 """Of a unit normal towards the viewer, at most, on a rim."""
-MIN_NORMAL_COSINE = 0.7
+MIN_RIM_NORMAL_COSINE = 0.7
 """Cosine between an outline's normal and that of a rim that may be its."""
 MAX_LATERAL_SHARE = 0.012
 """How far aside of an outline point's normal its vertex may be, as a share of the person's height; and of what it is aside,
@@ -30,11 +30,11 @@ MAX_DISPLACEMENT_SHARES = (0.045, 0.06, 0.06, 0.085)
 """How far a vertex of hands, feet, the head and the rest may be displaced along the normal, as a share of the person's height."""
 BORDER_INSET_SHARE = 0.002
 """How far, as a share of the height, a part is drawn back from a border beneath which it may go on."""
-MIN_PART_WEIGHT = 0.05
+MIN_BORDER_PART_WEIGHT = 0.05
 """Share of a part in what moves a vertex that may lie on its border."""
 SEARCH_STEP_PIXELS = 4.0
 """Pixels between the places along a normal at which vertices are looked for."""
-NEIGHBOUR_COUNT = 10
+MATCH_NEIGHBOUR_COUNT = 10
 
 
 def match_outlines(
@@ -58,7 +58,7 @@ def match_outlines(
     places = outlines.points[:, None] - along[None, :, None] * outlines.normals[:, None]
     tree = cKDTree(pictured[rim, :2])
     near = np.asarray(
-        tree.query(places, NEIGHBOUR_COUNT, distance_upper_bound=1.3 * MAX_LATERAL_SHARE * GRID_HEIGHT_PIXELS)[1]
+        tree.query(places, MATCH_NEIGHBOUR_COUNT, distance_upper_bound=1.3 * MAX_LATERAL_SHARE * GRID_HEIGHT_PIXELS)[1]
     )
     point, _, _ = np.nonzero(near < len(rim))
     pairs = np.unique(point.astype(np.int64) * len(pictured) + rim[near[near < len(rim)]])
@@ -91,7 +91,7 @@ def _fits(
     whole = np.abs(((outlines.points[point] - template[vertex, :2]) * outward).sum(1))
     fits = (
         (aside < MAX_LATERAL_SHARE * GRID_HEIGHT_PIXELS)
-        & ((across * outward).sum(1) > MIN_NORMAL_COSINE)
+        & ((across * outward).sum(1) > MIN_RIM_NORMAL_COSINE)
         & (inside < reach)
         & (whole < limit)
     )
@@ -101,8 +101,8 @@ def _fits(
 
 def _of_part(mesh: TemplateMesh, vertex: NDArray[np.int64], part: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Whether vertices (P,) may lie on the border of a part (P,). Trunk and legs have no border where they meet."""
-    own = mesh.parts[vertex, part] > MIN_PART_WEIGHT
-    lower = mesh.parts[vertex][:, [TRUNK_LABEL, *LEG_LABELS]].sum(1) > MIN_PART_WEIGHT
+    own = mesh.parts[vertex, part] > MIN_BORDER_PART_WEIGHT
+    lower = mesh.parts[vertex][:, [TRUNK_LABEL, *LEG_LABELS]].sum(1) > MIN_BORDER_PART_WEIGHT
     other = np.zeros(len(vertex), np.bool_)
     for one, across in (LEG_LABELS, LEG_LABELS[::-1]):
         other |= (part == one) & (mesh.parts[vertex].argmax(1) == across)

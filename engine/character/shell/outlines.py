@@ -18,7 +18,7 @@ from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
 
 TRUNK_LABEL, HEAD_LABEL = BODY_PARTS.index("torso"), BODY_PARTS.index("head")
-MIN_PART_PIXELS = 60
+MIN_OUTLINED_PART_PIXELS = 60
 """Pixels of a part whose border is looked at."""
 MIN_BORDER_PIXELS = 30
 """Pixels of a border that is worth following."""
@@ -69,7 +69,7 @@ def part_outlines(labels: Labels) -> Outlines:
     found = []
     for part in range(len(BODY_PARTS)):
         own = map_ == part
-        if own.sum() < MIN_PART_PIXELS:
+        if own.sum() < MIN_OUTLINED_PART_PIXELS:
             continue
         points, normals = border_points(own)
         x, y = np.rint(points + NEIGHBOUR_PIXELS * normals).astype(int).T

@@ -23,9 +23,9 @@ from engine.render.rasteriser import rasterise
 
 VERTEX_SPACING_PIXELS = 2
 """Pixels between the vertices of a piece."""
-MIN_PIECE_PIXELS, MIN_HELD_PIECE_PIXELS = 110, 50
+MIN_PROP_PIXELS, MIN_HELD_PIECE_PIXELS = 110, 50
 """Pixels of what is worth being a piece; and of what a hand holds or is on a head."""
-MIN_REACH_PIXELS, MIN_HEAD_REACH_PIXELS = 6.0, 3.0
+MIN_PROP_REACH_PIXELS, MIN_HEAD_REACH_PIXELS = 6.0, 3.0
 """How far, in pixels, the furthest of a piece is from the shell at least; the same of a head's, for hair is all around it."""
 SHELL_UNDERLAP_PIXELS = 8
 """Pixels by which a piece goes on beneath the shell."""
@@ -36,15 +36,15 @@ MIN_HAND_RIM_SHARE, MIN_HEAD_RIM_SHARE, MIN_FOOT_RIM_SHARE = 0.35, 0.5, 0.4
 there is the fit's error."""
 DEPTH_PER_DISTANCE, MAX_DEPTH_SHARES = 1.2, {"head": 0.05, "hand": 0.05, "soft": 0.04}
 """How deep a piece is to each side: by its distance from the shell, and at most, as a share of the person's height."""
-SECTION_FLATTENING = 0.8
+SECTION_FLATTENING_RATIO = 0.8
 """Its section is so much flatter than a circle's."""
 MIN_ARM_WEIGHT_SHARE = 0.6
 """Share of arms in what moves a piece of cloth from which on it is an arm's."""
-MAX_BORDER_SHIFT_PIXELS, MIN_MASK_SLOPE = 2.5, 0.05
+MAX_PROP_BORDER_SHIFT_PIXELS, MIN_PROP_MASK_SLOPE = 2.5, 0.05
 """Pixels by which its border is drawn to the outline at most, and the slope of the mask from which it is."""
 DEPTH_SMOOTHING_VERTICES, WEIGHT_SMOOTHING_VERTICES = 5.0, 6.0
 """Vertices over which depths and weights are smoothed."""
-NEIGHBOUR_COUNT = 6
+PROP_NEIGHBOUR_COUNT = 6
 
 
 @dataclass(frozen=True)
@@ -90,9 +90,9 @@ def props_of(
         near = rim[np.asarray(tree.query(np.stack([x, y], 1)[::3])[1])]
         carrier = _carrier(mesh, near)
         furthest = float(away[own].max())
-        if carrier is None or furthest < (MIN_HEAD_REACH_PIXELS if carrier == "Head" else MIN_REACH_PIXELS):
+        if carrier is None or furthest < (MIN_HEAD_REACH_PIXELS if carrier == "Head" else MIN_PROP_REACH_PIXELS):
             continue
-        if carrier == "soft" and stats[number, cv2.CC_STAT_AREA] < MIN_PIECE_PIXELS:
+        if carrier == "soft" and stats[number, cv2.CC_STAT_AREA] < MIN_PROP_PIXELS:
             continue
         reach = (cv2.dilate(own.astype(np.uint8), _disk(SHELL_UNDERLAP_PIXELS)) > 0) & mask
         piece = _lens(mesh, pictured, (rim, tree), silhouette, reach, covered, carrier, furthest)
@@ -128,7 +128,7 @@ def _lens(
         return None
     rim, tree = rims
     x, y, moved = _to_outline(lattice, silhouette)
-    _, nearest = tree.query(np.stack([x, y], 1), NEIGHBOUR_COUNT)
+    _, nearest = tree.query(np.stack([x, y], 1), PROP_NEIGHBOUR_COUNT)
     middle = lattice.smoothed(pictured[rim[nearest], 2].mean(1)[:, None], DEPTH_SMOOTHING_VERTICES)[:, 0]
     kind = {"Head": "head", "soft": "soft"}.get(carrier, "hand")
     at = (lattice.y.astype(int), lattice.x.astype(int))
@@ -136,7 +136,7 @@ def _lens(
     half = min(DEPTH_PER_DISTANCE * furthest, MAX_DEPTH_SHARES[kind] * GRID_HEIGHT_PIXELS)
     thick = (
         np.where(moved | (border < 1.5), 0, half * np.sqrt(1 - (1 - np.clip(border / half, 0, 1)) ** 2))
-        * SECTION_FLATTENING
+        * SECTION_FLATTENING_RATIO
     )
     beneath = distance_transform_edt(covered)[at]
     thick *= np.clip(1 - beneath / (SHELL_UNDERLAP_PIXELS + 1), 0.15, 1)
@@ -183,8 +183,10 @@ def _to_outline(
     slope = np.stack([one[at] for one in slopes], 1).astype(np.float64)
     steep = np.linalg.norm(slope, axis=1)
     around = np.bincount(lattice.cells.ravel(), minlength=len(lattice.x)) < 4
-    moved = around & (steep > MIN_MASK_SLOPE) & (distance_transform_edt(silhouette.mask)[at] < 4)
-    way = np.clip((0.5 - soft[at]) / np.maximum(steep, 0.02), -MAX_BORDER_SHIFT_PIXELS, MAX_BORDER_SHIFT_PIXELS)
+    moved = around & (steep > MIN_PROP_MASK_SLOPE) & (distance_transform_edt(silhouette.mask)[at] < 4)
+    way = np.clip(
+        (0.5 - soft[at]) / np.maximum(steep, 0.02), -MAX_PROP_BORDER_SHIFT_PIXELS, MAX_PROP_BORDER_SHIFT_PIXELS
+    )
     shift = np.where(moved[:, None], slope / np.maximum(steep, 1e-6)[:, None] * way[:, None], 0)
     return lattice.x + shift[:, 0], lattice.y + shift[:, 1], moved
 

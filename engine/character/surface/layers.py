@@ -18,7 +18,7 @@ from engine.character.fit.posed_template import PosedTemplate
 from engine.character.fit.template_maps import SideMaps, weights_at
 from engine.character.parts.crossed_labels import Behind
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import LEG_LABELS, MIN_LIMB_PIXELS, OTHER_SIDE
+from engine.character.parts.labels import LEG_LABELS, MIN_LIMB_PIXELS, OPPOSITE_LABEL
 from engine.character.parts.regions import Region, find_regions
 from engine.character.parts.unseen_limbs import UnseenLimb, unseen_limbs
 from engine.character.surface.depth_order import (
@@ -94,7 +94,7 @@ def arm_behind_the_other(layers: Sequence[Layer], body: Layer, behind: Behind, l
     """The layers of limbs with the arm that goes on `behind` the other beneath its surface there."""
     found = list(layers)
     place = {layer.limb: k for k, layer in enumerate(found)}
-    other = OTHER_SIDE[behind.limb]
+    other = OPPOSITE_LABEL[behind.limb]
     if {behind.limb, other} <= set(place):
         before = found[place[other]]
         hidden = behind.area & (labels.labels == other)
@@ -145,7 +145,7 @@ def _where_it_lies(layer: Layer) -> Layer:
 def _unseen_layer(one: UnseenLimb, layers: Sequence[Layer], labels: Labels, template: PosedTemplate, rig: Rig) -> Layer:
     """A limb that is not seen, in the colours of the other side's, behind all that is seen before it: the body, first of the
     `layers`, and limbs."""
-    other = OTHER_SIDE[one.limb]
+    other = OPPOSITE_LABEL[one.limb]
     own, chosen = labels.labels == other, (vertex_parts(rig)[template.triangles] == other).any(1)
     whole = next((layer.mask for layer in layers if layer.limb == other and layer.solid is None), largest_piece(own))
     like = solid_limb(chosen, whole, template, rig, own | (labels.hidden == other))

@@ -22,7 +22,7 @@ from engine.imaging.masks.mask_pieces import largest_piece, rows_apart
 
 LEG_UNDER_CLOTH_SHARE = 0.06
 """How far a leg goes on under the cloth, as a share of the person's height."""
-TAPER_SHARE = 0.4
+LEG_TAPER_SHARE = 0.4
 """By how much narrower it ends than it came, and nearer to the middle than the cloth: what nobody sees should not come through where cloth swings."""
 MIN_WIDTH_RATIO, MAX_WIDTH_RATIO = 0.7, 1.4
 """How wide it is there at least and at most, to what it is where it comes out."""
@@ -61,7 +61,7 @@ def going_with(leg: Layer, cloth: Layer, own: NDArray[np.bool_]) -> Layer:
     sides = []
     for side, worn, towards in ((leg.front, cloth.front, 1), (leg.back, cloth.back, -1)):
         off = towards * (side.depth - middle)
-        most = (1 - TAPER_SHARE * share) * towards * (worn.depth - middle)
+        most = (1 - LEG_TAPER_SHARE * share) * towards * (worn.depth - middle)
         depth = np.where(share > 0, middle + towards * np.minimum(off, most), side.depth)
         weights = side.weights + share[..., None] * (worn.weights - side.weights)
         sides.append(Surface(depth.astype(np.float32), weights))
@@ -87,7 +87,9 @@ def leg_under_cloth(
     columns = np.arange(own.shape[1])
     for row in range(max(first - up, int(there[0])), begin):
         under = np.clip((first - row) / up, 0, 1)
-        reach = half * np.clip(width[row] / width[begin], MIN_WIDTH_RATIO, MAX_WIDTH_RATIO) * (1 - TAPER_SHARE * under)
+        reach = (
+            half * np.clip(width[row] / width[begin], MIN_WIDTH_RATIO, MAX_WIDTH_RATIO) * (1 - LEG_TAPER_SHARE * under)
+        )
         out[row] = abs(columns - (middle + centre[row] - centre[begin])) < reach
     return out & clothed
 

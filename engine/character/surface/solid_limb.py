@@ -26,9 +26,9 @@ from engine.imaging.masks.mask_pieces import largest_piece
 
 FORESHORTENED_LENGTH_SHARE = 0.5
 """Share of its length that a bone has in the picture, below which the limb is more deep than long."""
-OUTLINE_BAND_PIXELS = 2
+UNCOLOURED_BAND_PIXELS = 2
 """Pixels of a limb at its outline from which no colours are taken."""
-VISIBILITY_TOLERANCE_METRES = 0.02
+LIMB_VISIBILITY_TOLERANCE_METRES = 0.02
 """Metres behind what is nearest at a pixel, within which a vertex is taken to be seen there."""
 
 
@@ -96,7 +96,7 @@ def solid_limb(
     front, back = (side.depth for side in sides)
     x, y = _pixels(vertices, own.shape)
     with np.errstate(invalid="ignore"):
-        near = vertices[:, 2] > front[y, x] - VISIBILITY_TOLERANCE_METRES * template.pixels_per_metre
+        near = vertices[:, 2] > front[y, x] - LIMB_VISIBILITY_TOLERANCE_METRES * template.pixels_per_metre
     forearm, hand = (dense[:, [part in name for name in rig.names]].sum(1) for part in ("ForeArm", "Hand"))
     seen = near & own[y, x]
     sure = seen & _inner(own)[y, x]
@@ -109,7 +109,7 @@ def solid_limb(
 def _inner(own: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """The pixels (h, w) surely of a limb: at its outline colours are mixed with what is behind. Of one too thin, all."""
     inner = (
-        cv2.erode(own.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=OUTLINE_BAND_PIXELS, borderValue=0) > 0
+        cv2.erode(own.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=UNCOLOURED_BAND_PIXELS, borderValue=0) > 0
     )
     return np.asarray(inner) if inner.any() else own
 

@@ -18,11 +18,11 @@ MIN_FACE_TURN = 0.2
 """How far a face is turned that has a far cheek: else an ear is at the outline."""
 SKIN_COLOUR_RATIO = 0.6
 """How much nearer to the face's colours than to hair's those are that the cheek goes on with."""
-OUTLINE_BAND_PIXELS = 3.0
+CHEEK_SEEN_BAND_PIXELS = 3.0
 """Pixels of the grid from the outline in which it must be seen."""
 CHEEK_REACH_HALF_WIDTHS, CHEEK_FADE_SHARE = 0.35, 0.3
 """How far behind the outline it goes on, in half widths of the face, and over which share of that it ends."""
-COLOUR_BLUR_PIXELS = 2.0
+CHEEK_COLOUR_BLUR_PIXELS = 2.0
 """Pixels of the grid over which its colours are averaged."""
 
 
@@ -43,7 +43,7 @@ def with_far_cheek(
         head.scale,
         far & head.mask & (head.out < MAX_CHEEK_HALF_AXES) & (head.up < MAX_CHEEK_HEIGHT_SHARE) & (head.up > -1),
     )
-    cheek = beside & (head.depth > 0.5) & (head.depth < OUTLINE_BAND_PIXELS) & ~hair
+    cheek = beside & (head.depth > 0.5) & (head.depth < CHEEK_SEEN_BAND_PIXELS) & ~hair
     middle = head.mask & (head.out < 0.7)
     if not (cheek.any() and middle.any() and hair.any()):
         return back
@@ -58,6 +58,6 @@ def with_far_cheek(
     reach = CHEEK_REACH_HALF_WIDTHS * half_width
     away = distance_to(cheek)
     share = np.clip((reach - away) / (CHEEK_FADE_SHARE * reach), 0, 1)
-    share = cv2.GaussianBlur(share, (0, 0), COLOUR_BLUR_PIXELS * scale)[..., None] * head.mask[..., None]
-    drawn = cv2.GaussianBlur(rgb[nearest_in(plain)], (0, 0), COLOUR_BLUR_PIXELS * scale)
+    share = cv2.GaussianBlur(share, (0, 0), CHEEK_COLOUR_BLUR_PIXELS * scale)[..., None] * head.mask[..., None]
+    drawn = cv2.GaussianBlur(rgb[nearest_in(plain)], (0, 0), CHEEK_COLOUR_BLUR_PIXELS * scale)
     return np.asarray(back + share * (drawn.astype(np.float32) - back) + 0.5, np.float32).clip(0, 255).astype(np.uint8)

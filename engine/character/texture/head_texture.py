@@ -17,7 +17,7 @@ from engine.imaging.filling.nearest import nearest_in
 from engine.imaging.masks.mask_distance import distance_to
 from engine.imaging.masks.mask_pieces import bounding_box, pieces_touching
 
-MAX_SAME_COLOUR_DISTANCE = 20.0
+MAX_HEAD_COLOUR_DISTANCE = 20.0
 """Distance of two colours (CIE Lab, 8 bits) below which they may be of one thing."""
 MIN_HAIR_SHARE = 0.02
 """Share of a head from which the rest can be filled."""
@@ -48,7 +48,7 @@ DARKEST_FACE_SHARE = 0.4
 """Share of a face that may be beard, brows, spectacles or their shadow, and so has hair's colours."""
 HAIR_COLOUR_RATIO = 0.7
 """How much nearer to hair than to skin a colour must be."""
-MAX_BACKGROUND_SHARE, BACKGROUND_SHARE_SLOPE, OUTLINE_BAND_PIXELS = 0.2, 0.1, 8.0
+MAX_BACKGROUND_SHARE, BACKGROUND_SHARE_SLOPE, BACKGROUND_BAND_PIXELS = 0.2, 0.1, 8.0
 """How much of a colour at the outline may be the background's; how much more for each pixel of the grid inward, where
 that is less likely; and how far inward it is not possible."""
 MID_GREY_LEVEL = 128.0
@@ -90,7 +90,7 @@ def back_of_the_head(
     turned : to which side it looks, as `face_region.face_turn` says.
     scale : pixels for each of the grid's.
     """
-    margin = round(OUTLINE_BAND_PIXELS * scale)
+    margin = round(BACKGROUND_BAND_PIXELS * scale)
     box = bounding_box(mask, margin)
     back, front = rgb.copy(), rgb.copy()
     oval = face - np.array([box[1].start, box[0].start, 0, 0, 0])
@@ -141,7 +141,7 @@ def find_hair(
     if sample.sum() < 8 or face.sum() < 8:
         return sample, np.zeros_like(sample)
     skin = face & (colours[..., 0] >= np.quantile(colours[face][:, 0], DARKEST_FACE_SHARE))
-    other = sample & (_distance(colours, sample, colours[skin]) > MAX_SAME_COLOUR_DISTANCE)
+    other = sample & (_distance(colours, sample, colours[skin]) > MAX_HEAD_COLOUR_DISTANCE)
     if other.sum() > MIN_UNLIKE_FACE_SHARE * sample.sum():
         sample = other
     contrast = np.linalg.norm(colours - behind, axis=-1)
@@ -151,12 +151,12 @@ def find_hair(
     if (sample & own).sum() >= 8:
         sample &= own
     from_skin, from_hair = (_distance(colours, head.mask, colours[where]) for where in (skin, sample))
-    found = sample | (own & (from_hair < np.minimum(HAIR_COLOUR_RATIO * from_skin, 1.5 * MAX_SAME_COLOUR_DISTANCE)))
+    found = sample | (own & (from_hair < np.minimum(HAIR_COLOUR_RATIO * from_skin, 1.5 * MAX_HEAD_COLOUR_DISTANCE)))
     found = _beside_the_face(found, sample, head)
     found |= own & ~pieces_touching(~found, face | ~head.mask)  # a lock that shines, within
     safe = cv2.erode(found.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(1, round(head.scale))) > 0
     beside = distance_to(found) < CROWN_DEPTH_PIXELS * head.scale
-    through = head.mask & mixed & (from_skin > MAX_SAME_COLOUR_DISTANCE) & beside
+    through = head.mask & mixed & (from_skin > MAX_HEAD_COLOUR_DISTANCE) & beside
     return (safe if safe.sum() > max(8.0, MIN_HAIR_SHARE * head.mask.sum()) else found), through
 
 
@@ -195,8 +195,8 @@ def _mixed(
     share = ((colours - hair) * way).sum(-1) / np.maximum(long, 1e-6)
     return np.asarray(
         (share > MAX_BACKGROUND_SHARE + BACKGROUND_SHARE_SLOPE * head.depth)
-        & (long > MAX_SAME_COLOUR_DISTANCE**2)
-        & (head.depth < OUTLINE_BAND_PIXELS)
+        & (long > MAX_HEAD_COLOUR_DISTANCE**2)
+        & (head.depth < BACKGROUND_BAND_PIXELS)
     )
 
 

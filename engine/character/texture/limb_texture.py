@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from engine.character.figure.face_region import within_oval
 from engine.character.parts.crossed_labels import Behind
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import LEG_LABELS, OTHER_SIDE
+from engine.character.parts.labels import LEG_LABELS, OPPOSITE_LABEL
 from engine.character.texture.rings import Heights
 from engine.imaging.filling.inpaint import inpaint
 from engine.imaging.filling.nearest import continued_colours
@@ -177,7 +177,7 @@ def _like_the_other_sleeve(
 ) -> NDArray[np.uint8]:
     """The limbs as they are `made` (h, w, 3) with the sleeve of an arm of which hardly more than the hand is `seen` made of what the
     other one is, where none of the `limbs` (h, w) is seen."""
-    other = OTHER_SIDE[arm]
+    other = OPPOSITE_LABEL[arm]
     shown = {one: (labels.labels == one) & sleeve for one, sleeve in sleeves.items()}
     if (
         other not in sleeves

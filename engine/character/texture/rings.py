@@ -17,7 +17,7 @@ from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.fit.template_maps import side_maps
-from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, OTHER_SIDE
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, OPPOSITE_LABEL
 from engine.imaging.filling.nearest import nearest_in
 from engine.render.attributes import interpolate
 
@@ -78,7 +78,7 @@ def rings(
     wanted : the limbs of which pictures are wanted; all unless they are given.
     """
     if wanted is not None:
-        heights = {limb: one for limb, one in heights.items() if limb in wanted or OTHER_SIDE[limb] in wanted}
+        heights = {limb: one for limb, one in heights.items() if limb in wanted or OPPOSITE_LABEL[limb] in wanted}
     size = (rgb.shape[1], rgb.shape[0])
     along = {
         limb: np.asarray(cv2.resize(one.along, size, interpolation=cv2.INTER_LINEAR), np.float32)
@@ -91,7 +91,7 @@ def rings(
     found = {}
     for limb in along if wanted is None else [limb for limb in along if limb in wanted]:
         one = along[limb]
-        colours = _whole(told[limb], told.get(OTHER_SIDE[limb]), heights[limb].hand, skin)
+        colours = _whole(told[limb], told.get(OPPOSITE_LABEL[limb]), heights[limb].hand, skin)
         if colours is not None:
             at = np.clip(one / RING_LENGTH_METRES, 0, len(colours) - 1).astype(np.float32)
             found[limb] = np.asarray(cv2.remap(colours[:, None], np.zeros_like(at), at, cv2.INTER_LINEAR), np.float32)

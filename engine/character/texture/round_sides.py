@@ -17,13 +17,13 @@ from scipy.ndimage import map_coordinates
 from engine.character.surface.sheets import ClosedMesh
 from engine.imaging.masks.mask_distance import dilate_mask
 
-MIN_HALF_WIDTH_PIXELS = 4.0
+MIN_ROUND_HALF_WIDTH_PIXELS = 4.0
 """Pixels from the outline to the middle from which something is round."""
 DISTANCE_SMOOTHING_PIXELS = 1.5
 """Pixels by which distances from the outline are smoothed: their gradients lead inward."""
 DESCENT_STEP_PIXELS, MAX_DESCENT_STEPS = 0.5, 120
 """How the way inward is followed, pixels."""
-MIN_DISTANCE_SLOPE = 0.4
+MIN_INWARD_SLOPE = 0.4
 """How fast the distance must grow on the way, or it is at the middle."""
 BACK_BLEND_PIXELS = 10.0
 """Pixels over which the back's colours come to lie as they are on the rest of the body, if there is any; they begin to at half as many
@@ -112,7 +112,7 @@ def _at_the_surfaces_pace(
         towards /= np.maximum(np.linalg.norm(towards, axis=1, keepdims=True), 1e-6)
         ahead = here + DESCENT_STEP_PIXELS * towards
         there = _sampled(soft, ahead)
-        further = there - reached[-1][going] > MIN_DISTANCE_SLOPE * DESCENT_STEP_PIXELS
+        further = there - reached[-1][going] > MIN_INWARD_SLOPE * DESCENT_STEP_PIXELS
         going = going[further]
         if not len(going):
             break
@@ -130,7 +130,7 @@ def _at_the_surfaces_pace(
     low, high = depths[at, number], depths[after, number]
     share = np.clip((wanted - low) / np.maximum(high - low, 1e-6), 0, 1)[:, None]
     laid = places[at, number] + share * (places[after, number] - places[at, number])
-    return np.where((thick > MIN_HALF_WIDTH_PIXELS)[:, None], laid, start)
+    return np.where((thick > MIN_ROUND_HALF_WIDTH_PIXELS)[:, None], laid, start)
 
 
 def _sampled(image: NDArray[np.float32], at: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -16,7 +16,7 @@ from engine.character.surface.sheets import ClosedMesh
 
 MAX_FOLD_PIXELS = 8.0
 """Pixels inward at which a fold ends, at most."""
-MIN_DISTANCE_SLOPE = 0.5
+MIN_FOLD_SLOPE = 0.5
 """Of each step inward, what must be gained in distance from the border: the fold ends at the middle of a limb."""
 FOLD_SHARE = 0.6
 """The share of a fold that is taken: it costs the front its outermost pixels, and the rest of it is not missed at the side."""
@@ -93,7 +93,7 @@ def _followed(
         ahead = start + far[:, None] * inward
         away = np.asarray(border.query(ahead)[0])
         x, y = np.clip(np.rint(ahead), 0, [barred.shape[1] - 1, barred.shape[0] - 1]).astype(int).T
-        going &= (away - before >= MIN_DISTANCE_SLOPE * (far - reached)) & (far > reached) & ~barred[y, x]
+        going &= (away - before >= MIN_FOLD_SLOPE * (far - reached)) & (far > reached) & ~barred[y, x]
         reached[going], before[going] = far[going], away[going]
         if not going.any():
             break

@@ -36,15 +36,15 @@ BackTexture = Literal["see_through", "mirror", "inpaint"]
 
 OPAQUE_ALPHA = 0.9
 """Alpha from which a pixel's colour is the person's own; colours of the others are continued from these."""
-MIN_VISIBLE_ALPHA = 0.05
+MIN_PERSON_ALPHA = 0.05
 """Alpha from which a pixel's colour is not the background's alone."""
-MIN_HALF_WIDTH_PIXELS = 4.0
+MIN_PART_HALF_WIDTH_PIXELS = 4.0
 """Pixels from the edge of a part to its middle, below which it has no middle of its own."""
 SIDE_REACH_SHARE = 0.4
 """How far the sides of a part reach in, as a share of the way to its middle."""
 MAX_LEVEL_DIFFERENCE = 8.0
 """Levels by which front and back differ where they are not the same."""
-INNER_FACE = np.array([1, 1, 0.7, 0.7, 1], np.float32)
+INNER_FACE_FACTORS = np.array([1, 1, 0.7, 0.7, 1], np.float32)
 """Factors of a face's oval within which it shows skin."""
 SEAM_START_PIXELS, SEAM_END_PIXELS = 2.0, 8.0
 """Pixels of the grid from the outline up to which the back is the front, and from which on it is itself."""
@@ -140,7 +140,7 @@ def paint_tiles(
     head = enlarged_mask(labels.labels == BODY_PARTS.index("head"), size) & own
     beside = body
     if oval is not None and turned is not None and head.any():
-        behind, beside = back_of_the_head(behind, bordered, covered > MIN_VISIBLE_ALPHA, own, head, oval, turned, scale)
+        behind, beside = back_of_the_head(behind, bordered, covered > MIN_PERSON_ALPHA, own, head, oval, turned, scale)
     apart = paint_limbs(seen, own, around, labels, replace(surfaces, shown=limbs), oval, scale, round_them)
     hidden = None
     if labels.behind is not None:
@@ -257,7 +257,7 @@ def _from_the_sides(
             continue  # its middle is the face
         region = enlarged_mask(labels.labels == part, size) & own
         depth = distance_inside(region)
-        if (thick := float(depth.max())) < MIN_HALF_WIDTH_PIXELS:
+        if (thick := float(depth.max())) < MIN_PART_HALF_WIDTH_PIXELS:
             continue
         middle = depth > SIDE_REACH_SHARE * thick
         out = inpaint(out, middle, region & ~middle)

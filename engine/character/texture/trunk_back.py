@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from engine.character.texture.behind import seen_through
 from engine.imaging.masks.mask_distance import dilate_mask
 
-HEIGHT_M = 1.7
+USUAL_HEIGHT_METRES = 1.7
 """Metres that somebody whole is high, about."""
 OUTLINE_SMOOTHING_PIXELS = 4.0
 """Pixels of the grid along the trunk over which its outline is smoothed."""
@@ -100,7 +100,7 @@ def with_trunk_back(
     )
     seen = np.asarray(cv2.remap(rgb, *where, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32)
     known = np.asarray(cv2.remap(clean.astype(np.uint8), *where, cv2.INTER_NEAREST) > 0)
-    step = HEIGHT_M / rgb.shape[0]
+    step = USUAL_HEIGHT_METRES / rgb.shape[0]
     chest = half[: max(1, round(CHEST_HEIGHT_METRES / step))]
     yoke = int(np.argmax(chest >= SHOULDER_WIDTH_SHARE * chest.max()))
     source = np.arange(rows)

@@ -48,9 +48,9 @@ NO_CREASE_TURN_DEGREES = 20.0
 """Degrees of turn from which on a ratio is the nose's shadow and no crease's."""
 MIN_RATIO = 0.7
 """No crease darkens by more: a lower ratio is a shadow or a misfit."""
-RATIO_STEP = (1 - MIN_RATIO) / 192
+RATIO_QUANTUM = (1 - MIN_RATIO) / 192
 """How finely ratios are kept: a step is a third of a grey level on bright skin, and one itself is met exactly."""
-RATIO_QUALITY = 95
+RATIO_JPEG_QUALITY = 95
 """Of JPEG: less would flicker by half a level."""
 RATIO_FLOOR_GREY_LEVELS = 12.0
 """Grey levels added to both sides of the ratio, so that noise in the dark does not become a crease."""
@@ -58,7 +58,7 @@ DRIVER_BLUR_PIXELS = 1.2
 """Pixels of the driver's crop: finer structure is noise of the video."""
 NOSE_VERTICES = (6, 197, 195, 5, 4, 1, 2, 98, 327, 129, 358, 209, 429, 198, 420, 236, 456)
 """The nose: it hardly creases, but its own shadow and outline move with every turn."""
-NOSE_SPARED = 0.7
+NOSE_SPARED_SHARE = 0.7
 RIM_FADE_EYE_DISTANCES = 0.4
 """Within this distance of the face's rim, in eye distances, ratios fade out."""
 GRABCUT_EYE_DISTANCE_PIXELS = 40.0
@@ -66,7 +66,7 @@ GRABCUT_EYE_DISTANCE_PIXELS = 40.0
 of it."""
 FLATNESS_EYE_DISTANCE_PIXELS = 60.0
 """Eye distance, pixels, of the copy in which flat colour is told from skin: what skin, paint and film have of grain is seen at it."""
-FLAT_GREY_LEVELS, FLAT_WINDOW = 1.0, 5
+FLAT_GREY_LEVELS, FLAT_WINDOW_PIXELS = 1.0, 5
 """Standard deviation within so many pixels, below which a place is of flat colour."""
 FLAT_SHARES = (0.08, 0.2)
 """Shares of the face that are flat, up to which it takes all of a ratio, and from which on none: photographs, paintings and rendered
@@ -143,7 +143,7 @@ def detail_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> DetailR
     unit = float(eye_distance(mesh[:, :2]))
     nose = np.zeros(weight.shape, np.float32)
     cv2.fillConvexPoly(nose, cv2.convexHull((plane[list(NOSE_VERTICES)] - corner).round().astype(np.int32)), 1.0)
-    weight *= 1 - NOSE_SPARED * cv2.GaussianBlur(nose, (0, 0), 0.1 * unit)
+    weight *= 1 - NOSE_SPARED_SHARE * cv2.GaussianBlur(nose, (0, 0), 0.1 * unit)
     oval = np.zeros((weight.shape[0] + 2, weight.shape[1] + 2), np.uint8)  # the driver's rim borders on its background
     cv2.fillPoly(oval, [(plane[list(FACE_OVAL)] - corner + 1).round().astype(np.int32)], 1)
     ramp = np.clip(
@@ -164,7 +164,7 @@ def flatness(rgb: NDArray[np.uint8], weight: NDArray[np.float32], unit: float) -
         np.asarray(cv2.resize(one, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA), np.float32)
         for one in (grey, weight)
     )
-    mean, squares = (cv2.blur(one, (FLAT_WINDOW, FLAT_WINDOW)) for one in (small, small * small))
+    mean, squares = (cv2.blur(one, (FLAT_WINDOW_PIXELS, FLAT_WINDOW_PIXELS)) for one in (small, small * small))
     flat = (squares - mean * mean < FLAT_GREY_LEVELS**2)[marks > 0.5]
     low, high = FLAT_SHARES
     return float(np.clip((flat.mean() - low) / (high - low), 0, 1)) if len(flat) else 0.0
@@ -182,7 +182,7 @@ def _openings(mesh: NDArray[np.floating], shape: tuple[int, ...], grow: float) -
 
 @dataclass(frozen=True)
 class RatioStrip:
-    """A driver's ratio images, kept: grey pictures whose level 0 stands for `MIN_RATIO`, each further one for `RATIO_STEP`. Without `images`
+    """A driver's ratio images, kept: grey pictures whose level 0 stands for `MIN_RATIO`, each further one for `RATIO_QUANTUM`. Without `images`
     no creases are carried over: each ratio is one."""
 
     images: FilmStrip | None = None
@@ -196,16 +196,16 @@ class RatioStrip:
         """One frame's, (*CROP,) float32."""
         if self.images is None:
             return np.ones(CROP_SHAPE, np.float32)
-        return np.float32(MIN_RATIO) + np.float32(RATIO_STEP) * self.images.picture(frame)
+        return np.float32(MIN_RATIO) + np.float32(RATIO_QUANTUM) * self.images.picture(frame)
 
 
 def keep_ratio_images(
     track: FaceTrack, neutral: int, tick: Callable[[float], None] = lambda fraction: None
 ) -> RatioStrip:
     """The refined ratio images of a driver on its neutral frame: the same for every target."""
-    with FilmStripWriter(RATIO_QUALITY) as writer:
+    with FilmStripWriter(RATIO_JPEG_QUALITY) as writer:
         for frame, ratio in enumerate(RatioImages(track, neutral)):
-            level = (ratio - np.float32(MIN_RATIO)) / np.float32(RATIO_STEP) + np.float32(0.5)
+            level = (ratio - np.float32(MIN_RATIO)) / np.float32(RATIO_QUANTUM) + np.float32(0.5)
             writer.write(np.clip(level, 0, 255).astype(np.uint8))
             tick((frame + 1) / len(track))
         return RatioStrip(writer.strip())

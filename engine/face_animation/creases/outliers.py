@@ -26,9 +26,9 @@ SEARCH_ROTATIONS_DEGREES = (-30.0, -15.0, 0.0, 15.0, 30.0)
 """Degrees; section 6 allows up to 30."""
 OUTLIER_THRESHOLD_GREY_LEVELS = 5.0
 """Section 6: a component whose mean best difference is below this, in grey levels, is an outlier."""
-OUTLIER_MARGIN = 20.0
+OUTLIER_MARGIN_PIXELS = 20.0
 """Section 6: pixels closer than this to an outlier are set to one in every frame."""
-RAMP_PIXELS = 6.0
+OUTLIER_RAMP_PIXELS = 6.0
 """Pixels over which that passes into what was there, so that no edge appears."""
 
 
@@ -47,7 +47,7 @@ class Outliers:
         x = a[0, 0] * origin[..., 0] + a[0, 1] * origin[..., 1] + b[0]
         y = a[1, 0] * origin[..., 0] + a[1, 1] * origin[..., 1] + b[1]
         far = cv2.remap(self.distance, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT, borderValue=1e3)
-        return np.clip((far - OUTLIER_MARGIN + RAMP_PIXELS) / RAMP_PIXELS, 0, 1)
+        return np.clip((far - OUTLIER_MARGIN_PIXELS + OUTLIER_RAMP_PIXELS) / OUTLIER_RAMP_PIXELS, 0, 1)
 
 
 def find_outliers(

@@ -17,32 +17,32 @@ from engine.face_animation.creases.fine_details import NOSE_VERTICES
 from engine.face_animation.smoothstep import smoothstep
 from engine.perception.landmarks import FACE_OVAL, LIPS_OUTER, eye_distance
 
-EYE_DISTANCE_PIXELS = 120.0
+FOLDS_EYE_DISTANCE_PIXELS = 120.0
 """Eye distance, pixels, of the copy in which folds are looked for, at most."""
-FOLD_EYE_DISTANCES = 0.22
+FOLD_HALF_WIDTH_EYE_DISTANCES = 0.22
 """Half the width of the widest fold."""
-SOFT_EYE_DISTANCES = 0.08
+SMOOTH_SKIN_SIGMA_EYE_DISTANCES = 0.08
 """Sigma of the skin that takes their place."""
-GRAIN_EYE_DISTANCES = 0.02
+GRAIN_SIGMA_EYE_DISTANCES = 0.02
 """Sigma below which it is the skin's grain."""
-GRAIN_SHARE, GRAIN_LIMIT = 0.8, 1.5
+CHEEK_GRAIN_SHARE, MAX_GRAIN_RATIO = 0.8, 1.5
 """The share of the cheeks' pixels whose grain is the measure, and how many times as strong it may be beside the mouth: stronger is a line."""
-BESIDE_LIPS, BEYOND_LIPS, BELOW_NOSE = (0.0, 0.03), (0.7, 1.1), (-0.35, -0.1)
+LIP_START_EYE_DISTANCES, LIP_END_EYE_DISTANCES, NOSE_START_EYE_DISTANCES = (0.0, 0.03), (0.7, 1.1), (-0.35, -0.1)
 """Eye distances from the lips from which folds are eased, and up to which; and from where on, down from the nose's base."""
-BESIDE_MIDDLE = (0.12, 0.3)
+MIDLINE_START_EYE_DISTANCES = (0.12, 0.3)
 """Eye distances to either side of the face's middle from which folds are eased: the groove below a nose, a chin and what grows there are none."""
-INSIDE_CONTOUR = 0.25
+CONTOUR_MARGIN_EYE_DISTANCES = 0.25
 """Eye distances from the face's contour to where they are eased fully."""
-NARROW_MOUTH_FADE = (0.04, 0.16)
+NARROW_MOUTH_SHARES = (0.04, 0.16)
 """Shares by which the mouth is narrower than the picture's from which on folds fade, and at which they are gone."""
-MOUSTACHE_LIGHT = (0.45, 0.55)
+MOUSTACHE_LIGHT_RATIOS = (0.45, 0.55)
 """Of the cheeks' light: an upper lip darker than the first wears a moustache, whose ends are no folds; one lighter than the second does not."""
-PHILTRUM_VERTICES, CHEEK_VERTICES = (
+PHILTRUM_VERTICES, LIT_CHEEK_VERTICES = (
     (97, 326, 269, 0, 39),
     ((50, 101, 118, 117, 111, 116, 123), (280, 330, 347, 346, 340, 345, 352)),
 )
-CORNERS, OUTER_EYES = (61, 291), (33, 263)
-NOSE_BASE, CHIN = 2, 152
+MOUTH_CORNER_VERTICES, OUTER_EYE_CORNER_VERTICES = (61, 291), (33, 263)
+NOSE_BASE_VERTEX, CHIN_VERTEX = 2, 152
 
 
 class OwnFolds:
@@ -52,7 +52,7 @@ class OwnFolds:
         unit = float(eye_distance(mesh[:, :2]))
         low, high = np.floor(mesh[:, :2].min(axis=0)).astype(int), np.ceil(mesh[:, :2].max(axis=0)).astype(int) + 1
         (left, top), (right, bottom) = np.maximum(low, 0), np.minimum(high, rgb.shape[1::-1])
-        shrink = min(1.0, EYE_DISTANCE_PIXELS / unit)
+        shrink = min(1.0, FOLDS_EYE_DISTANCE_PIXELS / unit)
         patch = cv2.resize(rgb[top:bottom, left:right], None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA)
         points = (mesh[:, :2] - (left, top) + 0.5) * shrink - 0.5
         self._corner, self._shrink = (float(left), float(top)), float(shrink)
@@ -61,7 +61,7 @@ class OwnFolds:
 
     def share(self, face: NDArray[np.floating]) -> float:
         """How far a face (478, 2 or 3) has left the smile of its picture, [0, 1]."""
-        return float(smoothstep(1 - mouth_width(face) / self._width, *NARROW_MOUTH_FADE))
+        return float(smoothstep(1 - mouth_width(face) / self._width, *NARROW_MOUTH_SHARES))
 
     def ease(
         self, frame: NDArray[np.uint8], origin: NDArray[np.float32], scale: float, face: NDArray[np.floating]
@@ -81,7 +81,9 @@ class OwnFolds:
 
 def mouth_width(face: NDArray[np.floating]) -> float:
     """Of a face (478, 2 or 3), in widths between the eyes' outer corners: turns aside shorten both."""
-    mouth, eyes = (float(np.linalg.norm(face[a, :2] - face[b, :2])) for a, b in (CORNERS, OUTER_EYES))
+    mouth, eyes = (
+        float(np.linalg.norm(face[a, :2] - face[b, :2])) for a, b in (MOUTH_CORNER_VERTICES, OUTER_EYE_CORNER_VERTICES)
+    )
     return mouth / max(eyes, 1e-6)
 
 
@@ -90,29 +92,29 @@ def _folds(rgb: NDArray[np.uint8], points: NDArray[np.float32], unit: float) -> 
     lips = np.zeros(rgb.shape[:2], np.uint8)
     cv2.fillPoly(lips, [points[list(LIPS_OUTER)].round().astype(np.int32)], 1)
     picture = rgb.astype(np.float32)
-    even = cv2.GaussianBlur(picture, (0, 0), GRAIN_EYE_DISTANCES * unit)
-    radius = max(1, round(FOLD_EYE_DISTANCES * unit))
+    even = cv2.GaussianBlur(picture, (0, 0), GRAIN_SIGMA_EYE_DISTANCES * unit)
+    radius = max(1, round(FOLD_HALF_WIDTH_EYE_DISTANCES * unit))
     disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1, 2 * radius + 1))
     red = cv2.dilate(lips, np.ones((3, 3), np.uint8))[..., None] > 0  # no light for the skin beside them, and no shade
     closed = cv2.morphologyEx(np.where(red, np.float32(0), even), cv2.MORPH_CLOSE, disk)
     opened = cv2.morphologyEx(np.where(red, np.float32(255), closed), cv2.MORPH_OPEN, disk)
-    soft = SOFT_EYE_DISTANCES * unit
+    soft = SMOOTH_SKIN_SIGMA_EYE_DISTANCES * unit
     skin = (
         cv2.GaussianBlur(np.where(red, np.float32(0), opened), (0, 0), soft)
         / np.maximum(cv2.GaussianBlur(1 - red[..., 0].astype(np.float32), (0, 0), soft), 1e-3)[..., None]
     )
     limit = _cheek_grain(np.abs(picture - even), points)
     change = skin + np.clip(picture - even, -limit, limit) - picture
-    share = smoothstep(_upper_lip_light(even.mean(axis=2), points), *MOUSTACHE_LIGHT)
+    share = smoothstep(_upper_lip_light(even.mean(axis=2), points), *MOUSTACHE_LIGHT_RATIOS)
     return np.asarray(share * _around_mouth(lips, points, unit)[..., None] * change, np.float32)
 
 
 def _cheek_grain(grain: NDArray[np.float32], points: NDArray[np.float32]) -> float:
     """Grey levels that the `grain` (h, w, 3) of skin has at most, as the cheeks show."""
     inside = np.zeros(grain.shape[:2], np.uint8)
-    for cheek in CHEEK_VERTICES:
+    for cheek in LIT_CHEEK_VERTICES:
         cv2.fillPoly(inside, [points[list(cheek)].round().astype(np.int32)], 1)
-    return GRAIN_LIMIT * float(np.quantile(grain[inside > 0], GRAIN_SHARE)) if inside.any() else 0.0
+    return MAX_GRAIN_RATIO * float(np.quantile(grain[inside > 0], CHEEK_GRAIN_SHARE)) if inside.any() else 0.0
 
 
 def _upper_lip_light(light: NDArray[np.floating], points: NDArray[np.float32]) -> float:
@@ -123,28 +125,32 @@ def _upper_lip_light(light: NDArray[np.floating], points: NDArray[np.float32]) -
         cv2.fillPoly(inside, [points[list(corners)].round().astype(np.int32)], 1)
         return float(np.median(light[inside > 0])) if inside.any() else 0.0
 
-    return median(PHILTRUM_VERTICES) / max(*(median(cheek) for cheek in CHEEK_VERTICES), 1.0)
+    return median(PHILTRUM_VERTICES) / max(*(median(cheek) for cheek in LIT_CHEEK_VERTICES), 1.0)
 
 
 def _around_mouth(lips: NDArray[np.uint8], points: NDArray[np.float32], unit: float) -> NDArray[np.float64]:
     """(h, w) [0, 1] the skin around the mouth, without lips and nose."""
     away = cv2.distanceTransform(1 - lips, cv2.DIST_L2, 5) / unit
-    down = (np.arange(lips.shape[0])[:, None] - points[NOSE_BASE, 1]) / unit
+    down = (np.arange(lips.shape[0])[:, None] - points[NOSE_BASE_VERTEX, 1]) / unit
     nose = np.zeros(lips.shape, np.float32)
     hull = cv2.convexHull(points[list(NOSE_VERTICES)].round().astype(np.int32))
     cv2.fillConvexPoly(nose, hull, 1.0)
     grown = cv2.dilate(nose, np.ones((2 * round(0.05 * unit) + 1,) * 2, np.uint8))
     oval = np.zeros(lips.shape, np.uint8)
     cv2.fillPoly(oval, [points[list(FACE_OVAL)].round().astype(np.int32)], 1)
-    inside = np.clip(cv2.distanceTransform(oval, cv2.DIST_L2, 5) / (INSIDE_CONTOUR * unit), 0, 1)
-    near = smoothstep(away, *BESIDE_LIPS) * (1 - smoothstep(away, *BEYOND_LIPS)) * smoothstep(down, *BELOW_NOSE)
-    near = near * smoothstep(_beside_middle(lips.shape, points) / unit, *BESIDE_MIDDLE)
+    inside = np.clip(cv2.distanceTransform(oval, cv2.DIST_L2, 5) / (CONTOUR_MARGIN_EYE_DISTANCES * unit), 0, 1)
+    near = (
+        smoothstep(away, *LIP_START_EYE_DISTANCES)
+        * (1 - smoothstep(away, *LIP_END_EYE_DISTANCES))
+        * smoothstep(down, *NOSE_START_EYE_DISTANCES)
+    )
+    near = near * smoothstep(_beside_middle(lips.shape, points) / unit, *MIDLINE_START_EYE_DISTANCES)
     return np.asarray(near * inside * (1 - cv2.GaussianBlur(grown, (0, 0), 0.05 * unit)), float)
 
 
 def _beside_middle(shape: tuple[int, ...], points: NDArray[np.float32]) -> NDArray[np.float32]:
     """(h, w) pixels to either side of the line from the nose's base to the chin."""
-    base, along = points[NOSE_BASE], points[CHIN] - points[NOSE_BASE]
+    base, along = points[NOSE_BASE_VERTEX], points[CHIN_VERTEX] - points[NOSE_BASE_VERTEX]
     y, x = np.indices(shape, np.float32)
     across = (x - base[0]) * along[1] - (y - base[1]) * along[0]
     return np.asarray(np.abs(across) / max(float(np.linalg.norm(along)), 1e-6), np.float32)

@@ -15,13 +15,13 @@ from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS
 
 FLOOR_GREY_LEVELS = 4.0
 """Added to colours before their logarithm, so that the dark has no colour."""
-BLUR_EYE_DISTANCES = 0.06
+SHADING_BLUR_EYE_DISTANCES = 0.06
 """Standard deviation, eye distances: finer structure is pores and grain."""
-MAX_LOG_LUMINANCE = 0.6
+MAX_LOG_LUMINANCE_DEVIATION = 0.6
 """Distance from the median within which a pixel is skin, in light or in shade."""
-MIN_SPREAD = 0.04
+MIN_LOG_LUMINANCE_SPREAD = 0.04
 """Of the logarithm of luminance, standard deviation: skin that is more even than this shows no shading."""
-SLOPES = ((0.5, 0.8, 0.8), (1.1, 1.3, 1.6))
+CHANNEL_SLOPE_RANGE = ((0.5, 0.8, 0.8), (1.1, 1.3, 1.6))
 """Least and most of each channel."""
 MIN_SKIN_PIXELS = 200
 
@@ -31,14 +31,14 @@ def shading_slopes(rgb: NDArray[np.uint8], skin: NDArray[np.floating], unit: flo
 
     `rgb` (h, w, 3) with its `skin` (h, w) in [0, 1]; eye distance `unit` pixels.
     """
-    soft = cv2.GaussianBlur(rgb.astype(np.float32), (0, 0), max(BLUR_EYE_DISTANCES * unit, 0.6))
+    soft = cv2.GaussianBlur(rgb.astype(np.float32), (0, 0), max(SHADING_BLUR_EYE_DISTANCES * unit, 0.6))
     colours = np.log(soft[skin > 0.5] + np.float32(FLOOR_GREY_LEVELS))
     if len(colours) < MIN_SKIN_PIXELS:
         return np.ones(3, np.float32)
     colours -= np.median(colours, axis=0)
     light = colours @ LUMINANCE_WEIGHTS
-    near = np.abs(light) < MAX_LOG_LUMINANCE
+    near = np.abs(light) < MAX_LOG_LUMINANCE_DEVIATION
     colours, light = colours[near], light[near]
-    if np.sqrt(np.mean(light**2)) < MIN_SPREAD:
+    if np.sqrt(np.mean(light**2)) < MIN_LOG_LUMINANCE_SPREAD:
         return np.ones(3, np.float32)
-    return np.clip((colours * light[:, None]).sum(axis=0) / (light**2).sum(), *SLOPES).astype(np.float32)
+    return np.clip((colours * light[:, None]).sum(axis=0) / (light**2).sum(), *CHANNEL_SLOPE_RANGE).astype(np.float32)

@@ -17,13 +17,13 @@ from engine.perception.landmarks import FACE_OVAL, LEFT_BROW, LEFT_EYE, LIPS_OUT
 
 CELL_PIXELS = 3
 """Pixels of the crop, along each axis, that are looked at as one."""
-EYE_DISTANCE_PIXELS = (CROP_EYES[1][0] - CROP_EYES[0][0]) / CELL_PIXELS
+CELLS_EYE_DISTANCE_PIXELS = (CROP_EYES[1][0] - CROP_EYES[0][0]) / CELL_PIXELS
 """An eye distance of what is looked at, pixels."""
-SKIN_CHROMA_DIFFERENCES, OTHER_CHROMA = 0.025, 0.05
+SKIN_CHROMA_DIFFERENCES, NO_SKIN_CHROMA_DIFFERENCES = 0.025, 0.05
 """By how much a pixel's shares of red and blue differ from those of the skin, up to which it is skin, and from which on it is not."""
 SKIN_LIGHT_RATIOS = (0.55, 0.75, 1.3, 1.5)
 """Of the light of the skin around it: a pixel of the neutral frame outside of these is not skin, between the middle two it is."""
-CREASE_LIGHT = (0.48, 0.58)
+CREASE_LIGHT_RATIOS = (0.48, 0.58)
 """Of its light in the neutral frame, where the skin around it has all of its own: a pixel below is no crease, and above may be one."""
 LIGHT_WINDOW_EYE_DISTANCES = 0.3
 """Within which skin is compared."""
@@ -31,7 +31,7 @@ BESIDE_EYE_DISTANCES = 0.07
 """From what is not skin within which a ratio is not trusted either."""
 BESIDE_BROW_EYE_DISTANCES = 0.12
 """The same from a brow: it rises by more than its tracked points."""
-BLURRED, SHARP = 0.3, 0.6
+BLURRED_DETAIL_SHARE, SHARP_DETAIL_SHARE = 0.3, 0.6
 """Of the neutral frame's fine structure: a frame that has less is blurred by its motion."""
 
 
@@ -59,7 +59,10 @@ class SkinInBoth:
         light = self._beside_skin(self._light)
         other = np.maximum(1 - _ramp(light, dark, grey), _ramp(light, bright, glare))
         other = np.maximum(
-            other, _ramp(np.abs(self._chroma - tone).max(axis=-1), SKIN_CHROMA_DIFFERENCES * 2, OTHER_CHROMA * 2)
+            other,
+            _ramp(
+                np.abs(self._chroma - tone).max(axis=-1), SKIN_CHROMA_DIFFERENCES * 2, NO_SKIN_CHROMA_DIFFERENCES * 2
+            ),
         )
         self._neutral = 1 - np.maximum(cv2.dilate(other * self._face, _disk(BESIDE_EYE_DISTANCES)), features)
 
@@ -74,18 +77,20 @@ class SkinInBoth:
         aligned = cv2.remap(small, places[..., 0], places[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         light = _light(np.asarray(aligned))
         ratio = (light + 12) / (self._light + 12)
-        other = 1 - _ramp(self._beside_skin(ratio), *CREASE_LIGHT)
+        other = 1 - _ramp(self._beside_skin(ratio), *CREASE_LIGHT_RATIOS)
         other = np.maximum(
             other,
             _ramp(
-                np.abs(chroma(np.asarray(aligned)) - self._chroma).max(axis=-1), SKIN_CHROMA_DIFFERENCES, OTHER_CHROMA
+                np.abs(chroma(np.asarray(aligned)) - self._chroma).max(axis=-1),
+                SKIN_CHROMA_DIFFERENCES,
+                NO_SKIN_CHROMA_DIFFERENCES,
             ),
         )
         other = np.asarray(cv2.dilate(other * self._face, _disk(BESIDE_EYE_DISTANCES)), np.float32)
         fine = _sharpness(light, self._face) / max(self._sharpness, 1e-3)
-        sharp = float(np.clip((fine - BLURRED) / (SHARP - BLURRED), 0, 1))
+        sharp = float(np.clip((fine - BLURRED_DETAIL_SHARE) / (SHARP_DETAIL_SHARE - BLURRED_DETAIL_SHARE), 0, 1))
         keep = cv2.GaussianBlur(
-            sharp * self._neutral * (1 - other), (0, 0), 0.5 * BESIDE_EYE_DISTANCES * EYE_DISTANCE_PIXELS
+            sharp * self._neutral * (1 - other), (0, 0), 0.5 * BESIDE_EYE_DISTANCES * CELLS_EYE_DISTANCE_PIXELS
         )
         return np.asarray(cv2.resize(keep, crop.shape[1::-1], interpolation=cv2.INTER_LINEAR), np.float32)
 
@@ -97,7 +102,7 @@ class SkinInBoth:
 def _around(value: NDArray[np.float32]) -> NDArray[np.float32]:
     """Averaged widely."""
     small = cv2.resize(value, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
-    wide = cv2.GaussianBlur(small, (0, 0), LIGHT_WINDOW_EYE_DISTANCES * EYE_DISTANCE_PIXELS / 2)
+    wide = cv2.GaussianBlur(small, (0, 0), LIGHT_WINDOW_EYE_DISTANCES * CELLS_EYE_DISTANCE_PIXELS / 2)
     return np.asarray(cv2.resize(wide, value.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
 
 
@@ -121,7 +126,7 @@ def _filled(
 
 
 def _disk(eye_distances: float) -> NDArray[np.uint8]:
-    size = 2 * max(1, round(eye_distances * EYE_DISTANCE_PIXELS)) + 1
+    size = 2 * max(1, round(eye_distances * CELLS_EYE_DISTANCE_PIXELS)) + 1
     return np.asarray(cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (size, size)), np.uint8)
 
 

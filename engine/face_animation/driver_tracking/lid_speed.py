@@ -11,7 +11,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.motion_transfer.lids_and_lips import CLOSED_GAP_SHARE, LID_PAIRS, LID_SKIN
+from engine.face_animation.motion_transfer.lids_and_lips import (
+    CLOSED_GAP_SHARE,
+    LID_EDGE_VERTEX_PAIRS,
+    LID_SKIN_VERTEX_PAIRS,
+)
 
 FALLS_SECONDS, RISES_SECONDS = 0.1, 0.2
 """Seconds from open to shut, and back, at least."""
@@ -20,14 +24,16 @@ FALLS_SECONDS, RISES_SECONDS = 0.1, 0.2
 def slow_lids(meshes: NDArray[np.floating], neutral: int, fps: float) -> None:
     """Hold the lids of meshes (N, 478, 3) to these speeds, in place: upper lids go down to where they have to be, and the skin above them half
     the way. The `neutral` frame stays as it is: all others are measured by it."""
-    upper, lower = np.array(LID_PAIRS).T
+    upper, lower = np.array(LID_EDGE_VERTEX_PAIRS).T
     gap = np.linalg.norm(meshes[:, upper, :2] - meshes[:, lower, :2], axis=-1)
     share = gap / np.maximum(gap[neutral], 1e-6)
-    openness = np.stack([share[:, eye + 2 : eye + 5].mean(axis=1) for eye in (0, len(LID_PAIRS) // 2)], axis=1)
+    openness = np.stack(
+        [share[:, eye + 2 : eye + 5].mean(axis=1) for eye in (0, len(LID_EDGE_VERTEX_PAIRS) // 2)], axis=1
+    )
     held = held_openness(openness, neutral, fps)
-    closed = np.repeat(1 - held / np.maximum(openness, 1e-6), len(LID_PAIRS) // 2, axis=1)[..., None]
+    closed = np.repeat(1 - held / np.maximum(openness, 1e-6), len(LID_EDGE_VERTEX_PAIRS) // 2, axis=1)[..., None]
     way = (closed * (meshes[:, lower] - meshes[:, upper])).astype(meshes.dtype)
-    meshes[:, [skin for skin, _ in LID_SKIN]] += 0.5 * way
+    meshes[:, [skin for skin, _ in LID_SKIN_VERTEX_PAIRS]] += 0.5 * way
     meshes[:, upper] += way
 
 

@@ -35,7 +35,7 @@ from engine.perception.face_track.track import FaceTrack
 LOWERED_LIDS_WEIGHT = 4.0
 """How much lowered lids count, as a share of how far they are usually open."""
 
-SIMILAR_REST = 0.5
+SIMILAR_REST_DISTANCE = 0.5
 """Frames that differ by less, root mean square in `REST_SPREAD`, from the one that is most at rest are as much so: their median
 is the rest."""
 
@@ -140,7 +140,7 @@ def estimate_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     )
     blinking = lid_lowering(seen, np.quantile(seen[:, LID_MEASURES], 0.7, axis=0))
     cost = distance_from_rest(seen) - np.log(_density(seen)) + LOWERED_LIDS_WEIGHT * blinking
-    alike = _mean_squares(seen[[int(np.argmin(cost))]], seen)[0] < SIMILAR_REST**2
+    alike = _mean_squares(seen[[int(np.argmin(cost))]], seen)[0] < SIMILAR_REST_DISTANCE**2
     return np.asarray(np.median(seen[alike & (cost <= np.quantile(cost[alike], 0.5))], axis=0), float)
 
 

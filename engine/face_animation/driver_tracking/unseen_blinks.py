@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import grey_opening
 
-from engine.face_animation.motion_transfer.lids_and_lips import LID_PAIRS, LID_SKIN
+from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS, LID_SKIN_VERTEX_PAIRS
 from engine.perception.landmarks import LEFT_EYE, RIGHT_EYE
 
 EYE_CONTOURS = np.array((RIGHT_EYE, LEFT_EYE))
-INNER_CORNER = 8
+INNER_CORNER_INDEX = 8
 """Where in an eye's outline its inner corner stands; the outer one is its first."""
 BLUR_PIXELS = 1.5
 """Pixels: standard deviation of what quiets sensor noise."""
@@ -26,12 +26,12 @@ SKIN_RING_PIXELS = 4
 """Pixels around the eye's outline in which its skin is seen."""
 IRIS_PERCENTILE = 15
 """Percentile of grey within the outline that stands for the iris."""
-SHUT_CONTRAST = np.array((0.52, 0.62))
+SHUT_CONTRAST_SHARES = np.array((0.52, 0.62))
 """Shares of the neutral frame's darkness, and of its edges, below which an eye is shut."""
-OPEN_CONTRAST = np.array((0.64, 0.74))
+OPEN_CONTRAST_SHARES = np.array((0.64, 0.74))
 """Shares of the neutral frame's darkness, and of its edges, from which on the tracker is believed. Whichever open frame of
 the real clips is taken as neutral, no open eye falls below them."""
-MIN_DARKNESS = 0.3
+MIN_EYE_DARKNESS = 0.3
 """Eyes of less darkness in the neutral frame, as behind dark glasses, tell nothing."""
 MIN_BLINK_SECONDS = 0.1
 """Seconds for which an eye is shut at least: a blink takes 0.1 to 0.4, and one that is shorter the tracker does not miss."""
@@ -59,26 +59,26 @@ def shut_by_contrast(meshes: NDArray[np.floating], contrast: NDArray[np.floating
     """Shut the eyes of meshes (N, 478, 3) that have lost their `contrast` (N, 2, 2) against the neutral frame's, in place:
     the upper lid goes down to the lower one, and the skin above it half the way. As far as an eye is shut for
     `MIN_BLINK_SECONDS` at least: what is gone for a moment was blurred by motion, or hidden by the rim of glasses."""
-    upper, lower = np.array(LID_PAIRS).T
+    upper, lower = np.array(LID_EDGE_VERTEX_PAIRS).T
     rest, at_rest = contrast[neutral], meshes[neutral]
     heights = np.linalg.norm(at_rest[upper] - at_rest[lower], axis=1).reshape(2, -1).max(axis=1)
-    widths = np.linalg.norm(at_rest[EYE_CONTOURS[:, 0]] - at_rest[EYE_CONTOURS[:, INNER_CORNER]], axis=1)
-    tells = (rest[:, 0] >= MIN_DARKNESS) & (heights >= MIN_OPEN_EYE_RATIO * widths)
-    kept = np.clip((contrast / np.maximum(rest, 1e-6) - SHUT_CONTRAST) / (OPEN_CONTRAST - SHUT_CONTRAST), 0, 1).max(
-        axis=2
-    )
+    widths = np.linalg.norm(at_rest[EYE_CONTOURS[:, 0]] - at_rest[EYE_CONTOURS[:, INNER_CORNER_INDEX]], axis=1)
+    tells = (rest[:, 0] >= MIN_EYE_DARKNESS) & (heights >= MIN_OPEN_EYE_RATIO * widths)
+    kept = np.clip(
+        (contrast / np.maximum(rest, 1e-6) - SHUT_CONTRAST_SHARES) / (OPEN_CONTRAST_SHARES - SHUT_CONTRAST_SHARES), 0, 1
+    ).max(axis=2)
     lasting = grey_opening(
         np.where(tells, 1 - kept, 0), size=(max(1, ceil(MIN_BLINK_SECONDS * fps)), 1), mode="nearest"
     )
-    closed = np.repeat(lasting, len(LID_PAIRS) // 2, axis=1)[..., None]
+    closed = np.repeat(lasting, len(LID_EDGE_VERTEX_PAIRS) // 2, axis=1)[..., None]
     way = closed * (meshes[:, lower] - meshes[:, upper])
-    meshes[:, [skin for skin, _ in LID_SKIN]] += 0.5 * way
+    meshes[:, [skin for skin, _ in LID_SKIN_VERTEX_PAIRS]] += 0.5 * way
     meshes[:, upper] += way
 
 
 def _middle(outline: NDArray[np.floating]) -> NDArray[np.floating]:
     """The middle between an eye's corners."""
-    return (outline[0] + outline[INNER_CORNER]) / 2
+    return (outline[0] + outline[INNER_CORNER_INDEX]) / 2
 
 
 def _contrast(grey: NDArray[np.uint8], outline: NDArray[np.floating]) -> tuple[float, float]:

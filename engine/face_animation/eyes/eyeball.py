@@ -18,7 +18,7 @@ from engine.face_animation.whites import eye_whites, white_tint
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
 EYE_VERTICES = ((RIGHT_EYE, RIGHT_IRIS, 33, 133), (LEFT_EYE, LEFT_IRIS, 263, 362))
-BELOW_EYE = ((117, 118, 119, 120, 100, 101), (346, 347, 348, 349, 329, 330))
+CHEEK_BELOW_EYE_VERTICES = ((117, 118, 119, 120, 100, 101), (346, 347, 348, 349, 329, 330))
 """Vertices of the cheek below each eye."""
 LAYER_MARGIN_EYE_WIDTHS = 0.5
 """Around the opening, in eye widths: how far the eyeball's layer reaches behind the lids."""
@@ -26,18 +26,18 @@ LASH_LINE_EYE_WIDTHS = 0.05
 """Width of the line of lashes on a lid that closes, in eye widths."""
 MIN_EYE_WIDTH_PIXELS = 14.0
 """Pixels; smaller eyes move with the face's warp alone."""
-WHITE_RANGE = (0.8, 1.5)
+WHITE_LIGHT_RANGE = (0.8, 1.5)
 """Of the light of the cheek below, between which the white's is."""
-USUAL_WHITE = 1.0
+USUAL_WHITE_LIGHT = 1.0
 """The same, where the picture shows none."""
-HUE_RANGE = (0.0, 0.6)
+WHITE_HUE_RANGE = (0.0, 0.6)
 """Of the skin's hue, that there is in the white of an eye."""
-SHADED_DEPTH, OPEN_DEPTH = 0.07, 0.14
+LID_SHADOW_START_EYE_WIDTHS, LID_SHADOW_END_EYE_WIDTHS = 0.07, 0.14
 """Eye widths below the upper lid up to which it shades the white, and from which on it does not."""
 MAX_LID_SHADE = 0.45
-CORNER_SHADE, CORNER_WIDTH = 0.3, 0.25
+EYE_CORNER_SHADE_SHARE, EYE_CORNER_SHADE_EYE_WIDTHS = 0.3, 0.25
 """Of the light, that a white that is shaded by its lid has less in the eye's corners, and eye widths from them up to which it does."""
-OWN_LIGHT, OWN_HUE = (0.7, 0.88), (0.06, 0.12)
+KEPT_LIGHT_RATIOS, KEPT_HUE_DIFFERENCES = (0.7, 0.88), (0.06, 0.12)
 """Of the white's light, from which on, and by how much the shares of red and blue may differ up to which, what the picture shows beside the iris is
 kept as it is."""
 IRIS_RINGS = 12
@@ -149,12 +149,12 @@ def white_light(lid_shade: float, opening: NDArray[np.float32], shape: tuple[int
     `shape`."""
     if lid_shade == 0:
         return np.ones(shape, np.float32)
-    lid = np.clip(1 - below_lid(opening, shape) / OPEN_DEPTH, 0, 1) ** 1.5
+    lid = np.clip(1 - below_lid(opening, shape) / LID_SHADOW_END_EYE_WIDTHS, 0, 1) ** 1.5
     ys, xs = np.mgrid[: shape[0], : shape[1]]
     across = (opening[8] - opening[0]).astype(np.float64)
     along = ((xs - opening[0, 0]) * across[0] + (ys - opening[0, 1]) * across[1]) / max(float(across @ across), 1.0)
-    corner = np.clip(1 - np.minimum(along, 1 - along) / CORNER_WIDTH, 0, 1) ** 2
-    return np.asarray((1 - lid_shade * lid) * (1 - CORNER_SHADE * corner), np.float32)
+    corner = np.clip(1 - np.minimum(along, 1 - along) / EYE_CORNER_SHADE_EYE_WIDTHS, 0, 1) ** 2
+    return np.asarray((1 - lid_shade * lid) * (1 - EYE_CORNER_SHADE_SHARE * corner), np.float32)
 
 
 def _with_own(tone: NDArray[np.float64], patch: NDArray[np.float32], beside: NDArray[np.bool_]) -> NDArray[np.float32]:
@@ -162,8 +162,8 @@ def _with_own(tone: NDArray[np.float64], patch: NDArray[np.float32], beside: NDA
     whole = np.asarray(tone, np.float32)
     ratio = patch @ LUMINANCE_WEIGHTS.astype(np.float32) / max(float(tone @ LUMINANCE_WEIGHTS), 1.0)
     hue = np.abs(patch / np.maximum(patch.sum(axis=-1, keepdims=True), 1) - whole / whole.sum()).max(axis=-1)
-    own = np.clip((ratio - OWN_LIGHT[0]) / (OWN_LIGHT[1] - OWN_LIGHT[0]), 0, 1)
-    own *= np.clip((OWN_HUE[1] - hue) / (OWN_HUE[1] - OWN_HUE[0]), 0, 1)
+    own = np.clip((ratio - KEPT_LIGHT_RATIOS[0]) / (KEPT_LIGHT_RATIOS[1] - KEPT_LIGHT_RATIOS[0]), 0, 1)
+    own *= np.clip((KEPT_HUE_DIFFERENCES[1] - hue) / (KEPT_HUE_DIFFERENCES[1] - KEPT_HUE_DIFFERENCES[0]), 0, 1)
     own *= np.minimum(cv2.distanceTransform(beside.astype(np.uint8), cv2.DIST_L2, 3) / 3, 1)
     own = np.asarray(cv2.GaussianBlur(own.astype(np.float32), (0, 0), 1.0)) * beside
     return np.asarray(whole + own[..., None] * (np.minimum(patch, 255) - whole), np.float32)
@@ -176,21 +176,26 @@ def _white(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDA
         whites = eye_whites(rgb, mesh, one)
         if len(whites):
             shares.append(float((whites @ LUMINANCE_WEIGHTS).mean()) / _cheek(rgb, mesh, one))
-    light = float(np.clip(max(shares, default=USUAL_WHITE), *WHITE_RANGE))
-    return np.minimum(_cheek(rgb, mesh, side) * light * white_tint(rgb, mesh, HUE_RANGE), 255.0)
+    light = float(np.clip(max(shares, default=USUAL_WHITE_LIGHT), *WHITE_LIGHT_RANGE))
+    return np.minimum(_cheek(rgb, mesh, side) * light * white_tint(rgb, mesh, WHITE_HUE_RANGE), 255.0)
 
 
 def _cheek(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> float:
     """The luminance of the skin below an eye."""
     area = np.zeros(rgb.shape[:2], np.uint8)
-    cv2.fillConvexPoly(area, cv2.convexHull(np.rint(mesh[list(BELOW_EYE[side]), :2]).astype(np.int32)), 1)
+    cv2.fillConvexPoly(
+        area, cv2.convexHull(np.rint(mesh[list(CHEEK_BELOW_EYE_VERTICES[side]), :2]).astype(np.int32)), 1
+    )
     return max(float(np.array(cv2.mean(rgb, area)[:3]) @ LUMINANCE_WEIGHTS), 1.0)
 
 
 def _lid_shade(patch: NDArray[np.float32], beside: NDArray[np.bool_], depth: NDArray[np.float32]) -> float:
     """How much darker the white of a `patch` (h, w, 3) is at the upper lid than below: drawn eyes have no shade there."""
     light = patch @ LUMINANCE_WEIGHTS.astype(np.float32)
-    near, far = light[beside & (depth < SHADED_DEPTH)], light[beside & (depth > OPEN_DEPTH)]
+    near, far = (
+        light[beside & (depth < LID_SHADOW_START_EYE_WIDTHS)],
+        light[beside & (depth > LID_SHADOW_END_EYE_WIDTHS)],
+    )
     if len(near) < 3 or len(far) < 3:
         return MAX_LID_SHADE / 2
     return float(np.clip(1 - np.median(near) / max(float(np.median(far)), 1.0), 0, MAX_LID_SHADE))

@@ -21,15 +21,15 @@ SHUT_SHARE = 0.1
 """Share of the picture's opening under which an eye is shut."""
 CLOSING_GAP_SHARES = (0.75, 0.3)
 """Shares of the picture's opening at which a lid begins to take its own colours, and has."""
-GLINT_FOLLOWS = 0.3
+GLINT_MOTION_SHARE = 0.3
 """Of the iris' way, that the catch-light goes: it is a mirror image of what is before the face."""
-IRIS_ROOM = 0.85
+MIN_CORNER_DISTANCE_IRIS_RADII = 0.85
 """Radii of the iris that are between its middle and a corner of the eye, at least."""
-FREE_SHARE = 0.6
+FREE_GAZE_SHARE = 0.6
 """Of the way to there, that an iris goes freely."""
 MIN_VERGENCE_EYE_WIDTHS = 0.1
 """Eye widths by which each iris has to go against the other's before eyes are taken to converge: a tracker errs by less."""
-INWARD = np.array([1.0, -1.0])[:, None]
+INWARD_SIGNS = np.array([1.0, -1.0])[:, None]
 """Of both eyes, right eye first: from the outer corner to the inner one, along the picture's right or against it."""
 
 
@@ -42,11 +42,11 @@ def gaze_offsets(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) ->
 def conjugate(looks: NDArray[np.floating]) -> NDArray[np.float64]:
     """Looks (N, 2, 2) of two eyes that move together, as `gaze_offsets` has them: both go the mean of what each was seen to do, and only what
     they differ by beyond `MIN_VERGENCE_EYE_WIDTHS` remains: whoever crosses their eyes means it."""
-    across_picture = looks * INWARD
+    across_picture = looks * INWARD_SIGNS
     together = across_picture.mean(axis=1, keepdims=True)
     apart = across_picture - together
     meant = np.sign(apart) * np.maximum(np.abs(apart) - MIN_VERGENCE_EYE_WIDTHS, 0)
-    return np.asarray((together + meant) * INWARD, float)
+    return np.asarray((together + meant) * INWARD_SIGNS, float)
 
 
 def iris_positions(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -79,8 +79,8 @@ def held_looks(eyes: tuple[Eyeball | None, Eyeball | None], looks: NDArray[np.fl
 
 def held_along(eye: Eyeball, look: float) -> float:
     """How far an iris goes along its eye that wants to go as far as `look`, in eye widths."""
-    most = max(0.5 - IRIS_ROOM * eye.radius, 0.05)
-    free = FREE_SHARE * most
+    most = max(0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * eye.radius, 0.05)
+    free = FREE_GAZE_SHARE * most
 
     def held(at: float) -> float:
         over = max(abs(at) - free, 0.0)
@@ -118,7 +118,7 @@ def draw_eye(
     disk = cv2.warpAffine(eye.iris_alpha, shifted, shape[::-1], flags=cv2.INTER_LINEAR)[..., None]
     white = np.asarray(white, np.float32) * white_light(eye.lid_shade, opening - low, shape)[..., None]
     ball = white + disk * (iris - white)
-    place[:, 2] += GLINT_FOLLOWS * (look[0] * along + look[1] * across)
+    place[:, 2] += GLINT_MOTION_SHARE * (look[0] * along + look[1] * across)
     glint = cv2.warpAffine(eye.glint, place, shape[::-1], flags=cv2.INTER_LINEAR)
     ball += glint[..., 3:] * disk * (glint[..., :3] - ball)
     below = frame[low[1] : high[1], low[0] : high[0]].astype(np.float32)

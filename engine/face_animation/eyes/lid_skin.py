@@ -18,17 +18,17 @@ UPPER_LID_STRIPS = (
     ((467, 260, 259, 257, 258, 286, 414), (466, 388, 387, 386, 385, 384, 398)),
 )
 """Vertices of the skin above the upper lid, and of the lid's edge, from the eye's outer corner on; right eye first."""
-EYE_CORNERS = ((33, 133), (263, 362))
+EYE_CORNER_VERTICES = ((33, 133), (263, 362))
 """Where both end."""
 BELOW_BROW_VERTICES = ((113, 225, 224, 223, 222, 221, 189), (342, 445, 444, 443, 442, 441, 413))
 """Vertices further up, below the brow."""
 LOWER_LID_EDGES = ((7, 163, 144, 145, 153, 154, 155), (249, 390, 373, 374, 380, 381, 382))
 """Vertices of the lower lid's edge."""
-CHEEK_VERTICES = ((117, 118, 119, 120, 100, 101), (346, 347, 348, 349, 329, 330))
+CHEEK_BELOW_LID_VERTICES = ((117, 118, 119, 120, 100, 101), (346, 347, 348, 349, 329, 330))
 """Vertices of the cheek below the eye, in the light that a shut lid is in."""
 COLOUR_BLEND_SHARE = 0.4
 """Share of the way from the skin above to the lid's edge over which the colours go over."""
-COLOUR_REACH_SHARE = 0.6
+LID_COLOUR_REACH_SHARE = 0.6
 """Share of the way from there up to below the brow that a lid's colours reach: upper lashes stand there in a picture."""
 LIGHTER_SKIN_SHARE = 0.5
 """Share of the skin above, its lighter part, whose colour a lid has: the rest is shadow, of the brow or in the crease."""
@@ -38,7 +38,7 @@ SOCKET_SHADE_SHARE = 0.35
 """The share that is left of what the socket's shadow makes a lid darker."""
 CORNER_FADE_EYE_WIDTHS = 0.4
 """Eye widths from a corner over which this comes in."""
-COLOUR_DEGREE = 2
+LID_COLOUR_POLYNOMIAL_DEGREE = 2
 """Of the polynomial from corner to corner that a lid's colours are."""
 COLOUR_ROUNDS = 5
 """Of reweighted least squares in which it leaves out what is not of most of the skin's colour."""
@@ -94,9 +94,9 @@ def draw_lid(
 
 def _strip(mesh: NDArray, side: int) -> NDArray:
     """(18, 2) the skin above from corner to corner, then the lid's edge."""
-    outer, inner = EYE_CORNERS[side]
+    outer, inner = EYE_CORNER_VERTICES[side]
     strip = mesh[[v for row in UPPER_LID_STRIPS[side] for v in (outer, *row, inner)], :2].astype(float)
-    strip[1:8] += COLOUR_REACH_SHARE * (mesh[list(BELOW_BROW_VERTICES[side]), :2] - strip[1:8])
+    strip[1:8] += LID_COLOUR_REACH_SHARE * (mesh[list(BELOW_BROW_VERTICES[side]), :2] - strip[1:8])
     return np.asarray(strip)
 
 
@@ -126,10 +126,10 @@ def _shading(height: int, width: int) -> NDArray[np.float32]:
 def _along_the_lid(above: NDArray[np.float32]) -> NDArray[np.float32]:
     """(1, w, 3) the polynomial through most of the colours (h, w, 3) from corner to corner."""
     height, width = above.shape[:2]
-    basis = np.polynomial.polynomial.polyvander(np.linspace(-1, 1, width), COLOUR_DEGREE)
+    basis = np.polynomial.polynomial.polyvander(np.linspace(-1, 1, width), LID_COLOUR_POLYNOMIAL_DEGREE)
     weights = np.ones((height, width))
     for _ in range(COLOUR_ROUNDS):
-        normal = np.einsum("hw,wi,wj->ij", weights, basis, basis) + 1e-6 * np.eye(COLOUR_DEGREE + 1)
+        normal = np.einsum("hw,wi,wj->ij", weights, basis, basis) + 1e-6 * np.eye(LID_COLOUR_POLYNOMIAL_DEGREE + 1)
         found = basis @ np.linalg.solve(normal, np.einsum("hw,wi,hwc->ic", weights, basis, above))
         away = np.linalg.norm(above - found, axis=2)
         weights = 1 / (1 + (away / max(float(np.median(away)), 1.0)) ** 2) ** 2
@@ -140,10 +140,10 @@ def _grain(
     rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int, shape: tuple[int, int]
 ) -> NDArray[np.float32]:
     """(h, w, 3) of the `shape`: the grain of the cheek below an eye, which goes to and fro where it is smaller; none of what is stronger than grain."""
-    outer, inner = (mesh[v, :2].astype(np.float64) for v in EYE_CORNERS[side])
+    outer, inner = (mesh[v, :2].astype(np.float64) for v in EYE_CORNER_VERTICES[side])
     wide, high = (max(2, round(share * float(np.linalg.norm(inner - outer)))) for share in CHEEK_PATCH_EYE_WIDTHS)
     right = (inner - outer) / np.linalg.norm(inner - outer)
-    middle = mesh[list(CHEEK_VERTICES[side]), :2].mean(axis=0)
+    middle = mesh[list(CHEEK_BELOW_LID_VERTICES[side]), :2].mean(axis=0)
     across, down = np.arange(wide) - wide / 2, np.arange(high) - high / 2
     places = middle + across[None, :, None] * right + down[:, None, None] * np.array([-right[1], right[0]])
     x, y = cv2.split(places.astype(np.float32))
@@ -169,7 +169,7 @@ def _out_of_the_shadow(colours: NDArray[np.float32], cheek: NDArray[np.float32])
 def _cheek(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float32]:
     """Mean colour (3,) of the cheek below an eye."""
     area = np.zeros(rgb.shape[:2], np.uint8)
-    cv2.fillConvexPoly(area, cv2.convexHull(mesh[list(CHEEK_VERTICES[side]), :2].round().astype(np.int32)), 1)
+    cv2.fillConvexPoly(area, cv2.convexHull(mesh[list(CHEEK_BELOW_LID_VERTICES[side]), :2].round().astype(np.int32)), 1)
     return np.asarray(cv2.mean(rgb, area)[:3], np.float32) + 1
 
 

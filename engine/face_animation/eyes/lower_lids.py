@@ -15,14 +15,14 @@ from engine.imaging.masks.colour_segmentation import grab_cut
 
 EYE_PIXELS = 48
 """Pixels of an eye's width at which it is cut out."""
-COLOUR_MARGIN = 0.2
+COLOUR_MARGIN_EYE_WIDTHS = 0.2
 """Eye widths around the mesh's opening in which colours decide."""
 MIN_REACH_BELOW = 0.03
 """Eye widths by which a drawn eye reaches below the mesh's lid, along all of it but its ends, at least: less is the mesh's
 own error or a lash."""
 MAX_REACH_BELOW = 0.16
 """Eye widths by which a drawn eye reaches below the mesh's lid, at most: more is a shadow."""
-SKIN_FALLOFF = 0.4
+SKIN_FALLOFF_EYE_WIDTHS = 0.4
 """Eye widths over which the skin below follows its lid."""
 
 
@@ -59,7 +59,7 @@ class _Eye:
         points = self.opening @ turn.T + place[:, 2]
         opening = np.zeros(size[::-1], np.uint8)
         cv2.fillPoly(opening, [points.round().astype(np.int32)], 1)
-        disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * round(COLOUR_MARGIN * EYE_PIXELS) + 1,) * 2)
+        disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * round(COLOUR_MARGIN_EYE_WIDTHS * EYE_PIXELS) + 1,) * 2)
         inner, skin = cv2.erode(opening, np.ones((3, 3))) > 0, cv2.dilate(opening, disk) == 0
         if not inner.any():
             return np.zeros(7)
@@ -77,7 +77,7 @@ class _Eye:
         away = mesh[:, None, :2] - lid
         nearest = np.linalg.norm(away, axis=2).argmin(axis=1)
         away = away[np.arange(len(mesh)), nearest]
-        share = np.clip(1 - np.linalg.norm(away, axis=1) / (SKIN_FALLOFF * self.width), 0, 1)
+        share = np.clip(1 - np.linalg.norm(away, axis=1) / (SKIN_FALLOFF_EYE_WIDTHS * self.width), 0, 1)
         share[(away @ down < -1e-3 * self.width) | (np.arange(len(mesh)) >= 468)] = 0
         share[self.upper] = 0
         mesh[:, :2] += ((share * reach[nearest] * self.width)[:, None] * down).astype(np.float32)

@@ -23,13 +23,13 @@ from engine.face_animation.motion_transfer.head_room import soft_limit
 from engine.face_animation.smoothstep import smoothstep
 from engine.perception.landmarks import MESH_SIZE
 
-NECK_ROOM = (0.35, (0.18, 0.25))
+NECK_ROOM_FACE_LENGTHS = (0.35, (0.18, 0.25))
 """How far a head goes from its place on the shoulders, in lengths from eyes to chin: to either side; up and down."""
 SHOULDER_FACE_LENGTHS, WAIST_FACE_LENGTHS = 2.2, 6.2
 """Lengths from eyes to chin below the eyes: from the shoulders, which move most, to where a body that leans stays."""
-BODY_SHARE = 0.6
+MAX_BODY_POINT_HEAD_SHARE = 0.6
 """Tracked points that belong to the head by less say what the body does, the less they do the more."""
-HAIR_BEGINS, HAIR_ROOM = 0.3, 0.1
+HAIR_START_FACE_LENGTHS, HAIR_ROOM_FACE_LENGTHS = 0.3, 0.1
 """Lengths from eyes to chin: from the face's rim to where hair is followed fully, and how
 far away its points are still believed: further away they have slipped."""
 MIN_TRUSTED_POINTS = 5.0
@@ -49,7 +49,7 @@ def tracked_body(
     neutral : (478, 3) its face at rest. places : (K, 2) its tracked points at rest. moved : (N, K, 2) their offsets.
     trust : (N, K) [0, 1].
     """
-    return _trusted_mean(moved, trust * np.maximum(1 - head_share(neutral, places) / BODY_SHARE, 0))
+    return _trusted_mean(moved, trust * np.maximum(1 - head_share(neutral, places) / MAX_BODY_POINT_HEAD_SHARE, 0))
 
 
 def tracked_hair(
@@ -76,7 +76,7 @@ def tracked_hair(
     spread = np.einsum("nk,nkd->n", weight, arm**2) + MIN_TRUSTED_POINTS * length**2
     scale = np.einsum("nk,nkd,nkd->n", weight, arm, left) / spread
     turn = np.einsum("nk,nk->n", weight, arm[..., 0] * left[..., 1] - arm[..., 1] * left[..., 0]) / spread
-    size = np.hypot(np.linalg.norm(away, axis=1), np.hypot(scale, turn) * length) / (HAIR_ROOM * length)
+    size = np.hypot(np.linalg.norm(away, axis=1), np.hypot(scale, turn) * length) / (HAIR_ROOM_FACE_LENGTHS * length)
     linear = np.stack([np.stack([scale, -turn], axis=-1), np.stack([turn, scale], axis=-1)], axis=-2)
     found = away[:, None] + np.einsum("nij,npj->npi", linear, at - middle[:, None])
     return np.asarray(found * np.exp(-(size**4))[:, None, None])
@@ -84,7 +84,7 @@ def tracked_hair(
 
 def hair_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """(P,) how far points (P, 2) outside the face belong to hair and skull: rising from 0 at the face's rim to 1."""
-    return smoothstep(rim_distance(mesh, points) / chin_length(mesh), 0, HAIR_BEGINS)
+    return smoothstep(rim_distance(mesh, points) / chin_length(mesh), 0, HAIR_START_FACE_LENGTHS)
 
 
 def _trusted_mean(values: NDArray[np.floating], weight: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -102,7 +102,7 @@ def body_shift(skull: NDArray[np.floating], body: NDArray[np.floating], chin_len
     skull : (N, 2) how far the middle of its skull does, pixels. body : (N, 2) what the driver's body does, pixels of the
     target. chin_length : from the eyes to the chin, pixels.
     """
-    side, (up, down) = NECK_ROOM
+    side, (up, down) = NECK_ROOM_FACE_LENGTHS
     low, high = chin_length * np.array([-side, -up]), chin_length * np.array([side, down])
     return np.asarray(skull - soft_limit(skull - body, low, high))
 

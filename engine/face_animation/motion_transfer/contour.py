@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from engine.face_animation.smoothstep import smoothstep
 from engine.perception.landmarks import FACE_OVAL, eye_distance
 
-CHEEK_EDGES = (*range(8, 14), *range(22, 28))
+CHEEK_CONTOUR_EDGES = (*range(8, 14), *range(22, 28))
 """Edges of `FACE_OVAL` from the ears to the chin, by where they begin; forehead and chin stay in sight."""
 CONTOUR_MARGIN_EYE_DISTANCES = 0.08
 """Within this distance, in eye distances, a point lies beside the contour."""
@@ -30,11 +30,11 @@ FADE_OUT_EYE_DISTANCES = 0.6
 """Eye distances from the contour up to which points beyond those say how far their side of the face is stretched."""
 MIN_KEPT_SHARE = 0.1
 """Share of its distance from the contour that a point inside it keeps, at least."""
-MAX_GAIN = 1.5
+MAX_DISTANCE_GAIN = 1.5
 """By how many times such a distance grows over that of its side of the face, at most."""
-CONTOUR_FALLOFF = 0.3
+CONTOUR_FALLOFF_EYE_DISTANCES = 0.3
 """Eye distances along the contour over which a point takes it along."""
-SMOOTHING_ROUNDS = 2
+CONTOUR_SMOOTHING_ROUNDS = 2
 """How often the way that the contour goes out is evened out along it."""
 
 EVEN_BAND_EYE_DISTANCES = 0.5
@@ -96,7 +96,7 @@ def contour_spots(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> N
 def beside_contour(mesh: NDArray[np.floating], seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(478,) whether each vertex of a mesh (478, 2 or 3) lies beside the cheeks' contour and is none of its own; only where
     the contour's vertices are `seen` (478,): elsewhere others are the picture's outline."""
-    cheeks = np.isin(np.arange(len(FACE_OVAL)), CHEEK_EDGES)
+    cheeks = np.isin(np.arange(len(FACE_OVAL)), CHEEK_CONTOUR_EDGES)
     beside = _nearest(mesh, seen, cheeks)[2] < CONTOUR_MARGIN_EYE_DISTANCES * eye_distance(mesh[:, :2])
     beside[list(FACE_OVAL)] = False
     return np.asarray(beside)
@@ -160,17 +160,17 @@ def keep_inside(faces: NDArray[np.floating], rest: NDArray[np.floating], seen: N
     inward = band.inward(faces)
     past = np.maximum(MIN_KEPT_SHARE * own - band.depth(faces, inward), 0) * near
     along = np.linalg.norm(at_rest[0, oval, None] - band.at_spots(at_rest[:, oval])[0], axis=2) / (
-        CONTOUR_FALLOFF * unit
+        CONTOUR_FALLOFF_EYE_DISTANCES * unit
     )
     out = (past[:, None] * np.exp(-(along**2))).max(axis=2, initial=0)
-    for _ in range(SMOOTHING_ROUNDS):
+    for _ in range(CONTOUR_SMOOTHING_ROUNDS):
         out = (np.roll(out, 1, axis=1) + 2 * out + np.roll(out, -1, axis=1)) / 4
     faces[:, oval] -= (out * CONTOUR_WEIGHTS * seen[oval])[..., None] * _inward(faces[:, oval])
 
     depth = band.depth(faces, inward)
     right = np.linalg.norm(at_rest[0, inside, None] - at_rest[0, list(EAR_VERTICES)], axis=2).argmin(axis=1) == 0
     stretch = np.where(right, *(_stretch(depth / own, side & ~near) for side in (right, ~right)))
-    way = np.clip(depth, MIN_KEPT_SHARE * own, MAX_GAIN * stretch * own) - depth
+    way = np.clip(depth, MIN_KEPT_SHARE * own, MAX_DISTANCE_GAIN * stretch * own) - depth
     faces[:, inside] += (way * near * band.at_spots(CONTOUR_WEIGHTS[None, :, None])[0, :, 0])[..., None] * inward
 
 

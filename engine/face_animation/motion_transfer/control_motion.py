@@ -53,7 +53,7 @@ PLANE_TURN_DEGREES = (3.0, 10.0)
 """Degrees by which the picture's face is turned from which the plane begins to count so, and fully."""
 PLANE_RISE_EYE_DISTANCES = 0.12
 """Eye distances inside the contour over which the plane's share rises to the full one."""
-CHUNK_FRAMES = 32
+CONTROL_CHUNK_FRAMES = 32
 """Frames whose control points are computed together: enough for vectorised work, little memory."""
 
 
@@ -219,8 +219,8 @@ def carry_motion(
         return DriverFrames(track.meshes[some], track.periphery[some], track.trust[some], faces)
 
     transfer = MotionTransfer(frames(neutral, neutral + 1), target, control, proxy, options, residuals)
-    for start in range(0, len(track), CHUNK_FRAMES):
-        carried = transfer(frames(start, min(start + CHUNK_FRAMES, len(track))))
+    for start in range(0, len(track), CONTROL_CHUNK_FRAMES):
+        carried = transfer(frames(start, min(start + CONTROL_CHUNK_FRAMES, len(track))))
         for k, (offsets, depth, look) in enumerate(zip(*carried, strict=True)):
             yield ControlMotion(start + k, offsets, depth, look)
 

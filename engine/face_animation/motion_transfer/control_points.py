@@ -24,13 +24,13 @@ from engine.imaging.window import Window
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
 
-PERIPHERY_SPACING = 0.5
+PERIPHERY_SPACING_EYE_DISTANCES = 0.5
 """Distance of peripheral points, in eye distances."""
-BORDER_POINTS = 12
+BORDER_POINT_COUNT = 12
 """Along the longer side of the image."""
-MIN_VIEW_COSINE = 0.0
+MIN_SEEN_SURFACE_COSINE = 0.0
 """Cosine between the line of sight and a surface that is still seen."""
-CARRY_REACH = 0.7
+PERIPHERY_KERNEL_EYE_DISTANCES = 0.7
 """Width of the kernel that carries tracked points to peripheral ones, in eye distances."""
 MIN_TRUSTED_SHARE = 0.1
 """With less than this share of the tracked points left, what they say fades."""
@@ -83,7 +83,7 @@ def place_control_points(
     height, width = person.shape
     shown = inner or Window(0, 0, width, height)
     unit = float(eye_distance(mesh[:, :2]))
-    spacing = max(PERIPHERY_SPACING * unit, float(np.hypot(height, width)) / 40)
+    spacing = max(PERIPHERY_SPACING_EYE_DISTANCES * unit, float(np.hypot(height, width)) / 40)
     ys, xs = np.meshgrid(
         np.arange(spacing / 2, height - 1, spacing * 0.87), np.arange(0, width - 1, spacing), indexing="ij"
     )
@@ -94,7 +94,7 @@ def place_control_points(
     grid = grid[away[grid[:, 1].astype(int), grid[:, 0].astype(int)] <= spacing]
     grid = grid[rim_distance(mesh, grid) > rings_end(mesh) + 0.25 * spacing]
     grid = np.concatenate([contour_rings(mesh, person.shape), grid])
-    count = BORDER_POINTS
+    count = BORDER_POINT_COUNT
     step = max(height, width) / count
     across, down = (
         np.linspace(0, width - 1, max(3, round(width / step) + 1)),
@@ -113,7 +113,7 @@ def place_control_points(
 
 
 def facing(mesh: NDArray[np.floating]) -> NDArray[np.bool_]:
-    """(478,) whether each vertex of a mesh (478, 3) faces the viewer by more than `MIN_VIEW_COSINE`."""
+    """(478,) whether each vertex of a mesh (478, 3) faces the viewer by more than `MIN_SEEN_SURFACE_COSINE`."""
     triangles = delaunay(canonical_face()[:468, :2])
     normal = area_vectors(mesh.astype(float), triangles)
     rest = canonical_face()[triangles].astype(float)
@@ -121,7 +121,7 @@ def facing(mesh: NDArray[np.floating]) -> NDArray[np.bool_]:
     front = np.sign(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
     total = summed_at_corners(normal * front[:, None], triangles, MESH_SIZE)
     length = np.linalg.norm(total, axis=1)
-    return np.asarray((total[:, 2] > MIN_VIEW_COSINE * length) | (length == 0))
+    return np.asarray((total[:, 2] > MIN_SEEN_SURFACE_COSINE * length) | (length == 0))
 
 
 def carry_fiducials(
@@ -157,7 +157,7 @@ def carry_periphery(
     if not len(places) or not len(points):
         return np.zeros((len(offsets), len(points), 2), np.float32)
     apart = ((points[:, None] - phi(places)[None]) ** 2).sum(axis=2)
-    reach = 2 * (CARRY_REACH * unit) ** 2
+    reach = 2 * (PERIPHERY_KERNEL_EYE_DISTANCES * unit) ** 2
     near = (np.exp(-apart / reach) + 1e-4 * np.exp(-apart / (25 * reach)) + 1e-12).astype(np.float32)
     trust = trust.astype(np.float32)
     carried = phi.offsets(offsets).astype(np.float32)

@@ -25,25 +25,25 @@ from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES
 
 NECK_FADE_CHIN_LENGTHS = (0.9, 1.7)
 """The head's rigid motion fades out between these distances below the eyes, in lengths from eyes to chin."""
-SHOULDER_FADE, BESIDE_NECK = (0.6, 1.0), (0.7, 1.2)
+SHOULDER_FADE_CHIN_LENGTHS, SHOULDER_SIDE_CHIN_LENGTHS = (0.6, 1.0), (0.7, 1.2)
 """Lengths from eyes to chin: where shoulders begin beside the neck, below the eyes, and how far aside they do."""
-CONTOUR_REACH, CONTOUR_SPREAD, SPOT_REACH = 0.5, 0.15, 0.3
+CONTOUR_REACH_CHIN_LENGTHS, CONTOUR_SPREAD_CHIN_LENGTHS, CONTOUR_POINT_REACH_CHIN_LENGTHS = 0.5, 0.15, 0.3
 """Lengths from eyes to chin: as far from the contour what it does beyond the head has faded; how far along it points
 beside it take part in each other's, and how far from it they do so fully."""
-RIM_TO_SKULL, RIM_TO_OUTLINE = 0.3, 0.12
+RIM_TO_SKULL_FACE_WIDTHS, RIM_TO_OUTLINE_FACE_WIDTHS = 0.3, 0.12
 """Outside the face's skin its rim passes over into the skull, in depth, and into the skull's outline, in motion, within these shares of the
 face's width."""
-SKIN_BAND, CHEEK_REACH = 0.03, 0.5
+SKIN_BAND_FACE_WIDTHS, CHEEK_SKIN_START_CHIN_LENGTHS = 0.03, 0.5
 """Widths of the face by which skin may reach beyond the contour, from there on that many lengths from eyes to chin below the eyes."""
-SKULL_HALF_WIDTH, SKULL_HEIGHT = 0.56, 1.5
+SKULL_HALF_WIDTH_FACE_WIDTHS, SKULL_HALF_HEIGHT_CHIN_LENGTHS = 0.56, 1.5
 """Half axes of the skull seen from the front: in widths of the face, and in lengths from eyes to chin."""
-OUTLINE_RADII = (0.85, 1.15)
+OUTLINE_SKULL_RADII = (0.85, 1.15)
 """Radii of the skull between which its front passes over into its outline."""
-NEAR_RADII = (0.85, 1.45)
+NEAR_SIDE_OUTLINE_SKULL_RADII = (0.85, 1.45)
 """The same on the side that turns towards the viewer: beyond ears."""
-NEAR_COSINES = (0.0, 0.7)
+NEAR_SIDE_COSINES = (0.0, 0.7)
 """Between the way inwards and the way that a turn takes a point from the outline, from and up to which it is on that side."""
-NOSE_BRIDGE = 168
+NOSE_BRIDGE_VERTEX = 168
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def build_head_proxy(points: NDArray[np.floating], mesh: NDArray[np.floating]) -
     share = np.concatenate([np.ones(MESH_SIZE), head_share(mesh, others)])
     outline, near = (
         np.concatenate([np.zeros(MESH_SIZE), outline_share(mesh, others, radii)])
-        for radii in (OUTLINE_RADII, NEAR_RADII)
+        for radii in (OUTLINE_SKULL_RADII, NEAR_SIDE_OUTLINE_SKULL_RADII)
     )
     return HeadProxy(np.column_stack([points, depth]), share, outline, near, contour_weights(mesh, others))
 
@@ -77,7 +77,7 @@ def build_head_proxy(points: NDArray[np.floating], mesh: NDArray[np.floating]) -
 def contour_weights(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """(P, 36) how much points (P, 2) around a face follow each vertex of its contour, ever less with the distance from it, so that a jaw
     which opens squeezes the neck evenly instead of folding over it."""
-    fading = 1 - smoothstep(rim_distance(mesh, points) / (CONTOUR_REACH * chin_length(mesh)))
+    fading = 1 - smoothstep(rim_distance(mesh, points) / (CONTOUR_REACH_CHIN_LENGTHS * chin_length(mesh)))
     return np.asarray(fading[:, None] * beside_rim(mesh, points))
 
 
@@ -87,8 +87,8 @@ def beside_rim(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDAr
     length = chin_length(mesh)
     apart = np.linalg.norm(mesh[list(FACE_OVAL), :2].astype(float)[None] - points[:, None], axis=2)
     nearest = apart.min(axis=1, keepdims=True)
-    near = np.exp(-0.5 * ((apart - nearest) / (CONTOUR_SPREAD * length + 0.5 * nearest)) ** 2)
-    away = smoothstep(rim_distance(mesh, points) / (SPOT_REACH * length))[:, None]
+    near = np.exp(-0.5 * ((apart - nearest) / (CONTOUR_SPREAD_CHIN_LENGTHS * length + 0.5 * nearest)) ** 2)
+    away = smoothstep(rim_distance(mesh, points) / (CONTOUR_POINT_REACH_CHIN_LENGTHS * length))[:, None]
     return np.asarray((1 - away) * contour_spots(mesh, points) + away * near / near.sum(axis=1, keepdims=True))
 
 
@@ -105,11 +105,11 @@ def chin_lengths_below(mesh: NDArray[np.floating], points: NDArray[np.floating])
 
 
 def outline_share(
-    mesh: NDArray[np.floating], points: NDArray[np.floating], radii: tuple[float, float] = OUTLINE_RADII
+    mesh: NDArray[np.floating], points: NDArray[np.floating], radii: tuple[float, float] = OUTLINE_SKULL_RADII
 ) -> NDArray[np.float64]:
     """(P,) how far points (P, 2) outside the face move as the skull's outline does, between `radii` of it: none on its front, all beyond it."""
     share = smoothstep(skull_radius(mesh, points), *radii)
-    return share * smoothstep(_beyond_skin(mesh, points) / RIM_TO_OUTLINE)
+    return share * smoothstep(_beyond_skin(mesh, points) / RIM_TO_OUTLINE_FACE_WIDTHS)
 
 
 def surface_depth(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -119,16 +119,16 @@ def surface_depth(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> N
     """
     mesh = mesh.astype(float)
     centre = skull_centre(mesh)
-    front = centre[2] - mesh[NOSE_BRIDGE, 2]
+    front = centre[2] - mesh[NOSE_BRIDGE_VERTEX, 2]
     skull = centre[2] - front * np.sqrt(np.clip(1 - skull_radius(mesh, points) ** 2, 0, 1))
     rim = beside_rim(mesh, points) @ even_depth(mesh)[list(FACE_OVAL)]
-    away = smoothstep(_beyond_skin(mesh, points) / RIM_TO_SKULL)
+    away = smoothstep(_beyond_skin(mesh, points) / RIM_TO_SKULL_FACE_WIDTHS)
     return np.asarray(rim + away * (skull - rim), float)
 
 
 def _beyond_skin(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """(P,) how far points (P, 2) lie outside a face's skin, in widths of the face: beside cheeks and jaw it ends a little outside of the contour."""
-    band = SKIN_BAND * smoothstep(chin_lengths_below(mesh, points) / CHEEK_REACH)
+    band = SKIN_BAND_FACE_WIDTHS * smoothstep(chin_lengths_below(mesh, points) / CHEEK_SKIN_START_CHIN_LENGTHS)
     return np.asarray(rim_distance(mesh, points) / _face_width(mesh) - band)
 
 
@@ -139,7 +139,10 @@ def skull_radius(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> ND
     apart = points - skull_centre(mesh)[:2]
     aside, along = apart @ across, apart @ (across[::-1] * (-1, 1))
     return np.asarray(
-        np.hypot(aside / (SKULL_HALF_WIDTH * _face_width(mesh)), along / (SKULL_HEIGHT * chin_length(mesh)))
+        np.hypot(
+            aside / (SKULL_HALF_WIDTH_FACE_WIDTHS * _face_width(mesh)),
+            along / (SKULL_HALF_HEIGHT_CHIN_LENGTHS * chin_length(mesh)),
+        )
     )
 
 
@@ -155,8 +158,8 @@ def head_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDAr
     aside = np.abs((points - eyes) @ (down[::-1] * (1, -1))) / chin_length(mesh)
     begin, end = NECK_FADE_CHIN_LENGTHS
     fading = smoothstep(below, begin, end)
-    shoulder = smoothstep(below, *SHOULDER_FADE)
-    beside = smoothstep(aside, *BESIDE_NECK)
+    shoulder = smoothstep(below, *SHOULDER_FADE_CHIN_LENGTHS)
+    beside = smoothstep(aside, *SHOULDER_SIDE_CHIN_LENGTHS)
     return np.asarray((1 - fading) * (1 - shoulder * beside), float)
 
 
@@ -204,7 +207,7 @@ def _outline(proxy: HeadProxy, turned: NDArray[np.float64], rolled: NDArray[np.f
     """The same, for points that are `turned` and `rolled` (N, C, 3) about the head's middle."""
     inwards, back = -rolled[..., :2], (turned - rolled)[..., :2]
     sizes = np.linalg.norm(inwards, axis=-1) * np.linalg.norm(back, axis=-1)
-    side = smoothstep((inwards * back).sum(axis=-1) / np.maximum(sizes, 1e-9), *NEAR_COSINES)
+    side = smoothstep((inwards * back).sum(axis=-1) / np.maximum(sizes, 1e-9), *NEAR_SIDE_COSINES)
     return np.asarray(proxy.outline + side * (proxy.near - proxy.outline))
 
 

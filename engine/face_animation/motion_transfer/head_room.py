@@ -19,31 +19,31 @@ from engine.geometry.registration.rigid import Similarity, fit_similarities
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, RIGID_VERTICES
 
-FREE_SHARE = 0.5
+FREE_ROOM_SHARE = 0.5
 """Share of the room over which nothing is held back."""
 MIN_ROOM_FACE_LENGTHS = 0.08
 """Room that there always is, in lengths from eyes to chin."""
 CUT_HAIR_SHARE = 0.35
 """Share of the hair between face and border that may come down from a border that cuts it."""
-LARGEST_TURN = np.deg2rad(25.0)
+MAX_TURN_RADIANS = np.deg2rad(25.0)
 """Turns out of the picture plane beyond are held back to this, counted from the front: what one picture shows of a head's sides goes no
 further. Faces are turned back to the front by as much."""
 FREE_TURN_SHARE = 0.8
 """Share of the largest turn up to which nothing is held back."""
-SIDE_SLANT = np.deg2rad(55.0)
+FACE_SIDE_SLANT_RADIANS = np.deg2rad(55.0)
 """By which the sides of a face, its cheeks beside the eyes, slant away from its front."""
 MAX_STRETCH_RATIO = 1.8
 """By which they may be drawn out, where the picture shows them at a slant."""
 MIN_TURN_RADIANS = np.deg2rad(6.0)
 """By which a face may turn in any direction, however far it is turned in its picture."""
-LARGEST_APPROACH = 0.3
+MAX_LOG_SIZE_CHANGE = 0.3
 """Logarithm of the largest change of the head's size."""
-EDGE_SHARE = 0.02
+PICTURE_BORDER_SHARE = 0.02
 """Share of the picture's shorter side within which its border is: a thin frame may lie along it."""
 SKULL_BEHIND_EARS = 0.35
 """By how much the skull's middle lies behind that between the ears, in lengths from the tip of the nose to there."""
-NOSE_TIP = 4
-PERSON_ALPHA = 0.5
+NOSE_TIP_VERTEX = 4
+MIN_PERSON_ALPHA = 0.5
 """Of a person's mask, from which on a pixel shows it."""
 
 
@@ -64,9 +64,9 @@ def head_room(mesh: NDArray[np.floating], person: NDArray[np.floating]) -> NDArr
     )
     rows, columns = slice(top, eye_line + 1), slice(left_most, right_most + 1)
     before, behind = low, np.array([width - 1, height - 1]) - high
-    edge = max(1, round(EDGE_SHARE * min(person.shape)))
+    edge = max(1, round(PICTURE_BORDER_SHARE * min(person.shape)))
     sides = person[rows, :edge], person[rows, -edge:], person[:edge, columns].T
-    left, right, above = (float(np.mean(side.max(axis=1) > PERSON_ALPHA)) for side in sides)
+    left, right, above = (float(np.mean(side.max(axis=1) > MIN_PERSON_ALPHA)) for side in sides)
     cut = np.array([[right, 0.0], [left, above]])  # a move leaves the border behind that lies opposite
     cut_room = CUT_HAIR_SHARE * np.array([behind, before])
     free = np.array([before, behind])
@@ -77,9 +77,9 @@ def head_room(mesh: NDArray[np.floating], person: NDArray[np.floating]) -> NDArr
 def soft_limit(
     values: NDArray[np.floating], low: NDArray[np.floating], high: NDArray[np.floating]
 ) -> NDArray[np.float64]:
-    """Values as they are over `FREE_SHARE` of the way to `low` < 0 and `high` > 0, then ever less, never reaching them."""
+    """Values as they are over `FREE_ROOM_SHARE` of the way to `low` < 0 and `high` > 0, then ever less, never reaching them."""
     end = np.where(values < 0, -np.asarray(low), high)
-    begin = FREE_SHARE * end
+    begin = FREE_ROOM_SHARE * end
     beyond = np.maximum(np.abs(values) - begin, 0)
     return np.asarray(
         np.sign(values) * (np.minimum(np.abs(values), begin) + (end - begin) * np.tanh(beyond / (end - begin)))
@@ -87,7 +87,7 @@ def soft_limit(
 
 
 def limit_rotation(rotation: NDArray[np.float64], turned: tuple[float, float] = (0.0, 0.0)) -> NDArray[np.float64]:
-    """Rotations (N, 3, 3) with turns out of the picture plane held back softly to `LARGEST_TURN`, for a face that its picture shows `turned` out of
+    """Rotations (N, 3, 3) with turns out of the picture plane held back softly to `MAX_TURN_RADIANS`, for a face that its picture shows `turned` out of
     it, about x and y, radians: it has less room to the side to which it is turned, and less to turn back (`max_counter_rotation`)."""
     limited = rotation.copy()
     own = np.asarray(turned)
@@ -98,8 +98,8 @@ def limit_rotation(rotation: NDArray[np.float64], turned: tuple[float, float] = 
             continue
         along = float(own @ vector[:2]) / turn
         aside = float(own @ own) - along**2
-        reach = np.sqrt(max(LARGEST_TURN**2 - aside, 0.0)) - along  # to where it would be turned by the largest
-        largest = float(np.clip(min(reach, max_counter_rotation(-along)), MIN_TURN_RADIANS, LARGEST_TURN))
+        reach = np.sqrt(max(MAX_TURN_RADIANS**2 - aside, 0.0)) - along  # to where it would be turned by the largest
+        largest = float(np.clip(min(reach, max_counter_rotation(-along)), MIN_TURN_RADIANS, MAX_TURN_RADIANS))
         start = FREE_TURN_SHARE * largest
         if turn > start:
             vector[:2] *= (start + (largest - start) * np.tanh((turn - start) / (largest - start))) / turn
@@ -110,7 +110,7 @@ def limit_rotation(rotation: NDArray[np.float64], turned: tuple[float, float] = 
 def max_counter_rotation(turned: float) -> float:
     """How far a face may turn against the way it is turned in its picture, radians. `turned`: how far that is, radians. The limit is where the
     side that faces away in the picture is stretched by `MAX_STRETCH_RATIO`."""
-    slant = min(SIDE_SLANT + max(turned, 0.0), np.pi / 2)
+    slant = min(FACE_SIDE_SLANT_RADIANS + max(turned, 0.0), np.pi / 2)
     return float(slant - np.arccos(np.clip(MAX_STRETCH_RATIO * np.cos(slant), 0, 1)))
 
 
@@ -126,7 +126,7 @@ def skull_centre(mesh: NDArray[np.floating]) -> NDArray[np.float64]:
     """(3,) the middle of the skull, which a head turns about more nearly than about its face: behind the middle between the
     ears, seen from the nose."""
     ears = mesh[[127, 234, 93, 356, 454, 323]].mean(axis=0)
-    return np.asarray(ears + SKULL_BEHIND_EARS * (ears - mesh[NOSE_TIP]), float)
+    return np.asarray(ears + SKULL_BEHIND_EARS * (ears - mesh[NOSE_TIP_VERTEX]), float)
 
 
 def skull_shift(motion: HeadMotion) -> NDArray[np.float64]:
@@ -145,7 +145,7 @@ def hold_back(
     centre = skull_centre(motion.neutral)
     moved = skull_shift(motion)
     moved[:, :2] = phi.inverse().offsets(soft_limit(phi.offsets(moved[:, :2]), room[0], room[1]))
-    end = np.array(LARGEST_APPROACH)
+    end = np.array(MAX_LOG_SIZE_CHANGE)
     scale = np.exp(soft_limit(np.log(motion.scale), -end, end))
     rotation = limit_rotation(motion.rotation, turned)
     shift = centre + moved - scale[:, None] * (rotation @ centre)

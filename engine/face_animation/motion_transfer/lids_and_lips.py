@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from engine.face_animation.smoothstep import smoothstep
 from engine.perception.landmarks import LEFT_IRIS, RIGHT_IRIS, eye_opening
 
-LID_PAIRS = (
+LID_EDGE_VERTEX_PAIRS = (
     *((246, 7), (161, 163), (160, 144), (159, 145), (158, 153), (157, 154), (173, 155)),
     *((466, 249), (388, 390), (387, 373), (386, 374), (385, 380), (384, 381), (398, 382)),
 )
 """Facing vertices (upper, lower) of the lids' edges, right eye first."""
-LID_SKIN = (
+LID_SKIN_VERTEX_PAIRS = (
     *((247, 246), (30, 161), (29, 160), (27, 159), (28, 158), (56, 157), (190, 173)),
     *((467, 466), (260, 388), (259, 387), (257, 386), (258, 385), (286, 384), (414, 398)),
 )
@@ -28,7 +28,7 @@ CLOSED_GAP_SHARE = 0.3
 """Share of its usual gap below which an eye counts as shut."""
 OPEN_GAP_SHARE = 0.6
 """Share of its usual gap above which an eye's gap is carried as it is."""
-BLINK_DIFFERENCES = (0.25, 0.5)
+BLINK_DIFFERENCE_SHARES = (0.25, 0.5)
 """Differences between the two eyes' gaps, as shares of their usual ones, up to which both blink alike, and from which on one winks:
 of eyes that close together a tracker sees one a frame behind the other."""
 BLINK_GAP_SHARES = (0.7, 0.9)
@@ -52,7 +52,7 @@ def lid_ratio(
     Eyes of a `target` (478, 3) open no farther than their irises allow; those that are narrower at rest than the driver's are narrowed no further than these are, by `eye_opening`: what is
     left of wide eyes is not a squint.
     """
-    upper, lower = np.array(LID_PAIRS).T
+    upper, lower = np.array(LID_EDGE_VERTEX_PAIRS).T
     gap = np.linalg.norm(meshes[:, upper] - meshes[:, lower], axis=-1)
     rest = np.linalg.norm(neutral[upper] - neutral[lower], axis=-1)
     # an eye is judged as a whole by its middle, so that the corners do not flutter
@@ -71,7 +71,7 @@ def lid_ratio(
 
 def gap_limits(target: NDArray[np.floating]) -> NDArray[np.float64]:
     """(2,) to what multiple of its gap in the picture each eye of a `target` (478, 2 or 3) opens at most, the right one first."""
-    upper, lower = np.array(LID_PAIRS).T.reshape(2, 2, 7)[:, :, 2:5]
+    upper, lower = np.array(LID_EDGE_VERTEX_PAIRS).T.reshape(2, 2, 7)[:, :, 2:5]
     gaps = np.linalg.norm(target[upper] - target[lower], axis=-1).mean(axis=1)
     rings = np.array([RIGHT_IRIS, LEFT_IRIS])
     iris = 2 * np.linalg.norm(target[rings[:, 1:]] - target[rings[:, :1]], axis=-1).mean(axis=1)
@@ -82,7 +82,7 @@ def _blinking_alike(gaps: NDArray[np.floating]) -> NDArray[np.floating]:
     """The gaps (N, 2) of right and left eyes, the same for both where they close together."""
     mean = gaps.mean(axis=1, keepdims=True)
     difference = np.abs(gaps[:, :1] - gaps[:, 1:])
-    alike = (1 - smoothstep(difference, *BLINK_DIFFERENCES)) * (1 - smoothstep(mean, *BLINK_GAP_SHARES))
+    alike = (1 - smoothstep(difference, *BLINK_DIFFERENCE_SHARES)) * (1 - smoothstep(mean, *BLINK_GAP_SHARES))
     alike *= smoothstep(gaps.min(axis=1, keepdims=True), *SHUT_GAP_SHARES)
     return gaps + alike * (mean - gaps)
 
@@ -102,11 +102,11 @@ def constrain_lids_and_lips(
     (N, 478, 3).
     """
     out = positions.astype(float)
-    upper, lower = np.array(LID_PAIRS).T
+    upper, lower = np.array(LID_EDGE_VERTEX_PAIRS).T
     wanted = out[:, lower] + ratio[..., None] * (target[upper] - target[lower])
     moved = wanted - out[:, upper]
     out[:, upper] = wanted
-    skin, edge = np.array(LID_SKIN).T
+    skin, edge = np.array(LID_SKIN_VERTEX_PAIRS).T
     index = {int(v): i for i, v in enumerate(upper)}
     out[:, skin] += 0.5 * moved[:, [index[int(v)] for v in edge]]
     top, bottom = np.array(INNER_LIP_PAIRS).T
@@ -127,7 +127,7 @@ def close_lids(placed: NDArray[np.floating], rigid: NDArray[np.floating], ratio:
     ----------
     placed : (N, 478, 2) the face, pixels. rigid : (N, 478, 2) where the head alone carries its rest. ratio : (N, 14) from `lid_ratio`.
     """
-    upper, lower = np.array(LID_PAIRS).T
+    upper, lower = np.array(LID_EDGE_VERTEX_PAIRS).T
     meeting = placed[:, lower] + ratio[..., None] * (rigid[:, upper] - rigid[:, lower])
     shut = 1 - smoothstep(ratio, 0, OPEN_GAP_SHARE)
     placed[:, upper] += shut[..., None] * (meeting - placed[:, upper])
@@ -136,7 +136,7 @@ def close_lids(placed: NDArray[np.floating], rigid: NDArray[np.floating], ratio:
 def hold_lids(placed: NDArray[np.floating], rigid: NDArray[np.floating], limits: NDArray[np.floating]) -> None:
     """Have lids open no farther than their `gap_limits` (2,) where the face ended up, in place: what corrects a point may have raised them beyond. `placed` and
     `rigid` as `close_lids` takes them."""
-    upper, lower = np.array(LID_PAIRS).T
+    upper, lower = np.array(LID_EDGE_VERTEX_PAIRS).T
     gap = placed[:, upper] - placed[:, lower]
     usual = np.linalg.norm(rigid[:, upper] - rigid[:, lower], axis=-1)
     open_by = np.linalg.norm(gap, axis=-1) / np.maximum(usual, 1e-6)

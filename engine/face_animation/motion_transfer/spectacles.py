@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.motion_transfer.lids_and_lips import LID_PAIRS, LID_SKIN
+from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS, LID_SKIN_VERTEX_PAIRS
 from engine.face_animation.smoothstep import smoothstep
 from engine.perception.face_wear import face_wear
 from engine.perception.head_pose import canonical_face
@@ -17,9 +17,9 @@ from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, MESH_SIZE, RIGHT_EY
 
 BRIDGE_STRENGTHS = (0.06, 0.1)
 """Of `FaceWear.bridge`, up to which there are no spectacles, and from which on there surely are: brows that meet over the nose have 0.07."""
-UPPER_RIM, LOWER_RIM = (-0.4, -0.22), (0.6, 0.4)
+UPPER_RIM_EYE_DISTANCES, LOWER_RIM_EYE_DISTANCES = (-0.4, -0.22), (0.6, 0.4)
 """Heights on a face between which it passes over into what lies behind a frame, from above and from below (`canonical_face`)."""
-BELOW_LIDS = (*(110, 24, 23, 22, 26), *(339, 254, 253, 252, 256))
+SKIN_BELOW_LIDS_VERTICES = (*(110, 24, 23, 22, 26), *(339, 254, 253, 252, 256))
 """Skin beside the lower lids' edges, which goes with them."""
 
 
@@ -30,7 +30,19 @@ def spectacles_share(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDAr
     if not bridge > BRIDGE_STRENGTHS[0]:  # nor where it cannot be told, NaN
         return np.zeros(MESH_SIZE)
     height = canonical_face()[:, 1]
-    share = smoothstep(bridge, *BRIDGE_STRENGTHS) * smoothstep(height, *UPPER_RIM) * smoothstep(height, *LOWER_RIM)
-    free = {*np.ravel(LID_PAIRS), *np.ravel(LID_SKIN), *RIGHT_EYE, *LEFT_EYE, *RIGHT_IRIS, *LEFT_IRIS, *BELOW_LIDS}
+    share = (
+        smoothstep(bridge, *BRIDGE_STRENGTHS)
+        * smoothstep(height, *UPPER_RIM_EYE_DISTANCES)
+        * smoothstep(height, *LOWER_RIM_EYE_DISTANCES)
+    )
+    free = {
+        *np.ravel(LID_EDGE_VERTEX_PAIRS),
+        *np.ravel(LID_SKIN_VERTEX_PAIRS),
+        *RIGHT_EYE,
+        *LEFT_EYE,
+        *RIGHT_IRIS,
+        *LEFT_IRIS,
+        *SKIN_BELOW_LIDS_VERTICES,
+    }
     share[sorted(int(vertex) for vertex in free)] = 0
     return share

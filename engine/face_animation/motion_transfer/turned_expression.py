@@ -17,7 +17,7 @@ from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.head_pose import canonical_face, mirror_vertices
 from engine.perception.landmarks import RIGID_VERTICES
 
-EVEN_FROM, EVEN_TO = np.deg2rad(5.0), np.deg2rad(18.0)
+EVENING_START_RADIANS, EVENING_END_RADIANS = np.deg2rad(5.0), np.deg2rad(18.0)
 """Turns aside, radians, from which a face's halves take their mean, and from which on they do so fully."""
 
 
@@ -26,7 +26,7 @@ def even_out_turned(motion: HeadMotion) -> NDArray[np.float32]:
     turned aside from the camera."""
     upright = _from_canonical(motion.neutral)
     facing = motion.rotation @ upright[:, 2]
-    share = smoothstep(np.abs(np.arctan2(facing[:, 0], facing[:, 2])), EVEN_FROM, EVEN_TO)
+    share = smoothstep(np.abs(np.arctan2(facing[:, 0], facing[:, 2])), EVENING_START_RADIANS, EVENING_END_RADIANS)
     frontal = motion.expression @ upright
     mirrored = frontal[:, mirror_vertices()] * (-1, 1, 1)
     even = frontal + 0.5 * share[:, None, None] * (mirrored - frontal)

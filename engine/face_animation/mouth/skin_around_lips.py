@@ -10,7 +10,7 @@ from engine.perception.face_tessellation import face_triangles
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
 
-NOSE_BASE = 2
+NOSE_BASE_VERTEX = 2
 """The skin above it stays."""
 
 
@@ -23,7 +23,7 @@ def with_lips(vertices: NDArray[np.integer], moved: NDArray[np.floating]) -> NDA
     graph = np.zeros((MESH_SIZE, MESH_SIZE))
     graph[pairs[:, 0], pairs[:, 1]] = graph[pairs[:, 1], pairs[:, 0]] = weight
     laplacian = np.diag(graph.sum(axis=1)) - graph
-    held = (face[:, 1] <= face[NOSE_BASE, 1]) | (graph.sum(axis=1) == 0)
+    held = (face[:, 1] <= face[NOSE_BASE_VERTEX, 1]) | (graph.sum(axis=1) == 0)
     held[list(FACE_OVAL)] = held[vertices] = True
     given = np.zeros((MESH_SIZE, moved.shape[1]))
     given[vertices] = moved

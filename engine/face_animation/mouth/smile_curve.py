@@ -20,10 +20,10 @@ from engine.face_animation.mouth.skin_around_lips import with_lips
 from engine.face_animation.smoothstep import smoothstep
 from engine.perception.head_pose import canonical_face
 
-CORNERS = (61, 291)
+MOUTH_CORNER_PAIR = (61, 291)
 """Of the mouth."""
 CORNER_VERTICES = (61, 76, 62, 78, 291, 306, 292, 308)
-LIPS_MIDDLE, UPPER_LIP_MIDDLE = (0, 13, 14, 17), (13,)
+LIPS_MIDDLE_VERTICES, INNER_UPPER_LIP_VERTICES = (0, 13, 14, 17), (13,)
 """Of both lips, and of the upper one's inner edge: a smile that shows teeth bends that up, whatever the lower lip does."""
 BROW_VERTEX, CHIN_VERTEX = 10, 152
 """Where the face's axis begins and ends."""
@@ -48,7 +48,7 @@ class SmileCurve:
         share = strength * smile_share(meshes, self._rest)
         heights = [
             corner_height(meshes, _up(self._rest), middle) - corner_height(positions, _up(self._target), middle)
-            for middle in (LIPS_MIDDLE, UPPER_LIP_MIDDLE)
+            for middle in (LIPS_MIDDLE_VERTICES, INNER_UPPER_LIP_VERTICES)
         ]
         lower = np.maximum(*heights)
         lift = share * np.clip(lower, 0, MAX_LIFT_SHARE) * _width(positions)
@@ -56,20 +56,20 @@ class SmileCurve:
 
 
 def corner_height(
-    faces: NDArray[np.floating], up: NDArray[np.float64], middle: tuple[int, ...] = LIPS_MIDDLE
+    faces: NDArray[np.floating], up: NDArray[np.float64], middle: tuple[int, ...] = LIPS_MIDDLE_VERTICES
 ) -> NDArray[np.float64]:
     """(...,) how much higher a mouth's corners are than its `middle`, of faces (..., 478, 2 or 3) whose way `up` (2,) is known, in widths of the mouth."""
     plane = faces[..., :2].astype(float)
-    apart = plane[..., list(CORNERS), :].mean(axis=-2) - plane[..., list(middle), :].mean(axis=-2)
+    apart = plane[..., list(MOUTH_CORNER_PAIR), :].mean(axis=-2) - plane[..., list(middle), :].mean(axis=-2)
     return np.asarray(apart @ up / _width(plane))
 
 
 def smile_share(meshes: NDArray[np.floating], rest: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) how far faces (N, 478, 2 or 3), upright as at `rest` (478, 2 or 3), smile: their mouths are wider, and their corners higher."""
-    right, left = (meshes[:, corner, :2].astype(float) for corner in CORNERS)
+    right, left = (meshes[:, corner, :2].astype(float) for corner in MOUTH_CORNER_PAIR)
     usual = rest[:, :2].astype(float)
     wider = np.linalg.norm(left - right, axis=1) / _width(usual) - 1
-    higher = ((right + left) / 2 - usual[list(CORNERS)].mean(axis=0)) @ _up(usual) / _width(usual)
+    higher = ((right + left) / 2 - usual[list(MOUTH_CORNER_PAIR)].mean(axis=0)) @ _up(usual) / _width(usual)
     return smoothstep(wider, *WIDENING_SHARES) * smoothstep(higher, *RISE_SHARES)
 
 
@@ -79,13 +79,13 @@ def corner_influence() -> NDArray[np.float64]:
     skin = [column[0] for columns in (SKIN_ABOVE_COLUMNS, SKIN_BELOW_COLUMNS) for column in columns]
     lips = np.unique([*np.ravel(UPPER_LIP_COLUMNS), *np.ravel(LOWER_LIP_COLUMNS), *skin, *CORNER_VERTICES])
     across = canonical_face()[:, 0].astype(float)
-    bend = np.minimum((across[lips] / across[CORNERS[1]]) ** 2, 1)
+    bend = np.minimum((across[lips] / across[MOUTH_CORNER_PAIR[1]]) ** 2, 1)
     return with_lips(lips, bend[:, None])[:, 0]
 
 
 def _width(faces: NDArray[np.floating]) -> NDArray[np.float64]:
     """(...,) of the mouths of faces (..., 478, 2 or 3)."""
-    across = faces[..., CORNERS[1], :2] - faces[..., CORNERS[0], :2]
+    across = faces[..., MOUTH_CORNER_PAIR[1], :2] - faces[..., MOUTH_CORNER_PAIR[0], :2]
     return np.asarray(np.maximum(np.linalg.norm(across, axis=-1), 1e-6), float)
 
 

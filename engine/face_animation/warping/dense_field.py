@@ -20,22 +20,22 @@ from engine.face_animation.warping.warp_mesh import WarpMesh
 from engine.imaging.warping.delaunay import delaunay
 from engine.perception.landmarks import FACE_OVAL
 
-BLUR_KERNELS = 10
+BLUR_KERNEL_COUNT = 10
 """Section 4: "10 different blurring kernels"."""
-LARGEST_DISK = 0.05
+LARGEST_DISK_DIAGONALS = 0.05
 """Section 4: radii in [0, 0.05 of the image's diagonal]."""
 FALLOFF_DIAGONALS = 0.15
 """Distance from the face, in diagonals, where the largest disk is reached. The paper leaves it open."""
 VERTICES_ON_DIAGONAL = 64
 """Vertices of the mesh's regular part along the diagonal; finer ones change the field by < 0.1 px."""
-BEYOND_BORDER = 0.5
+MESH_MARGIN_DIAGONALS = 0.5
 """Diagonals by which the mesh reaches beyond the image."""
 INSIDE_TOLERANCE = 1e-9
 """Pixels and weights by which a point may lie beside a triangle and still counts as inside."""
 
 
 def disk_radii(face: NDArray[np.floating], points: NDArray[np.floating], shape: tuple[int, int]) -> NDArray[np.float64]:
-    """Radius of the smoothing disk at each point, pixels: 0 on the face, growing away from it, in `BLUR_KERNELS` steps.
+    """Radius of the smoothing disk at each point, pixels: 0 on the face, growing away from it, in `BLUR_KERNEL_COUNT` steps.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def disk_radii(face: NDArray[np.floating], points: NDArray[np.floating], shape: 
     oval = face[list(FACE_OVAL), :2].astype(np.float32)
     outside = np.array([-cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in points])
     level = np.clip(outside / (FALLOFF_DIAGONALS * diagonal), 0, 1)
-    return np.round(level * (BLUR_KERNELS - 1)) / (BLUR_KERNELS - 1) * LARGEST_DISK * diagonal
+    return np.round(level * (BLUR_KERNEL_COUNT - 1)) / (BLUR_KERNEL_COUNT - 1) * LARGEST_DISK_DIAGONALS * diagonal
 
 
 def interpolation(
@@ -106,7 +106,7 @@ def build_warp_mesh(
         radii = (
             disk_radii(face, vertices, shape)
             if smoothing == "confidence"
-            else np.full(len(vertices), LARGEST_DISK * diagonal / 2)
+            else np.full(len(vertices), LARGEST_DISK_DIAGONALS * diagonal / 2)
         )
         on_border = ((vertices <= 0) | (vertices >= np.array([width - 1, height - 1]))).any(axis=1)
         smooth = np.flatnonzero((radii >= spacing / 2) & ~on_border)
@@ -132,7 +132,7 @@ def _grid_around(face: NDArray[np.floating], shape: tuple[int, int], spacing: fl
     """A regular grid outside the rings around the face's contour that reaches the image's corners, and one ring of vertices beyond its
     border: what it brings into the picture repeats the image's border."""
     height, width = shape
-    beyond = BEYOND_BORDER * float(np.hypot(height, width))
+    beyond = MESH_MARGIN_DIAGONALS * float(np.hypot(height, width))
     xs, ys = (
         np.concatenate([[-beyond], np.linspace(0, side - 1, int(np.ceil(side / spacing)) + 1), [side - 1 + beyond]])
         for side in (width, height)

@@ -20,12 +20,12 @@ from engine.perception.landmarks import FACE_OVAL
 from engine.perception.matting import MattingModel
 from engine.perception.person import person_mask
 
-BEYOND_SHARE = 0.2
+LAYER_MARGIN_SHARE = 0.2
 """Share of a picture's shorter side by which its layer goes on beyond its border."""
 FRAME_SHARE = 0.012
 """Share of it that may be a frame."""
 
-CAP_SHARE = 0.04
+HEAD_TOP_SHARE = 0.04
 """Share of its height within which the sides of a head that is cut at the top show how round it is."""
 
 LACE_SHARE = 0.03
@@ -83,7 +83,7 @@ def beyond_border(layer: NDArray[np.uint8], inner: Window | None = None) -> tupl
     """
     shorter = min(layer.shape[:2])
     frame = max(1, round(FRAME_SHARE * shorter))
-    margin = round(BEYOND_SHARE * shorter)
+    margin = round(LAYER_MARGIN_SHARE * shorter)
     height, width = layer.shape[:2]
     shown = inner or Window(0, 0, width, height)
     source = Window(shown.left + frame, shown.top + frame, shown.right - frame, shown.bottom - frame)
@@ -108,7 +108,7 @@ def _cap(alpha: NDArray[np.uint8], height: int, left: int, right: int) -> NDArra
     bare = np.flatnonzero(~covered)
     if not len(bare):
         return np.full((height, left + len(covered) + right), 255, np.uint8)
-    lower = max(1, round(CAP_SHARE * len(alpha)))
+    lower = max(1, round(HEAD_TOP_SHARE * len(alpha)))
     half, half_lower = covered.sum() / 2, (alpha[lower] > 127).sum() / 2
     centre = max((half_lower**2 - half**2) / lower + lower, lower) / 2  # rows below the first
     after = np.searchsorted(bare, columns)

@@ -16,15 +16,15 @@ from engine.geometry.adjacency import edges
 from engine.imaging.warping.delaunay import delaunay
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, eye_distance
 
-BAND_EYE_DISTANCES = 0.6
+CHEEK_BAND_EYE_DISTANCES = 0.6
 """Width of the band inside the contour."""
-ROUNDS = 2
+SUBDIVISION_ROUNDS = 2
 """How often each edge is halved."""
 MIN_EDGE_EYE_DISTANCES = 0.06
 """Edges shorter than this stay whole."""
-CONTOUR_TOLERANCE = 1e-3
+CONTOUR_TOLERANCE_EYE_DISTANCES = 1e-3
 """Eye distances from the contour within which a point lies on it."""
-APART = (*LEFT_EYE, *RIGHT_EYE, *LIPS_OUTER, *LIPS_INNER)
+FOLDING_VERTICES = (*LEFT_EYE, *RIGHT_EYE, *LIPS_OUTER, *LIPS_INNER)
 """Vertices at which a face moves by folds: nothing is rounded there."""
 
 
@@ -32,14 +32,16 @@ def points_between(face: NDArray[np.floating], usable: NDArray[np.integer]) -> t
     """Of a face (478, 2) the points between its `usable` vertices (U,), (P, 2), and what they take of the offsets of these, (P, U), whose rows sum to one."""
     unit, oval = float(eye_distance(face[:, :2])), face[list(FACE_OVAL), :2].astype(np.float32)
     points, weights = np.asarray(face[usable, :2], np.float64), eye_array(len(usable), format="csr")
-    apart = np.isin(usable, APART)
-    for _ in range(ROUNDS):
+    apart = np.isin(usable, FOLDING_VERTICES)
+    for _ in range(SUBDIVISION_ROUNDS):
         triangles = delaunay(points)
         depth = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in points]) / unit
         pairs = edges(triangles)
         step = points[pairs[:, 1]] - points[pairs[:, 0]]
-        chosen = (depth[pairs] > -CONTOUR_TOLERANCE).all(axis=1) & (depth[pairs] < BAND_EYE_DISTANCES).all(axis=1)
-        chosen &= (depth[pairs] > CONTOUR_TOLERANCE).any(axis=1) & ~apart[pairs].any(axis=1)
+        chosen = (depth[pairs] > -CONTOUR_TOLERANCE_EYE_DISTANCES).all(axis=1) & (
+            depth[pairs] < CHEEK_BAND_EYE_DISTANCES
+        ).all(axis=1)
+        chosen &= (depth[pairs] > CONTOUR_TOLERANCE_EYE_DISTANCES).any(axis=1) & ~apart[pairs].any(axis=1)
         chosen &= np.linalg.norm(step, axis=1) > MIN_EDGE_EYE_DISTANCES * unit
         pairs, step = pairs[chosen], step[chosen]
         slopes = _gradients(points, edges(triangles))

@@ -17,9 +17,9 @@ from engine.compiled import njit
 
 MIN_AREA_SHARE = 0.2
 """Share of its area that a triangle keeps."""
-AREA_TOLERANCE = 0.05
+AREA_TOLERANCE_SHARE = 0.05
 """Share of its area by which a triangle may fall short of that."""
-MAX_ROUNDS = 40
+MAX_UNFOLDING_ROUNDS = 40
 """After so many rounds what is left folded stays so: where the face itself leaves no room."""
 
 
@@ -28,7 +28,7 @@ def unfold(offsets, rest, triangles, held):  # type: ignore[no-untyped-def]
     """Change offsets (V, 2 or more) of vertices `rest` (V, 2), in place, until no triangle (T, 3) with a free one keeps less than
     `MIN_AREA_SHARE` of its area; those that are `held` (V,) stay. Returns the rounds that it took."""
     place, gradient = np.zeros((3, 2)), np.zeros((3, 2))
-    for turn in range(MAX_ROUNDS):
+    for turn in range(MAX_UNFOLDING_ROUNDS):
         clean = True
         for t in range(len(triangles)):
             a, b, c = triangles[t]
@@ -60,7 +60,7 @@ def unfold(offsets, rest, triangles, held):  # type: ignore[no-untyped-def]
                         before = (rest[p, 0] - rest[q, 0]) ** 2 + (rest[p, 1] - rest[q, 1]) ** 2
                         kept = size * min(1.0, np.sqrt(square / max(before, 1e-6)))
             lack = MIN_AREA_SHARE * kept - sign * area
-            if lack <= AREA_TOLERANCE * kept:
+            if lack <= AREA_TOLERANCE_SHARE * kept:
                 continue
             clean = False
             step = min(lack / total, np.sqrt(size / max(longest, 1e-6)))
@@ -71,4 +71,4 @@ def unfold(offsets, rest, triangles, held):  # type: ignore[no-untyped-def]
                         offsets[v, d] += step * gradient[k, d]
         if clean:
             return turn
-    return MAX_ROUNDS
+    return MAX_UNFOLDING_ROUNDS

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth
-from engine.face_animation.mouth.pictured.teeth_strip import ARCH_CURVATURE
+from engine.face_animation.mouth.pictured.teeth_strip import ARCH_CURVATURE_PER_EYE_DISTANCE
 
 HALF_WIDTH, UPPER_MARGIN_EYE_DISTANCES, LOWER_MARGIN_EYE_DISTANCES = 0.45, 0.3, 0.04
 """Eye distances from the middle of the edge of the teeth."""
@@ -35,7 +35,7 @@ def teeth_sheet(teeth: PhotoTeeth) -> TeethSheet:
         np.linspace(-UPPER_MARGIN_EYE_DISTANCES, LOWER_MARGIN_EYE_DISTANCES, ROWS + 1),
     )
     x, y = (one.ravel() for one in np.meshgrid(across, down))
-    vertices = np.column_stack([at.middle + x, at.edge + y, at.depth + ARCH_CURVATURE * x**2])
+    vertices = np.column_stack([at.middle + x, at.edge + y, at.depth + ARCH_CURVATURE_PER_EYE_DISTANCE * x**2])
     uv = np.column_stack(
         [
             (x + HALF_WIDTH) / (2 * HALF_WIDTH),

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d, uniform_filter1d
 
-from engine.face_animation.mouth.modelled.jaw import CHIN
+from engine.face_animation.mouth.modelled.jaw import CHIN_VERTICES
 from engine.face_animation.mouth.modelled.modelled_mouth import jaw_behind_lips
 from engine.face_animation.mouth.modelled.mouth_parts import (
     TONGUE_JAW_SHARE,
@@ -94,7 +94,7 @@ def _mouth(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
     def with_jaw(vertices: NDArray[np.float64], share: float = 1.0) -> dict[str, NDArray[np.float64]]:
         moves = {OPEN_JAW: open_jaw._replace(angle=share * open_jaw.angle).moved(vertices) - vertices}
         for unit in JAW_MOVES:
-            chin = units.doing({unit: 1.0})[list(CHIN)].mean(axis=0)
+            chin = units.doing({unit: 1.0})[list(CHIN_VERTICES)].mean(axis=0)
             moves[unit] = np.broadcast_to(chin, vertices.shape)
         return moves
 

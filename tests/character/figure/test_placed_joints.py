@@ -12,7 +12,7 @@ from engine.character import KIND
 from engine.character.figure.figure import Choice, find_figure
 from engine.character.figure.placed_joints import (
     PLACEABLE_JOINTS,
-    REQUIRED_JOINTS,
+    REQUIRED_PLACED_JOINTS,
     check_places,
     check_skeleton,
     in_words,
@@ -56,8 +56,8 @@ def test_whoever_is_seen_from_the_side_has_a_skeleton() -> None:
 @pytest.mark.parametrize(
     "places",
     [
-        dict.fromkeys(REQUIRED_JOINTS, (200.0, 200.0)),
-        {name: (40.0 + 10 * i, 50.0 + 25 * i) for i, name in enumerate(REQUIRED_JOINTS)},
+        dict.fromkeys(REQUIRED_PLACED_JOINTS, (200.0, 200.0)),
+        {name: (40.0 + 10 * i, 50.0 + 25 * i) for i, name in enumerate(REQUIRED_PLACED_JOINTS)},
         {**DRAWN, **{f"{side}{joint}": (260.0, 300.0) for side in ("Left", "Right") for joint in ("Shoulder", "Hip")}},
     ],
     ids=["one point", "one line", "no trunk"],
@@ -86,7 +86,10 @@ def test_what_is_refused_of_joints_can_be_corrected_by_them(tmp_path: Path) -> N
 
 
 def test_landmarks_are_told_in_plain_words_and_a_pair_of_them_once() -> None:
-    assert in_words(REQUIRED_JOINTS) == "both shoulders, both elbows, both wrists, both hips, both knees, both ankles"
+    assert (
+        in_words(REQUIRED_PLACED_JOINTS)
+        == "both shoulders, both elbows, both wrists, both hips, both knees, both ankles"
+    )
     assert in_words(["RightKnee", "Nose", "LeftAnkle"]) == "the right knee, the nose, the left ankle"
     assert in_words(["LeftIndex", "RightFootIndex"]) == "the left index finger, the right toes"
     assert not any(letter.isupper() for letter in in_words(PLACEABLE_JOINTS))

@@ -10,7 +10,7 @@ import pytest
 from template_character import still, template_character
 
 from engine.character.film.motions import MotionChoice, Played, choose_motion
-from engine.character.pipeline import MAX_BYTES, write_small_glb
+from engine.character.pipeline import MAX_GLB_BYTES, write_small_glb
 from engine.character.rig.rigging import Character
 from engine.geometry.camera import Camera
 from engine.geometry.skeleton import Skeleton
@@ -77,7 +77,7 @@ def test_every_built_in_motion_is_written_after_the_chosen_one(character: Charac
 def test_the_file_is_sound_and_small(glb: Path) -> None:
     assert validate(glb)["messages"] == []
     assert {one["name"] for one in Glb(glb).json["animations"]} >= WRITTEN
-    assert glb.stat().st_size < MAX_BYTES / 3
+    assert glb.stat().st_size < MAX_GLB_BYTES / 3
 
 
 @pytest.mark.parametrize("name", sorted(WRITTEN))

@@ -17,7 +17,7 @@ from engine.face_animation.creases.fine_details import (
     BRIGHTENING_FACTOR,
     MIN_RATIO,
     RATIO_FLOOR_GREY_LEVELS,
-    RATIO_STEP,
+    RATIO_QUANTUM,
     TEMPORAL_WINDOW_FRAMES,
     DetailRegion,
     RatioImages,
@@ -182,7 +182,7 @@ def test_kept_ratio_images_are_those_that_were_made(tmp_path: Path, monkeypatch:
     kept = keep_ratio_images(track, 0)
     assert list(own.iterdir()) == [kept.images.file]
     for image, expected in zip(kept, RatioImages(track, 0), strict=True):
-        np.testing.assert_allclose(image, expected, atol=5 * RATIO_STEP)
+        np.testing.assert_allclose(image, expected, atol=5 * RATIO_QUANTUM)
         assert (image[CHEEK[0], 120:150] == 1).all()
     kept.images.file.unlink()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from engine.face_animation.creases.shading_colour import FLOOR_GREY_LEVELS, SLOPES, shading_slopes
+from engine.face_animation.creases.shading_colour import CHANNEL_SLOPE_RANGE, FLOOR_GREY_LEVELS, shading_slopes
 from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS
 
 SKIN = np.array([220.0, 170.0, 140.0])
@@ -46,5 +46,5 @@ def test_a_coloured_light_from_one_side_does_not_run_away() -> None:
     picture = np.zeros((100, 120, 3), np.uint8)
     picture[..., 0], picture[..., 1], picture[..., 2] = 200, 150, np.linspace(60, 250, 120)
     found = shading_slopes(picture, np.ones((100, 120)), 40)
-    np.testing.assert_array_equal(found, np.clip(found, *np.asarray(SLOPES, np.float32)))
-    assert found[2] == pytest.approx(SLOPES[1][2])
+    np.testing.assert_array_equal(found, np.clip(found, *np.asarray(CHANNEL_SLOPE_RANGE, np.float32)))
+    assert found[2] == pytest.approx(CHANNEL_SLOPE_RANGE[1][2])

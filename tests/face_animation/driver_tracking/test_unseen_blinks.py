@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.driver_tracking.unseen_blinks import eye_contrast
-from engine.face_animation.motion_transfer.lids_and_lips import LID_PAIRS, LID_SKIN, lid_ratio
+from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS, LID_SKIN_VERTEX_PAIRS, lid_ratio
 from engine.media.excerpt import Excerpt
 from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
 from engine.perception.landmarks import LEFT_EYE, RIGHT_EYE
@@ -82,7 +82,7 @@ def test_an_eye_out_of_sight_has_no_contrast() -> None:
 
 
 def test_lids_and_their_skin_are_paired_in_the_same_order() -> None:
-    assert [edge for _, edge in LID_SKIN] == [upper for upper, _ in LID_PAIRS]
+    assert [edge for _, edge in LID_SKIN_VERTEX_PAIRS] == [upper for upper, _ in LID_EDGE_VERTEX_PAIRS]
 
 
 def test_a_blink_that_the_tracker_misses(media) -> None:

@@ -21,7 +21,7 @@ from engine.face_animation.eyes.eyes import (
     held_along,
     held_looks,
 )
-from engine.face_animation.motion_transfer.lids_and_lips import LID_PAIRS
+from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
 SIZE = (360, 320)
@@ -33,7 +33,7 @@ CONTOURS, IRISES = (RIGHT_EYE, LEFT_EYE), (RIGHT_IRIS, LEFT_IRIS)
 def mesh() -> NDArray[np.float32]:
     """Wide open eyes, so that the whole iris can be measured."""
     wide = shut(placed(120, (180, 140)), 1.6)
-    lower = np.array(LID_PAIRS)[:, 1]
+    lower = np.array(LID_EDGE_VERTEX_PAIRS)[:, 1]
     wide[lower, 1] += 9 * np.repeat([[0.4, 0.8, 1, 1, 1, 0.8, 0.4]], 2, axis=0).ravel()
     return wide
 

@@ -7,7 +7,7 @@ import pytest
 from made_face import placed
 
 from engine.face_animation.motion_transfer.body_motion import (
-    NECK_ROOM,
+    NECK_ROOM_FACE_LENGTHS,
     body_share,
     body_shift,
     keep_on_floor,
@@ -29,7 +29,7 @@ def test_a_head_that_goes_a_little_leaves_the_shoulders() -> None:
 def test_the_neck_never_gets_longer_than_it_can() -> None:
     skull = np.stack(np.meshgrid(np.linspace(-200, 200, 21), np.linspace(-200, 200, 21)), axis=-1).reshape(-1, 2)
     neck = skull - body_shift(skull, np.zeros_like(skull), 50.0)
-    side, (up, down) = NECK_ROOM
+    side, (up, down) = NECK_ROOM_FACE_LENGTHS
     assert np.abs(neck[:, 0]).max() <= 50 * side
     assert neck[:, 1].min() >= -50 * up and neck[:, 1].max() <= 50 * down
 

@@ -11,7 +11,7 @@ from engine.face_animation.motion_transfer.contour import (
     DEPTH_BAND_EYE_DISTANCES,
     EAR_VERTICES,
     EVEN_BAND_EYE_DISTANCES,
-    MAX_GAIN,
+    MAX_DISTANCE_GAIN,
     beside_contour,
     even_depth,
     even_expression,
@@ -72,7 +72,7 @@ def test_a_point_beside_the_contour_is_stretched_no_more_than_its_side(mesh: NDA
     kept = faces.copy()
     keep_inside(kept, mesh, SEEN)
     own, now = (-rim_distance(mesh, face[[CHEEK]])[0] for face in (mesh, kept[0]))
-    assert now == pytest.approx(MAX_GAIN * own, rel=0.1)
+    assert now == pytest.approx(MAX_DISTANCE_GAIN * own, rel=0.1)
     others = np.arange(MESH_SIZE) != CHEEK
     np.testing.assert_array_equal(kept[0, others], faces[0, others])
 

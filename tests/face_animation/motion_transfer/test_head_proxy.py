@@ -17,7 +17,7 @@ from engine.face_animation.motion_transfer.head_proxy import (
     surface_depth,
 )
 from engine.face_animation.motion_transfer.head_room import (
-    LARGEST_TURN,
+    MAX_TURN_RADIANS,
     MIN_TURN_RADIANS,
     limit_rotation,
     max_counter_rotation,
@@ -61,7 +61,7 @@ def test_neighbours_beside_the_contour_have_one_depth(yaw: float) -> None:
     close = (apart > 0) & (apart < 0.15 * UNIT)
     slope = np.abs(depth[beside, None] - depth[None, beside])[close] / np.maximum(apart[close], 0.05 * UNIT)
     assert close.sum() > 20
-    assert slope.max() < 1 / np.tan(LARGEST_TURN)  # what the largest turn would fold
+    assert slope.max() < 1 / np.tan(MAX_TURN_RADIANS)  # what the largest turn would fold
 
 
 def test_depth_beside_the_face_falls_back_to_the_skull_s_middle(mesh: NDArray) -> None:
@@ -183,8 +183,8 @@ def test_large_turns_are_held_back_softly() -> None:
     held = limit_rotation(np.stack([turn(yaw=a) for a in asked]))
     angles = np.array([cv2.Rodrigues(r)[0][1, 0] for r in held])
     angles = np.rad2deg(np.abs(angles))
-    assert angles.max() <= np.rad2deg(LARGEST_TURN) + 1e-9
-    assert angles.max() > 0.99 * np.rad2deg(LARGEST_TURN)
+    assert angles.max() <= np.rad2deg(MAX_TURN_RADIANS) + 1e-9
+    assert angles.max() > 0.99 * np.rad2deg(MAX_TURN_RADIANS)
     assert (np.diff(angles) >= -1e-9).all()
     assert np.abs(np.diff(angles, 2)).max() < 0.1
 

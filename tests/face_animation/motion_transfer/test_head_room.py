@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from engine.face_animation.motion_transfer.alignment import align
 from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_motion, turn_angles
 from engine.face_animation.motion_transfer.head_room import (
-    FREE_SHARE,
-    LARGEST_TURN,
+    FACE_SIDE_SLANT_RADIANS,
+    FREE_ROOM_SHARE,
     MAX_STRETCH_RATIO,
+    MAX_TURN_RADIANS,
     MIN_TURN_RADIANS,
-    SIDE_SLANT,
     head_room,
     hold_back,
     limit_rotation,
@@ -53,7 +53,7 @@ def test_hair_that_the_border_cuts_comes_down_by_a_part_of_it(face: NDArray) -> 
 
 def test_what_there_is_room_for_is_kept_and_nothing_goes_beyond() -> None:
     low, high = np.array([-10.0]), np.array([40.0])
-    kept = np.array([[-10 * FREE_SHARE], [0.0], [40 * FREE_SHARE]])
+    kept = np.array([[-10 * FREE_ROOM_SHARE], [0.0], [40 * FREE_ROOM_SHARE]])
     np.testing.assert_allclose(soft_limit(kept, low, high), kept)
     asked = np.linspace(-300, 300, 2001)[:, None]
     held = soft_limit(asked, low, high)
@@ -83,7 +83,7 @@ def test_large_motion_saturates_and_the_expression_stays(face: NDArray) -> None:
     shift = phi.offsets(skull_shift(held)[0, :2])
     assert 40 < shift[0] <= 50 and -20 <= shift[1] < -15
     turned = held.rotation[0] @ driver.T
-    assert turn_angles(turned.T[None], driver)[0] <= LARGEST_TURN + 1e-6
+    assert turn_angles(turned.T[None], driver)[0] <= MAX_TURN_RADIANS + 1e-6
     np.testing.assert_array_equal(held.expression, motion.expression)
 
 
@@ -91,8 +91,8 @@ def test_large_motion_saturates_and_the_expression_stays(face: NDArray) -> None:
 def test_a_face_that_turns_back_stretches_its_far_side_by_so_much(turned: float) -> None:
     """A patch that slants by an angle is as wide as its cosine; it cannot be wider than seen from the front."""
     own = np.deg2rad(turned)
-    stretch = np.cos(SIDE_SLANT + own - max_counter_rotation(own)) / np.cos(SIDE_SLANT + own)
-    assert stretch == pytest.approx(min(MAX_STRETCH_RATIO, 1 / np.cos(SIDE_SLANT + own)))
+    stretch = np.cos(FACE_SIDE_SLANT_RADIANS + own - max_counter_rotation(own)) / np.cos(FACE_SIDE_SLANT_RADIANS + own)
+    assert stretch == pytest.approx(min(MAX_STRETCH_RATIO, 1 / np.cos(FACE_SIDE_SLANT_RADIANS + own)))
 
 
 @pytest.mark.parametrize("turned", [-40.0, -20.0, 0.0, 20.0, 60.0])
@@ -104,5 +104,5 @@ def test_turns_end_where_the_picture_shows_no_more(turned: float) -> None:
         rotations = np.stack([cv2.Rodrigues(np.array([0.0, angle, 0.0]))[0] for angle in wanted])
         held = side * np.array([cv2.Rodrigues(r)[0][1, 0] for r in limit_rotation(rotations, (0.0, own))])
         assert (np.diff(held) > -1e-6).all()
-        most = min(max_counter_rotation(abs(own)), LARGEST_TURN) if side * own < 0 else LARGEST_TURN - abs(own)
+        most = min(max_counter_rotation(abs(own)), MAX_TURN_RADIANS) if side * own < 0 else MAX_TURN_RADIANS - abs(own)
         assert held[-1] <= max(most, MIN_TURN_RADIANS) + 1e-6

@@ -11,13 +11,13 @@ from engine.face_animation.motion_transfer.landmark_residuals import (
     CORRECTED_SHARE,
     CORRECTED_SHARE_AT_LIPS,
     CROP_EYE_DISTANCE,
-    MAX_RESIDUAL,
+    MAX_RESIDUAL_EYE_DISTANCES,
     REGRESSION_RIDGE,
     LandmarkResiduals,
     fit_residuals,
     no_residuals,
 )
-from engine.face_animation.motion_transfer.lids_and_lips import INNER_LIP_PAIRS, LID_PAIRS
+from engine.face_animation.motion_transfer.lids_and_lips import INNER_LIP_PAIRS, LID_EDGE_VERTEX_PAIRS
 
 REST = placed(60, (150, 150))
 OPEN = opened(REST, 0.5)
@@ -58,8 +58,10 @@ def test_corrections_are_upright_and_as_large_as_the_face() -> None:
 
 
 def test_no_more_is_believed_than_a_tracker_can_tell() -> None:
-    found = corrected(fit_residuals(FACES, amiss(10 * MAX_RESIDUAL, 0)), FACES[1], OPEN)[CHIN]
-    assert found == pytest.approx((-CORRECTED_SHARE / (1 + REGRESSION_RIDGE) * 60 * MAX_RESIDUAL, 0), abs=0.02)
+    found = corrected(fit_residuals(FACES, amiss(10 * MAX_RESIDUAL_EYE_DISTANCES, 0)), FACES[1], OPEN)[CHIN]
+    assert found == pytest.approx(
+        (-CORRECTED_SHARE / (1 + REGRESSION_RIDGE) * 60 * MAX_RESIDUAL_EYE_DISTANCES, 0), abs=0.02
+    )
 
 
 def test_frames_are_corrected_together_as_each_by_itself() -> None:
@@ -75,7 +77,7 @@ def test_nothing_known_corrects_nothing() -> None:
     assert not corrected(no_residuals(), FACES[1], OPEN).any()
 
 
-@pytest.mark.parametrize("pairs", [INNER_LIP_PAIRS, LID_PAIRS], ids=["lips", "lids"])
+@pytest.mark.parametrize("pairs", [INNER_LIP_PAIRS, LID_EDGE_VERTEX_PAIRS], ids=["lips", "lids"])
 def test_what_is_closed_stays_closed(pairs) -> None:
     """A tracker that finds closed lips or lids apart moves both by the same; on open ones each by its own."""
     top, bottom = np.array(pairs).T

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.lids_and_lips import (
     INNER_LIP_PAIRS,
-    LID_PAIRS,
+    LID_EDGE_VERTEX_PAIRS,
     MAX_GAP_IRIS_DIAMETERS,
     MAX_GAP_RATIO,
     MIN_GAP_LIMIT,
@@ -23,7 +23,7 @@ from engine.face_animation.motion_transfer.lids_and_lips import (
 from engine.perception.head_pose import canonical_face, mirror_vertices
 from engine.perception.landmarks import eye_opening
 
-UPPER, LOWER = np.array(LID_PAIRS).T
+UPPER, LOWER = np.array(LID_EDGE_VERTEX_PAIRS).T
 LEFT_LIDS = [*UPPER[7:], *LOWER[7:]]
 TOP, BOTTOM = np.array(INNER_LIP_PAIRS).T
 
@@ -134,9 +134,9 @@ def test_a_closing_lid_moves_and_the_lower_one_stays(target: NDArray) -> None:
 
 
 def test_lid_skin_follows_between_lid_and_brow(target: NDArray) -> None:
-    from engine.face_animation.motion_transfer.lids_and_lips import LID_SKIN
+    from engine.face_animation.motion_transfer.lids_and_lips import LID_SKIN_VERTEX_PAIRS
 
-    skin, edge = np.array(LID_SKIN).T
+    skin, edge = np.array(LID_SKIN_VERTEX_PAIRS).T
     out = constrain_lids_and_lips(target[None], target, np.zeros((1, 14)))[0]
     way = np.linalg.norm((out - target)[skin], axis=1) / np.linalg.norm((out - target)[edge], axis=1)
     np.testing.assert_allclose(way, 0.5, atol=1e-4)
@@ -187,7 +187,7 @@ def test_shut_lids_meet_wherever_the_face_ended_up(target: NDArray, ratio: float
     """Points that something parted again are put together in a shut eye; one that is open keeps what was made of it."""
     rigid = target[None, :, :2] + np.array([20.0, -8.0])
     parted = rigid + np.random.default_rng(4).normal(scale=2.0, size=rigid.shape)
-    upper, lower = np.array(LID_PAIRS).T
+    upper, lower = np.array(LID_EDGE_VERTEX_PAIRS).T
     placed = parted.copy()
     close_lids(placed, rigid, np.full((1, 14), ratio))
     if ratio == 0:

@@ -8,7 +8,7 @@ from made_face import placed
 from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.control_points import place_control_points
-from engine.face_animation.motion_transfer.lids_and_lips import LID_PAIRS
+from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS
 from engine.face_animation.motion_transfer.spectacles import spectacles_share
 from engine.perception.landmarks import LIPS_OUTER
 
@@ -39,11 +39,11 @@ def test_a_face_without_spectacles_is_free() -> None:
 def test_where_a_frame_lies_the_skull_alone_moves() -> None:
     share = spectacles_share(picture(worn=True), FACE)
     assert share[list(UNDER_RIM)].min() > 0.95
-    assert not share[np.ravel(LID_PAIRS)].any(), "lids shut behind it"
+    assert not share[np.ravel(LID_EDGE_VERTEX_PAIRS)].any(), "lids shut behind it"
     assert not share[list(LIPS_OUTER)].any()
 
 
 def test_the_target_s_points_know_it() -> None:
     person = np.ones(SIZE[::-1], np.float32)
     with_frame = place_control_points(FACE, person, rgb=picture(worn=True)).bare
-    assert with_frame[list(UNDER_RIM)].max() < 0.05 and (with_frame[np.ravel(LID_PAIRS)] == 1).all()
+    assert with_frame[list(UNDER_RIM)].max() < 0.05 and (with_frame[np.ravel(LID_EDGE_VERTEX_PAIRS)] == 1).all()

@@ -15,9 +15,9 @@ from engine.face_animation.motion_transfer.control_points import ControlPoints, 
 from engine.face_animation.motion_transfer.head_proxy import contour_weights
 from engine.face_animation.warping.contour_rings import rings_end
 from engine.face_animation.warping.dense_field import (
-    BLUR_KERNELS,
+    BLUR_KERNEL_COUNT,
     FALLOFF_DIAGONALS,
-    LARGEST_DISK,
+    LARGEST_DISK_DIAGONALS,
     build_warp_mesh,
     disk_radii,
     interpolation,
@@ -85,10 +85,10 @@ def plain_field(control: NDArray, offsets: NDArray, outside: NDArray) -> NDArray
     """Forward offsets of every pixel: interpolated over the triangulation, then blurred by ten disks."""
     field = LinearNDInterpolator(Delaunay(control), offsets.astype(float))(pixels())
     diagonal = float(np.hypot(*SHAPE))
-    level = np.round(np.clip(outside / (FALLOFF_DIAGONALS * diagonal), 0, 1) * (BLUR_KERNELS - 1)).astype(int)
+    level = np.round(np.clip(outside / (FALLOFF_DIAGONALS * diagonal), 0, 1) * (BLUR_KERNEL_COUNT - 1)).astype(int)
     out = field.copy()
-    for k in range(1, BLUR_KERNELS):
-        radius = k / (BLUR_KERNELS - 1) * LARGEST_DISK * diagonal
+    for k in range(1, BLUR_KERNEL_COUNT):
+        radius = k / (BLUR_KERNEL_COUNT - 1) * LARGEST_DISK_DIAGONALS * diagonal
         reach = int(np.ceil(radius))
         y, x = np.mgrid[-reach : reach + 1, -reach : reach + 1]
         disk = (x**2 + y**2 <= radius**2).astype(float)
@@ -194,8 +194,8 @@ def test_disks_grow_from_nothing_to_five_hundredths_of_the_diagonal_in_ten_steps
     line = np.array([[top[0], top[1] - d] for d in np.linspace(-20, 0.3 * diagonal, 400)])
     radii = disk_radii(face, line, SHAPE)
     assert (np.diff(radii) >= 0).all()
-    assert radii[0] == 0 and radii[-1] == pytest.approx(LARGEST_DISK * diagonal)
-    assert len(np.unique(radii.round(6))) == BLUR_KERNELS
+    assert radii[0] == 0 and radii[-1] == pytest.approx(LARGEST_DISK_DIAGONALS * diagonal)
+    assert len(np.unique(radii.round(6))) == BLUR_KERNEL_COUNT
     assert (disk_radii(face, face[:, :2], SHAPE) == 0).all()
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from engine.face_animation.warping.unfold import AREA_TOLERANCE, MIN_AREA_SHARE, unfold
+from engine.face_animation.warping.unfold import AREA_TOLERANCE_SHARE, MIN_AREA_SHARE, unfold
 from engine.imaging.warping.delaunay import delaunay
 
 
@@ -46,7 +46,7 @@ def test_where_fixed_vertices_are_pushed_over_others_those_give_way(sheet: NDArr
     after = areas(sheet + offsets[:, :2], triangles) / areas(sheet, triangles)
     free = triangles.max(axis=1) >= 10
     assert kept[free].min() < 0 or push < 13
-    assert after[free].min() > MIN_AREA_SHARE - AREA_TOLERANCE - 1e-3
+    assert after[free].min() > MIN_AREA_SHARE - AREA_TOLERANCE_SHARE - 1e-3
     np.testing.assert_array_equal(offsets[:10], before[:10])
     np.testing.assert_array_equal(offsets[:, 2], before[:, 2])
 

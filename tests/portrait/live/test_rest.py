@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from engine.face_animation.motion_transfer.lids_and_lips import LID_PAIRS
+from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS
 from engine.perception.face_track.face_crop import CROP_SHAPE, FaceCrop, crop_place
 from engine.perception.head_pose import canonical_face
 from engine.portrait.live.rest import MAX_WAIT_SECONDS, Calibration, RestCalibration, median_look
@@ -28,7 +28,7 @@ def face(yaw: float = 0.0, shift: tuple[float, float] = (0, 0)) -> NDArray[np.fl
 
 def blinking() -> NDArray[np.float64]:
     shut = face()
-    upper, lower = np.array(LID_PAIRS).T
+    upper, lower = np.array(LID_EDGE_VERTEX_PAIRS).T
     shut[upper] = shut[lower]
     return shut
 

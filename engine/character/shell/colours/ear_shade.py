@@ -12,11 +12,11 @@ from engine.character.shell.template_mesh import template_mesh
 from engine.geometry.adjacency import neighbours
 from engine.geometry.surface import vertex_normals
 
-SMOOTHING_ROUNDS = 12
+EAR_SMOOTHING_ROUNDS = 12
 """Times that the surface is averaged with what is around: what lies below that is a fold."""
 FOLD_DEPTH_METRES = 0.003
 """Metres below it from which on a fold is as dark as any."""
-FOLD_SHADE, RIDGE_SHADE = 0.55, 0.14
+FOLD_SHADE_SHARE, RIDGE_LIGHT_SHARE = 0.55, 0.14
 """Share of the light that a fold lacks, and that a ridge has more."""
 
 
@@ -28,8 +28,8 @@ def ear_shade() -> NDArray[np.float32]:
     beside = neighbours(mesh.triangles, len(places))
     count = np.maximum(np.asarray(beside.sum(1)).ravel(), 1)
     smooth = places
-    for _ in range(SMOOTHING_ROUNDS):
+    for _ in range(EAR_SMOOTHING_ROUNDS):
         smooth = (beside @ smooth) / count[:, None]
     height = ((places - smooth) * vertex_normals(places, mesh.triangles)).sum(1) / FOLD_DEPTH_METRES
-    shade = 1 + np.clip(FOLD_SHADE * height, -FOLD_SHADE, RIDGE_SHADE)
+    shade = 1 + np.clip(FOLD_SHADE_SHARE * height, -FOLD_SHADE_SHARE, RIDGE_LIGHT_SHARE)
     return np.where(mesh.ear, shade, 1).astype(np.float32)

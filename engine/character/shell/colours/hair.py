@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
 from engine.character.shell.colours.head_map import HeadMap
-from engine.character.shell.colours.unrolled import COLUMNS, ROW_METRES
+from engine.character.shell.colours.unrolled import ROW_METRES, UNROLLED_COLUMNS
 from engine.imaging.filling.nearest import nearest_in
 
 HAIR_EDGE_RADIANS = {
@@ -32,9 +32,9 @@ MIN_EDGE_RADIANS = 0.45
 """Radians from the face's middle from which on a hairline is looked for."""
 EDGE_CELLS = 6
 """Cells at the end of what is seen of a row that must be hair for it to go on from there."""
-ROW_FILTER, ROW_SMOOTHING = 9, 3.0
+HAIRLINE_MEDIAN_ROWS, HAIRLINE_SMOOTHING_ROWS = 9, 3.0
 """Rows over which what is seen of a hairline is the median, and averaged."""
-CROWN_SHARE = 0.7
+FULL_HAIR_CROWN_SHARE = 0.7
 """Share of the way from the hairline to the crown above which hair is all round."""
 UNEVENNESS_RADIANS, UNEVENNESS_ROWS = 0.04, 2.5
 """By how much hair begins unevenly, and ends at the nape: standard deviation."""
@@ -53,24 +53,24 @@ MIN_STRAND_CELLS = 50
 def hair_share(
     head: HeadMap, hair: NDArray[np.bool_], known: NDArray[np.bool_], streaks: NDArray[np.float32], *, falls: bool
 ) -> NDArray[np.bool_]:
-    """The cells (A, `COLUMNS`) of hair, from those that are `known` and those that are seen to be (A, `COLUMNS` each). `streaks`:
+    """The cells (A, `UNROLLED_COLUMNS`) of hair, from those that are `known` and those that are seen to be (A, `UNROLLED_COLUMNS` each). `streaks`:
     of `strand_noise`; hair that `falls` covers ears and neck."""
     begins = _edges(head, hair, known, falls=falls) + UNEVENNESS_RADIANS * streaks
     covered = head.angle > begins
     if hair.any():  # above the forehead as the nearest that is seen is
         wide, of_hair = (np.concatenate([each, each, each], 1) for each in (known, hair))
         y, x = nearest_in(wide)
-        nearest = of_hair[y, x][:, COLUMNS : 2 * COLUMNS]
+        nearest = of_hair[y, x][:, UNROLLED_COLUMNS : 2 * UNROLLED_COLUMNS]
         covered = np.where(head.above("hairline") & ~covered, nearest, covered)
     line, crown = head.levels["hairline"], head.levels["crown"]
-    covered = covered | (head.height > line + CROWN_SHARE * (crown - line))
+    covered = covered | (head.height > line + FULL_HAIR_CROWN_SHARE * (crown - line))
     if not falls:
         covered &= head.height > head.levels["nape"] + UNEVENNESS_ROWS * streaks
     return np.asarray(covered, np.bool_)
 
 
 def _edges(head: HeadMap, hair: NDArray[np.bool_], known: NDArray[np.bool_], *, falls: bool) -> NDArray[np.float32]:
-    """Radians from the face's middle (A, `COLUMNS`) at which hair begins, on each side its own."""
+    """Radians from the face's middle (A, `UNROLLED_COLUMNS`) at which hair begins, on each side its own."""
     names = sorted(HAIR_EDGE_RADIANS, key=lambda name: head.levels[name])
     most = LONG_HAIR_EDGE_RADIANS if falls else np.inf
     usual = np.interp(
@@ -78,7 +78,7 @@ def _edges(head: HeadMap, hair: NDArray[np.bool_], known: NDArray[np.bool_], *, 
         [head.levels[name] for name in names],
         [min(HAIR_EDGE_RADIANS[name], most) for name in names],
     ).astype(np.float32)
-    half = COLUMNS // 2
+    half = UNROLLED_COLUMNS // 2
     aside = head.angle[0, half:]
     found = np.empty((len(usual), 2), np.float32)
     for side, columns in enumerate((slice(half - 1, None, -1), slice(half, None))):  # from the face's middle outwards
@@ -90,12 +90,14 @@ def _edges(head: HeadMap, hair: NDArray[np.bool_], known: NDArray[np.bool_], *, 
         edge = np.where(goes_on, np.minimum(bare, usual), np.maximum(usual, last))
         told = head.above("ears")[:, 0] & (seen.sum(1) >= EDGE_CELLS)
         found[:, side] = np.where(told, edge, usual)
-    smooth = cv2.GaussianBlur(median_filter(found, (ROW_FILTER, 1)), (1, 0), 1, sigmaY=ROW_SMOOTHING)
+    smooth = cv2.GaussianBlur(
+        median_filter(found, (HAIRLINE_MEDIAN_ROWS, 1)), (1, 0), 1, sigmaY=HAIRLINE_SMOOTHING_ROWS
+    )
     return np.repeat(np.asarray(smooth, np.float32), half, 1)
 
 
 def strand_noise(shape: tuple[int, int]) -> NDArray[np.float32]:
-    """Noise (A, `COLUMNS`) drawn out along strands that fall from the crown, of mean 0 and deviation 1; always the same, and
+    """Noise (A, `UNROLLED_COLUMNS`) drawn out along strands that fall from the crown, of mean 0 and deviation 1; always the same, and
     going on across the ends of rows."""
     random = np.random.default_rng(0)
     rows, columns = shape
@@ -114,8 +116,8 @@ def strand_noise(shape: tuple[int, int]) -> NDArray[np.float32]:
 
 
 def strand_levels(colours: NDArray[np.floating], hair: NDArray[np.bool_]) -> float:
-    """How strong strands are, sRGB levels: the deviation of what is fine about the `hair` (A, `COLUMNS`) of `colours` (A,
-    `COLUMNS`, 3), told by its median: a parting or a comb is no strand."""
+    """How strong strands are, sRGB levels: the deviation of what is fine about the `hair` (A, `UNROLLED_COLUMNS`) of `colours` (A,
+    `UNROLLED_COLUMNS`, 3), told by its median: a parting or a comb is no strand."""
     light = colours.mean(-1).astype(np.float32)
     whole = cv2.erode(hair.astype(np.uint8), np.ones((3, 3), np.uint8)).astype(np.float32)
     around = np.maximum(cv2.GaussianBlur(whole, (0, 0), FINE_CELLS), 1e-3)
@@ -126,7 +128,7 @@ def strand_levels(colours: NDArray[np.floating], hair: NDArray[np.bool_]) -> flo
 
 
 def smoothed_rows(colours: NDArray[np.floating], metres: float) -> NDArray[np.float32]:
-    """Colours (A, `COLUMNS`, 3) averaged over rows: what lies across hair are lights on it."""
+    """Colours (A, `UNROLLED_COLUMNS`, 3) averaged over rows: what lies across hair are lights on it."""
     flat = np.ascontiguousarray(colours.reshape(len(colours), -1), np.float32)
     blurred = cv2.GaussianBlur(flat, (1, 0), 1, sigmaY=metres / ROW_METRES, borderType=cv2.BORDER_REPLICATE)
     return np.asarray(blurred, np.float32).reshape(colours.shape)

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.fit.template_fit import load_human
-from engine.character.shell.colours.unrolled import COLUMNS, unrolled_parts
+from engine.character.shell.colours.unrolled import UNROLLED_COLUMNS, unrolled_parts
 from engine.character.shell.template_mesh import template_mesh
 
-BROW_LANDMARKS, EYE_LANDMARKS, NOSE_TIP_LANDMARK, CHIN_LANDMARK = slice(17, 27), slice(36, 48), 30, 8
+BROW_LANDMARKS, EYES_LANDMARKS, NOSE_TIP_LANDMARK, CHIN_LANDMARK = slice(17, 27), slice(36, 48), 30, 8
 """Of the 68 points of a face."""
 MIN_HAIRLINE_SHARE = 0.25
 """How far above the brows hair begins at the earliest, as a share of the way to the crown."""
@@ -25,11 +25,11 @@ EAR_MARGIN_CELLS = 7
 
 @dataclass(frozen=True)
 class HeadMap:
-    """The head's cells (A, `COLUMNS`), row 0 at the neck.
+    """The head's cells (A, `UNROLLED_COLUMNS`), row 0 at the neck.
 
     height : (A, 1) float32, rows up from the part's beginning.
-    angle : (1, `COLUMNS`) float32, radians from the face's middle, from 0 to pi on both sides.
-    ears, around_ears : (A, `COLUMNS`) bool, what is surely an ear's, and what is perhaps.
+    angle : (1, `UNROLLED_COLUMNS`) float32, radians from the face's middle, from 0 to pi on both sides.
+    ears, around_ears : (A, `UNROLLED_COLUMNS`) bool, what is surely an ear's, and what is perhaps.
     levels : heights by name: `nape`, `chin`, `nose`, `ears` (their middle), `eyes`, `brow`, `hairline` (no hair is below it before
         the face), `forehead`, `crown`.
     """
@@ -56,7 +56,7 @@ def head_map() -> HeadMap:
     part = unrolled_parts()[0]
     face, row = mesh.renamed(human.face), part.along
     rows = len(part.raster.triangle)
-    brow, eyes = (float(row[face[which]].mean()) for which in (BROW_LANDMARKS, EYE_LANDMARKS))
+    brow, eyes = (float(row[face[which]].mean()) for which in (BROW_LANDMARKS, EYES_LANDMARKS))
     nose, chin = (float(row[face[which]]) for which in (NOSE_TIP_LANDMARK, CHIN_LANDMARK))
     levels = {
         "nape": chin + NAPE_HEIGHT_SHARE * (nose - chin),
@@ -69,7 +69,7 @@ def head_map() -> HeadMap:
         "forehead": (brow + rows) / 2,
         "crown": float(rows),
     }
-    angle = (np.arange(COLUMNS) + 0.5) / COLUMNS * 2 * np.pi - np.pi
+    angle = (np.arange(UNROLLED_COLUMNS) + 0.5) / UNROLLED_COLUMNS * 2 * np.pi - np.pi
     around = np.asarray(mesh.ear[mesh.triangles[part.raster.triangle]].all(-1), np.uint8)
     square = np.ones((EAR_MARGIN_CELLS, EAR_MARGIN_CELLS), np.uint8)
     return HeadMap(

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from engine.character.shell.colours.hair import hair_share, smoothed_rows, strand_levels, strand_noise
 from engine.character.shell.colours.head_map import HeadMap, head_map
 from engine.character.shell.colours.round import COLUMN_SINES, joined, row_middles, row_model, turned_rows
-from engine.character.shell.colours.unrolled import COLUMNS, ROW_METRES
+from engine.character.shell.colours.unrolled import ROW_METRES, UNROLLED_COLUMNS
 
 MIN_WELL_SEEN_COSINE = 0.35
 """Cosine to the viewer from which on a head's colours are told by the picture: beyond, few pixels are drawn out over its side."""
@@ -52,12 +52,12 @@ SIDE_SKIN_RADIANS, JAW_RADIANS = 0.7, 1.2
 """Radians from the face's middle between which what is not hair goes on beside the eyes; and up to which a jaw goes on with its beard."""
 MIN_CLOTH_SHARE, MIN_CLOTH_CELLS, MIN_CLOTH_ROWS = 0.75, 6, 8
 """Of what is seen of a neck's row the share that is no skin, the cells seen, and the rows of that kind, for a neck to be in cloth."""
-LAB_WEIGHTS = np.array([0.7, 1.5, 1.5], np.float32)
+HEAD_LAB_WEIGHTS = np.array([0.7, 1.5, 1.5], np.float32)
 
 
 @dataclass(frozen=True)
 class _Kinds:
-    """What is well seen of a head, (A, `COLUMNS`) each: all that is `known`, and of that the bare skin, the hair (or hat), and what is
+    """What is well seen of a head, (A, `UNROLLED_COLUMNS`) each: all that is `known`, and of that the bare skin, the hair (or hat), and what is
     nearer to the skin's colour than to the hair's. `skin`: the mean colour, sRGB levels; `falls`: whether hair covers ears and neck."""
 
     known: NDArray[np.bool_]
@@ -71,7 +71,7 @@ class _Kinds:
 def head_round(
     colours: NDArray[np.float32], source: NDArray[np.bool_], facing: NDArray[np.float32]
 ) -> NDArray[np.float32]:
-    """The colours (A, `COLUMNS`, 3) of the unrolled head, as `round.coloured_round` has those of other parts."""
+    """The colours (A, `UNROLLED_COLUMNS`, 3) of the unrolled head, as `round.coloured_round` has those of other parts."""
     if not source.any():
         return colours
     head = head_map()
@@ -79,7 +79,7 @@ def head_round(
     middle = head.between("chin", "hairline") & (head.angle < CHEEK_EDGE_RADIANS)
     colours, known = _both_cheeks(colours, source & (facing > MIN_WELL_SEEN_COSINE), face, middle)
     kinds = _kinds(head, colours, known)
-    streaks = strand_noise((len(colours), COLUMNS))
+    streaks = strand_noise((len(colours), UNROLLED_COLUMNS))
     skin = _skin(head, colours, kinds)
     if not kinds.hair.any():
         return np.where(known[..., None], colours, skin).astype(np.float32)
@@ -100,14 +100,14 @@ def _kinds(head: HeadMap, colours: NDArray[np.float32], known: NDArray[np.bool_]
     if cheeks.sum() > MIN_COLOUR_CELLS:
         skin = np.median(lab[cheeks], 0)
         darker = np.minimum(lab - skin, [MAX_LIGHTER_DISTANCE, np.inf, np.inf])
-        bare = known & (np.linalg.norm(darker * LAB_WEIGHTS, axis=-1) < MIN_NOT_SKIN_COLOUR_DISTANCE)
+        bare = known & (np.linalg.norm(darker * HEAD_LAB_WEIGHTS, axis=-1) < MIN_NOT_SKIN_COLOUR_DISTANCE)
         skin_like = bare.copy()
         if top.sum() > MIN_COLOUR_CELLS:
             hair = np.median(lab[top], 0)
-            from_skin, from_hair = (np.linalg.norm((lab - one) * LAB_WEIGHTS, axis=-1) for one in (skin, hair))
+            from_skin, from_hair = (np.linalg.norm((lab - one) * HEAD_LAB_WEIGHTS, axis=-1) for one in (skin, hair))
             skin_like = known & (from_skin < from_hair)
             bare &= skin_like
-            if np.linalg.norm((skin - hair) * LAB_WEIGHTS) > MIN_HAIR_COLOUR_DISTANCE:
+            if np.linalg.norm((skin - hair) * HEAD_LAB_WEIGHTS) > MIN_HAIR_COLOUR_DISTANCE:
                 sides = known & (head.angle > SIDE_RADIANS) & head.between("chin", "nose")
                 of_hair = ~skin_like & (from_hair < MAX_HAIR_COLOUR_DISTANCE)
                 falls = bool(sides.sum() > MIN_COLOUR_CELLS and of_hair[sides].mean() > LONG_HAIR_SHARE)
@@ -133,7 +133,7 @@ def _mean_skin(
 
 
 def _skin(head: HeadMap, colours: NDArray[np.float32], kinds: _Kinds) -> NDArray[np.float32]:
-    """Skin all round (A, `COLUMNS`, 3), a beard fading out behind it; around the neck what is worn there."""
+    """Skin all round (A, `UNROLLED_COLUMNS`, 3), a beard fading out behind it; around the neck what is worn there."""
     skin = np.broadcast_to(kinds.skin, colours.shape).astype(np.float32)
     neck = _neck_cloth(head, colours, kinds)
     if neck is not None:
@@ -161,7 +161,7 @@ def _neck_cloth(head: HeadMap, colours: NDArray[np.float32], kinds: _Kinds) -> N
 def _hair(
     colours: NDArray[np.float32], kinds: _Kinds, facing: NDArray[np.float32], streaks: NDArray[np.float32]
 ) -> NDArray[np.float32]:
-    """Hair, or a hat, all round (A, `COLUMNS`, 3)."""
+    """Hair, or a hat, all round (A, `UNROLLED_COLUMNS`, 3)."""
     inner = cv2.erode(kinds.hair.astype(np.uint8), np.ones((HAIR_MARGIN_CELLS, HAIR_MARGIN_CELLS), np.uint8)) > 0
     sure = inner if inner.sum() > MIN_COLOUR_CELLS else kinds.hair
     turns = row_middles(facing)
@@ -175,11 +175,11 @@ def _both_cheeks(
     colours: NDArray[np.float32], known: NDArray[np.bool_], on_face: NDArray[np.bool_], middle: NDArray[np.bool_]
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
     """A face that is seen from its side has on the other what it has on this one, in its own light: where it is `on_face`
-    (A, `COLUMNS`), if of its `middle` (A, `COLUMNS`) one half is hardly seen."""
+    (A, `UNROLLED_COLUMNS`), if of its `middle` (A, `UNROLLED_COLUMNS`) one half is hardly seen."""
     mirrored, there = colours[:, ::-1], known[:, ::-1]
     lacks = there & ~known & on_face
     both = there & known & on_face
-    half = np.arange(COLUMNS) < COLUMNS // 2
+    half = np.arange(UNROLLED_COLUMNS) < UNROLLED_COLUMNS // 2
     lacking = half if (lacks & half).sum() > (lacks & ~half).sum() else ~half
     if not lacks.any() or known[middle & lacking].mean() > MIN_HALF_FACE_SHARE:
         return colours, known

@@ -15,7 +15,7 @@ from engine.character.shell.colours.ear_shade import ear_shade
 from engine.character.shell.colours.evidence import witness
 from engine.character.shell.colours.head_round import head_round
 from engine.character.shell.colours.round import BackTexture, coloured_round, with_the_other
-from engine.character.shell.colours.unrolled import COLUMNS, unrolled_parts
+from engine.character.shell.colours.unrolled import UNROLLED_COLUMNS, unrolled_parts
 from engine.character.shell.shell import Shell
 from engine.character.shell.template_mesh import template_mesh
 from engine.compiled import njit
@@ -24,7 +24,7 @@ from engine.imaging.masks.mask_distance import dilate_mask
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import Raster, rasterise
 
-TEXTURE_SIZE_TEXELS = 2048
+SHELL_TEXTURE_SIZE_TEXELS = 2048
 """Texels of the texture's sides."""
 FILL_BLEND_TEXELS = 6
 """Texels over which what is shown goes over into what is filled in."""
@@ -40,23 +40,23 @@ OPPOSITE_LIMB = {
     for limb in ("arm", "leg", "foot")
 }
 """Which limb is the other side's."""
-STRIP_ROWS = 256
+PAINTED_STRIP_ROWS = 256
 """Rows of the texture that are judged at once."""
 MIN_PART_SHARE = 0.01
 """Share of a part in what moves a vertex, from which on the part has a say in its colour."""
-HEAD_ATTRIBUTE, HEAD_COSINES = 4, (0.22, 0.42)
+HEAD_ATTRIBUTE_INDEX, HEAD_COSINES = 4, (0.22, 0.42)
 """Which of a witness's attributes is the share of the head; and the cosines to the viewer at which a head's texels show nothing of the
 picture, and it alone."""
 
 
 @cache
 def texels() -> Raster:
-    """What of the template each texel shows, (`TEXTURE_SIZE_TEXELS`, `TEXTURE_SIZE_TEXELS`), once for the process;
+    """What of the template each texel shows, (`SHELL_TEXTURE_SIZE_TEXELS`, `SHELL_TEXTURE_SIZE_TEXELS`), once for the process;
     texels beside its chart show nothing."""
     mesh = template_mesh()
     flat = np.zeros((len(mesh.uv), 3), np.float32)
-    flat[:, :2] = mesh.uv * TEXTURE_SIZE_TEXELS - 0.5
-    return rasterise(flat, mesh.uv_triangles, (TEXTURE_SIZE_TEXELS, TEXTURE_SIZE_TEXELS))
+    flat[:, :2] = mesh.uv * SHELL_TEXTURE_SIZE_TEXELS - 0.5
+    return rasterise(flat, mesh.uv_triangles, (SHELL_TEXTURE_SIZE_TEXELS, SHELL_TEXTURE_SIZE_TEXELS))
 
 
 def paint_shell(
@@ -67,7 +67,7 @@ def paint_shell(
     back: BackTexture = "see_through",
     hides: NDArray[np.int32] | None = None,
 ) -> NDArray[np.uint8]:
-    """The texture (`TEXTURE_SIZE_TEXELS`, `TEXTURE_SIZE_TEXELS`, 3) of a shell, in the template's own chart.
+    """The texture (`SHELL_TEXTURE_SIZE_TEXELS`, `SHELL_TEXTURE_SIZE_TEXELS`, 3) of a shell, in the template's own chart.
 
     Parameters
     ----------
@@ -107,18 +107,18 @@ def paint_shell(
     firsts = np.cumsum([0, *(len(each) for each in rows)])
     places = np.stack([np.stack([part.share, part.along, part.angle], 1) for part in parts], 1)
     raster = texels()
-    whole = (TEXTURE_SIZE_TEXELS, TEXTURE_SIZE_TEXELS)
+    whole = (SHELL_TEXTURE_SIZE_TEXELS, SHELL_TEXTURE_SIZE_TEXELS)
     shown, painted = np.zeros(whole, np.float32), np.zeros((*whole, 3), np.float32)
     wanted = raster.triangle >= 0
     if hides is not None:
         wanted &= _among(triangles, hides)[raster.triangle]
     used = np.flatnonzero(wanted.any(1))
-    for first in range(used[0], used[-1] + 1, STRIP_ROWS):
-        strip = slice(first, min(first + STRIP_ROWS, used[-1] + 1))
+    for first in range(used[0], used[-1] + 1, PAINTED_STRIP_ROWS):
+        strip = slice(first, min(first + PAINTED_STRIP_ROWS, used[-1] + 1))
         part_of_it = Raster(raster.triangle[strip], raster.barycentrics[strip], raster.depth[strip])
         points = interpolate(told.attributes, triangles, part_of_it)
         seen = told.of(points)
-        shown[strip] = np.minimum(seen.shown, 1 - points[..., HEAD_ATTRIBUTE] * (1 - _well_seen(points[..., 3])))
+        shown[strip] = np.minimum(seen.shown, 1 - points[..., HEAD_ATTRIBUTE_INDEX] * (1 - _well_seen(points[..., 3])))
         painted[strip] = seen.colours
     soft = _softened(np.where(wanted, shown, 0))
     drawn = np.where(wanted, raster.triangle, -1)
@@ -179,7 +179,7 @@ def _filled(
     sure: np.ndarray,
     firsts: np.ndarray,
 ) -> None:
-    """Mix into `painted` (S, S, 3) what the parts' `rows` (R, `COLUMNS`, 3) say, where it is not `shown` (S, S). `places`
+    """Mix into `painted` (S, S, 3) what the parts' `rows` (R, `UNROLLED_COLUMNS`, 3) say, where it is not `shown` (S, S). `places`
     (V, P, 3): of each vertex on each part its share, row and angle; `sure` (R,); `firsts` (P + 1,): where each part's rows begin."""
     turn = 2 * np.pi
     for y in prange(painted.shape[0]):
@@ -198,14 +198,14 @@ def _filled(
                 first = places[a, part, 2]
                 second = first + (places[b, part, 2] - first + np.pi) % turn - np.pi
                 third = first + (places[c, part, 2] - first + np.pi) % turn - np.pi
-                column = ((wa * first + wb * second + wc * third) / turn + 0.5) * COLUMNS - 0.5
+                column = ((wa * first + wb * second + wc * third) / turn + 0.5) * UNROLLED_COLUMNS - 0.5
                 last = firsts[part + 1] - firsts[part] - 1
                 row = min(max(along - 0.5, 0.0), np.float64(last))
                 top, left = int(row), int(np.floor(column))
                 fv, fu = np.float32(row - top), np.float32(column - left)
                 bottom = firsts[part] + min(top + 1, last)
                 top += firsts[part]
-                right, left = (left + 1) % COLUMNS, left % COLUMNS
+                right, left = (left + 1) % UNROLLED_COLUMNS, left % UNROLLED_COLUMNS
                 share *= np.float32(UNKNOWN_ROW_WEIGHT) + (1 - fv) * sure[top] + fv * sure[bottom]
                 upper, lower = share * (1 - fv), share * fv
                 total += share

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
-from engine.character.shell.colours.unrolled import COLUMNS, ROW_METRES
+from engine.character.shell.colours.unrolled import ROW_METRES, UNROLLED_COLUMNS
 from engine.imaging.filling.pull_push import pull_push
 
 BackTexture = Literal["see_through", "mirror", "inpaint"]
@@ -28,9 +28,9 @@ VARIATION_WINDOW_METRES = 0.05
 """Metres along a part over which it is judged how much its sides vary."""
 SIDE_START_HALF_WIDTHS = 0.5
 """How far aside a part's sides begin for that, in half widths."""
-MAX_SAME_COLOUR_DISTANCE = 8.0
+MAX_SAME_KIND_COLOUR_DISTANCE = 8.0
 """CIE Lab distance within which colours are of one kind wherever sides are plain."""
-LAB_WEIGHTS = np.array([0.7, 1.2, 1.2], np.float32)
+CLOTH_LAB_WEIGHTS = np.array([0.7, 1.2, 1.2], np.float32)
 """How much lightness counts in it, and hues: cloth is lighter where light falls on it."""
 MAX_COLOUR_DEVIATIONS = 2.5
 """How many of its sides' deviations a colour may be off the model."""
@@ -57,16 +57,19 @@ BORDER_SMOOTHING_METRES = 0.02
 OTHER_SIDE_BLEND_SHARE = 0.3
 """Share of what is not seen of a row, in its middle, in which what comes from one side goes over into what comes from the other."""
 
-COLUMN_RADIANS = ((np.arange(COLUMNS) + 0.5) / COLUMNS * 2 * np.pi - np.pi).astype(np.float32)
+COLUMN_RADIANS = ((np.arange(UNROLLED_COLUMNS) + 0.5) / UNROLLED_COLUMNS * 2 * np.pi - np.pi).astype(np.float32)
 COLUMN_SINES = np.sin(COLUMN_RADIANS)
-OTHER_HALF = ((COLUMNS // 2 - 1 - np.arange(COLUMNS)) % COLUMNS, np.ones(COLUMNS, np.float32))
+OPPOSITE_COLUMN_AND_WEIGHT = (
+    (UNROLLED_COLUMNS // 2 - 1 - np.arange(UNROLLED_COLUMNS)) % UNROLLED_COLUMNS,
+    np.ones(UNROLLED_COLUMNS, np.float32),
+)
 """The column that is as far aside on the other half, and how much it counts."""
 
 
 @dataclass(frozen=True)
 class RowModel:
-    """What the sides of each row say of it: `colours` (A, `COLUMNS`, 3), and how far from that they are themselves, `spread`
-    (A, `COLUMNS`), CIE Lab; and how `sure` (A,) each row is of itself, 0 where only further ones say it."""
+    """What the sides of each row say of it: `colours` (A, `UNROLLED_COLUMNS`, 3), and how far from that they are themselves, `spread`
+    (A, `UNROLLED_COLUMNS`), CIE Lab; and how `sure` (A,) each row is of itself, 0 where only further ones say it."""
 
     colours: NDArray[np.float32]
     spread: NDArray[np.float32]
@@ -82,10 +85,10 @@ def coloured_round(
     ring: bool = False,
     at_the_border: bool = False,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """The colours (A, `COLUMNS`, 3) of an unrolled part, sRGB levels: those of its `source` (A, `COLUMNS`), and
+    """The colours (A, `UNROLLED_COLUMNS`, 3) of an unrolled part, sRGB levels: those of its `source` (A, `UNROLLED_COLUMNS`), and
     continued round it; and how sure (A,) each row is of them, from 0 to 1.
 
-    `facing` (A, `COLUMNS`): cosine to the viewer of each cell, negative behind. From the row `yoke` upwards a front has
+    `facing` (A, `UNROLLED_COLUMNS`): cosine to the viewer of each cell, negative behind. From the row `yoke` upwards a front has
     a neckline and no back has one: there the rows below are mirrored. A `ring`, as a limb is, is told by all that is seen
     of a row, and not by its sides alone. What is seen is laid behind as it lies before, or, `at_the_border`, reflected where it ends: of legs,
     which are seen over as much of their girth everywhere. Where nothing is a source, nothing changes.
@@ -104,7 +107,7 @@ def coloured_round(
     if yoke is not None and back == "see_through":
         rows = np.where(rows > yoke, np.maximum(2 * yoke - rows, 0), rows)
     own = through[..., None] * (seen - model.colours)
-    ways = reflections(known) if at_the_border else [OTHER_HALF]
+    ways = reflections(known) if at_the_border else [OPPOSITE_COLUMN_AND_WEIGHT]
     detail = np.zeros_like(seen)
     for partner, share in ways:
         detail += share[..., None] * own[rows[:, None], partner]
@@ -113,17 +116,17 @@ def coloured_round(
 
 
 def reflections(known: NDArray[np.bool_]) -> list[tuple[NDArray[np.intp], NDArray[np.float32]]]:
-    """For each cell (A, `COLUMNS`) the column that is as far within the border of what is `known` of its row, the middle column facing
+    """For each cell (A, `UNROLLED_COLUMNS`) the column that is as far within the border of what is `known` of its row, the middle column facing
     the viewer, as the cell is beyond it: of the border at its left and of that at its right, and how much each counts. So what is seen goes on
     at its border without a seam, to and fro; behind, one side goes over into the other. What is within is itself."""
-    middle, columns = COLUMNS // 2, np.arange(COLUMNS)
-    quarter = COLUMNS // 4
+    middle, columns = UNROLLED_COLUMNS // 2, np.arange(UNROLLED_COLUMNS)
+    quarter = UNROLLED_COLUMNS // 4
     there = known & (np.abs(columns - middle) <= quarter)
     told = there.sum(1) >= MIN_ROW_CELLS
     if not told.any():
         return []
     first = np.where(told, there.argmax(1), 0).astype(np.float32)
-    last = np.where(told, COLUMNS - 1 - there[:, ::-1].argmax(1), 0).astype(np.float32)
+    last = np.where(told, UNROLLED_COLUMNS - 1 - there[:, ::-1].argmax(1), 0).astype(np.float32)
     rows = np.arange(len(known))
     first, last = (
         _blurred(np.interp(rows, rows[told], one[told])[:, None].astype(np.float32), BORDER_SMOOTHING_METRES)
@@ -131,13 +134,13 @@ def reflections(known: NDArray[np.bool_]) -> list[tuple[NDArray[np.intp], NDArra
     )
     first, last = np.minimum(first, middle - 1), np.maximum(last, middle + 1)
     found = []
-    gap = COLUMNS - (last - first)
+    gap = UNROLLED_COLUMNS - (last - first)
     inside = (columns >= first) & (columns <= last)
     for border, inwards in ((last, -1), (first, 1)):
-        beyond = (-inwards * (columns - border)) % COLUMNS  # around the back, from this border on
+        beyond = (-inwards * (columns - border)) % UNROLLED_COLUMNS  # around the back, from this border on
         fold = beyond % (2 * (last - first))
         within = np.minimum(fold, 2 * (last - first) - fold)
-        partner = np.rint(border + inwards * within).astype(np.intp) % COLUMNS
+        partner = np.rint(border + inwards * within).astype(np.intp) % UNROLLED_COLUMNS
         share = np.clip(0.5 + (0.5 - beyond / gap) / OTHER_SIDE_BLEND_SHARE, 0, 1)
         share = np.where(inside, inwards < 0, share * share * (3 - 2 * share))
         found.append((np.where(inside, columns, partner), np.asarray(share, np.float32)))
@@ -147,7 +150,7 @@ def reflections(known: NDArray[np.bool_]) -> list[tuple[NDArray[np.intp], NDArra
 def with_the_other(
     own: tuple[NDArray, NDArray, NDArray], other: tuple[NDArray, NDArray, NDArray]
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """Colours (A, `COLUMNS`, 3), source and facing (A, `COLUMNS`) of an unrolled limb, with those of the other side's
+    """Colours (A, `UNROLLED_COLUMNS`, 3), source and facing (A, `UNROLLED_COLUMNS`) of an unrolled limb, with those of the other side's
     limb in rows of which hardly anything is seen: both are dressed alike."""
     count = min(len(own[0]), len(other[0]))
     few = own[1].sum(1) < MIN_ROW_CELLS
@@ -165,20 +168,20 @@ def row_middles(facing: NDArray[np.floating]) -> NDArray[np.intp]:
     """By how many columns (A,) from the middle one the place is away at which each row faces the viewer, smoothly along the part."""
     towards = np.maximum(facing, 0) @ np.stack([np.cos(COLUMN_RADIANS), COLUMN_SINES], 1)
     smooth = _blurred(towards.astype(np.float32), VARIATION_WINDOW_METRES)
-    return np.rint(np.arctan2(smooth[:, 1], smooth[:, 0]) / (2 * np.pi) * COLUMNS).astype(np.intp)
+    return np.rint(np.arctan2(smooth[:, 1], smooth[:, 0]) / (2 * np.pi) * UNROLLED_COLUMNS).astype(np.intp)
 
 
 def turned_rows(values: NDArray, by: NDArray[np.intp]) -> NDArray:
-    """Rows (A, `COLUMNS`, ...) each turned by so many columns (A,)."""
-    columns = (np.arange(COLUMNS)[None] - by[:, None]) % COLUMNS
+    """Rows (A, `UNROLLED_COLUMNS`, ...) each turned by so many columns (A,)."""
+    columns = (np.arange(UNROLLED_COLUMNS)[None] - by[:, None]) % UNROLLED_COLUMNS
     return values[np.arange(len(values))[:, None], columns]
 
 
 def row_model(
     seen: NDArray[np.floating], weight: NDArray[np.floating], across: float = TRUNK_CROSSING_METRES
 ) -> RowModel:
-    """What is `seen` (A, `COLUMNS`, 3) of the sides of each row, the middle column facing the viewer; `weight` (A,
-    `COLUMNS`): how well; `across`: metres along the part that are as far as the other side."""
+    """What is `seen` (A, `UNROLLED_COLUMNS`, 3) of the sides of each row, the middle column facing the viewer; `weight` (A,
+    `UNROLLED_COLUMNS`): how well; `across`: metres along the part that are as far as the other side."""
     sides = [_side(seen, weight * (side * COLUMN_SINES > 0)) for side in (-1, 1)]
     values, counts = (np.stack(each, 1) for each in zip(*sides, strict=True))  # (A, 2, 3 + 1), (A, 2)
     known, other = counts[..., None], OTHER_SIDE_WEIGHT * counts[:, ::-1, None]
@@ -204,7 +207,7 @@ def _side(seen: NDArray[np.floating], weight: NDArray[np.floating]) -> tuple[NDA
         )
         off = seen - mean[:, None]
         trust = weight / (1 + np.einsum("anc,anc->an", off, off) / ROBUST_SCALE_LEVELS**2)
-    away = (_lab(seen) - _lab(mean[:, None])) * LAB_WEIGHTS
+    away = (_lab(seen) - _lab(mean[:, None])) * CLOTH_LAB_WEIGHTS
     trust = trust * (aside > SIDE_START_HALF_WIDTHS)
     varies = _blurred((trust * np.einsum("anc,anc->an", away, away)).sum(1), VARIATION_WINDOW_METRES)
     squares = varies / np.maximum(_blurred(trust.sum(1), VARIATION_WINDOW_METRES), 1e-6)
@@ -245,33 +248,36 @@ def _nearest_rows(values: NDArray[np.floating], count: NDArray[np.floating], acr
 
 
 def _of_the_kind(seen: NDArray[np.floating], model: RowModel, known: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """How far (A, `COLUMNS`), from 0 to 1, cells are of the same kind as the sides of their rows."""
-    off = np.linalg.norm((_lab(seen) - _lab(model.colours)) * LAB_WEIGHTS, axis=-1)
-    kind = known / (1 + (off / np.hypot(MAX_SAME_COLOUR_DISTANCE, MAX_COLOUR_DEVIATIONS * model.spread)) ** 4)
+    """How far (A, `UNROLLED_COLUMNS`), from 0 to 1, cells are of the same kind as the sides of their rows."""
+    off = np.linalg.norm((_lab(seen) - _lab(model.colours)) * CLOTH_LAB_WEIGHTS, axis=-1)
+    kind = known / (1 + (off / np.hypot(MAX_SAME_KIND_COLOUR_DISTANCE, MAX_COLOUR_DEVIATIONS * model.spread)) ** 4)
     size = 2 * round(MIXED_EDGE_METRES / ROW_METRES) + 1
     wide = np.concatenate([kind, kind, kind], 1).astype(np.float32)
     usual = np.asarray(cv2.medianBlur(wide, 5))
     mostly = np.minimum(usual, np.clip((cv2.blur(usual, (size, size)) - MIN_KIND_SHARE) / MIN_KIND_SHARE, 0, 1))
     calm = cv2.blur(cv2.erode(mostly, np.ones((size, size), np.uint8)), (size, size))
-    return np.asarray(calm[:, COLUMNS : 2 * COLUMNS] * known, np.float32)
+    return np.asarray(calm[:, UNROLLED_COLUMNS : 2 * UNROLLED_COLUMNS] * known, np.float32)
 
 
 def continued_rows(colours: NDArray[np.floating], weight: NDArray[np.floating]) -> NDArray[np.float32]:
-    """Colours (A, `COLUMNS`, C) continued smoothly from where they have a `weight` (A, `COLUMNS`), across the ends of
+    """Colours (A, `UNROLLED_COLUMNS`, C) continued smoothly from where they have a `weight` (A, `UNROLLED_COLUMNS`), across the ends of
     rows."""
-    quarter = COLUMNS // 4
+    quarter = UNROLLED_COLUMNS // 4
     wide, there = (np.concatenate([each[:, -quarter:], each, each[:, :quarter]], 1) for each in (colours, weight))
-    return pull_push(wide, there)[:, quarter : quarter + COLUMNS]
+    return pull_push(wide, there)[:, quarter : quarter + UNROLLED_COLUMNS]
 
 
 def joined(
     filled: NDArray[np.floating], seen: NDArray[np.floating], known: NDArray[np.bool_], trust: NDArray[np.floating]
 ) -> NDArray[np.float32]:
-    """What is `filled` in, (A, `COLUMNS`, 3), moved to what is `seen` where both meet, as far as that is of its kind: `trust`
-    (A, `COLUMNS`)."""
+    """What is `filled` in, (A, `UNROLLED_COLUMNS`, 3), moved to what is `seen` where both meet, as far as that is of its kind: `trust`
+    (A, `UNROLLED_COLUMNS`)."""
     moved = continued_rows(seen - filled, trust)
     wide = np.concatenate([known, known, known], 1)
-    away = cv2.distanceTransform((~wide).astype(np.uint8), cv2.DIST_L2, 5)[:, COLUMNS : 2 * COLUMNS] * ROW_METRES
+    away = (
+        cv2.distanceTransform((~wide).astype(np.uint8), cv2.DIST_L2, 5)[:, UNROLLED_COLUMNS : 2 * UNROLLED_COLUMNS]
+        * ROW_METRES
+    )
     return np.asarray(filled + moved * np.exp(-away / FILL_BLEND_METRES)[..., None], np.float32)
 
 

@@ -21,9 +21,9 @@ from engine.render.rasteriser import Raster, rasterise
 
 ROW_METRES = 0.0025
 """Metres of a row, on the mean body."""
-COLUMNS = 384
+UNROLLED_COLUMNS = 384
 """Columns once round."""
-MIN_PART_WEIGHT = 0.02
+MIN_UNROLLED_PART_WEIGHT = 0.02
 """Share of a part in what moves a vertex, from which on it has a place on the part."""
 ARMPIT_DEPTH_METRES = 0.07
 """Metres from the shoulder's joint down to where necklines have ended."""
@@ -42,8 +42,8 @@ class UnrolledPart:
     along : (V,) float32, rows from the part's beginning.
     angle : (V,) float32, radians round its axis; 0 in front, or above on arms and feet, and growing to the person's left, or forward.
     yoke : of the trunk, the row above which a front has a neckline.
-    raster : which of the mesh's triangles is outermost in each cell, (rows, `COLUMNS`); cells that none covers have the
-    nearest one. covered : (rows, `COLUMNS`) bool, which cells have one of their own.
+    raster : which of the mesh's triangles is outermost in each cell, (rows, `UNROLLED_COLUMNS`); cells that none covers have the
+    nearest one. covered : (rows, `UNROLLED_COLUMNS`) bool, which cells have one of their own.
     """
 
     name: str
@@ -73,7 +73,10 @@ def unrolled_parts() -> tuple[UnrolledPart, ...]:
     crotch = float(y[share["torso"] > legs].min())
     hips = np.clip((y - crotch) / HIP_BLEND_METRES - 1, 0, 1) * legs  # both hips are one ring
     trunk = _unrolled("torso", mesh, share["torso"] + hips, y, np.arctan2(x, depth), np.hypot(x, depth))
-    yoke = int((joint["LeftArm"][1] - ARMPIT_DEPTH_METRES - float(y[trunk.share > MIN_PART_WEIGHT].min())) / ROW_METRES)
+    yoke = int(
+        (joint["LeftArm"][1] - ARMPIT_DEPTH_METRES - float(y[trunk.share > MIN_UNROLLED_PART_WEIGHT].min()))
+        / ROW_METRES
+    )
     found.append(replace(trunk, yoke=yoke))
     for side in SIDES:
         arm = [joint[side + name] for name in ("Arm", "ForeArm", "Hand", "HandMiddle1", "HandMiddle3")]
@@ -125,23 +128,23 @@ def _unrolled(
     angle: NDArray[np.float64],
     radius: NDArray[np.float64],
 ) -> UnrolledPart:
-    belongs = share > MIN_PART_WEIGHT
+    belongs = share > MIN_UNROLLED_PART_WEIGHT
     first = float(along[belongs].min())
     row = (along - first) / ROW_METRES
     rows = int(row[belongs].max()) + 2
     chosen = np.flatnonzero(belongs[mesh.triangles].all(1))
     corners = mesh.triangles[chosen]
-    columns = unwrapped(angle[corners]) / (2 * np.pi) * COLUMNS
-    flat = np.ptp(columns, axis=1) < COLUMNS / 2  # what lies round the end of the axis has no place
+    columns = unwrapped(angle[corners]) / (2 * np.pi) * UNROLLED_COLUMNS
+    flat = np.ptp(columns, axis=1) < UNROLLED_COLUMNS / 2  # what lies round the end of the axis has no place
     chosen, corners, columns = chosen[flat], corners[flat], columns[flat]
-    places = np.stack([columns + COLUMNS / 2 - 0.5, row[corners] - 0.5, -radius[corners]], -1)
-    copies = np.concatenate([places + np.array([turn * COLUMNS, 0, 0]) for turn in (0, -1, 1)]).reshape(-1, 3)
-    drawn = rasterise(copies, np.arange(len(copies)).reshape(-1, 3), (rows, COLUMNS))
+    places = np.stack([columns + UNROLLED_COLUMNS / 2 - 0.5, row[corners] - 0.5, -radius[corners]], -1)
+    copies = np.concatenate([places + np.array([turn * UNROLLED_COLUMNS, 0, 0]) for turn in (0, -1, 1)]).reshape(-1, 3)
+    drawn = rasterise(copies, np.arange(len(copies)).reshape(-1, 3), (rows, UNROLLED_COLUMNS))
     covered = drawn.triangle >= 0
     which = np.where(covered, chosen[drawn.triangle % max(len(chosen), 1)], -1).astype(np.int32)
     wide = np.concatenate([covered, covered, covered], 1)
-    y, x = (each[:, COLUMNS : 2 * COLUMNS] for each in nearest_in(wide))
-    x = x % COLUMNS
+    y, x = (each[:, UNROLLED_COLUMNS : 2 * UNROLLED_COLUMNS] for each in nearest_in(wide))
+    x = x % UNROLLED_COLUMNS
     raster = Raster(which[y, x], drawn.barycentrics[y, x], drawn.depth[y, x])
     return UnrolledPart(
         name, share.astype(np.float32), row.astype(np.float32), angle.astype(np.float32), raster, covered

@@ -7,14 +7,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-CHIN = (152, 148, 377, 176, 400, 175, 199)
-HINGE = (234, 454)
+CHIN_VERTICES = (152, 148, 377, 176, 400, 175, 199)
+JAW_HINGE_VERTICES = (234, 454)
 """Before the ears."""
 MAX_JAW_RADIANS = 0.9
 """Radians: farther than jaws open, since faces are carried over to others whose chins are shorter."""
-NEWTON_STEPS = 3
+JAW_NEWTON_STEPS = 3
 """Of Newton's."""
-LOWER_LIP = 14
+INNER_LOWER_LIP_VERTEX = 14
 """The middle of the inner one."""
 
 
@@ -37,9 +37,12 @@ class Jaw(NamedTuple):
 def jaw_of(face: NDArray[np.floating], shut: NDArray[np.floating]) -> Jaw:
     """That of a `face` (478, 2 or 3), of which x and y count, whose jaw is closed in `shut` (478, 3): both from the front, in units of their
     own."""
-    hinge = shut[list(HINGE), 1:].mean(axis=0)
-    chin, now = shut[list(CHIN)].mean(axis=0), np.asarray(face, np.float64)[list(CHIN), :2].mean(axis=0)
-    lip = float(face[LOWER_LIP, 0] - shut[LOWER_LIP, 0])
+    hinge = shut[list(JAW_HINGE_VERTICES), 1:].mean(axis=0)
+    chin, now = (
+        shut[list(CHIN_VERTICES)].mean(axis=0),
+        np.asarray(face, np.float64)[list(CHIN_VERTICES), :2].mean(axis=0),
+    )
+    lip = float(face[INNER_LOWER_LIP_VERTEX, 0] - shut[INNER_LOWER_LIP_VERTEX, 0])
     aside = (float(now[0] - chin[0]) + lip) / 2
     return Jaw(_angle(chin, float(now[1]), hinge), aside, np.asarray(hinge, np.float64))
 
@@ -54,7 +57,7 @@ def _angle(point: NDArray[np.float64], height: float, hinge: NDArray[np.float64]
     """Radians by which the jaw is open where a point (3,) of it is at a `height`."""
     down, forward = point[1] - hinge[0], hinge[1] - point[2]
     angle = 0.0
-    for _ in range(NEWTON_STEPS):
+    for _ in range(JAW_NEWTON_STEPS):
         off = down * np.cos(angle) + forward * np.sin(angle) - (height - hinge[0])
         angle -= off / max(forward * np.cos(angle) - down * np.sin(angle), 0.3 * forward)
     return float(np.clip(angle, 0, MAX_JAW_RADIANS))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.mouth.lip_contours import box_around, inner_lip_outline, soft_polygon
 from engine.face_animation.mouth.modelled.jaw import Jaw, held_between, jaw_of
-from engine.face_animation.mouth.modelled.mouth_colours import RAMP_PIXELS, MouthColours
+from engine.face_animation.mouth.modelled.mouth_colours import COLOUR_RAMP_PIXELS, MouthColours
 from engine.face_animation.mouth.modelled.mouth_light import mouth_light
 from engine.face_animation.mouth.modelled.mouth_parts import (
     OVERBITE_EYE_DISTANCES,
@@ -21,7 +21,7 @@ from engine.face_animation.mouth.modelled.mouth_parts import (
     mouth_bag,
     tongue,
 )
-from engine.face_animation.mouth.modelled.resting_mouth import CORNERS, RestingMouth
+from engine.face_animation.mouth.modelled.resting_mouth import INNER_MOUTH_CORNER_VERTICES, RestingMouth
 from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.geometry.adjacency import edge_table
 from engine.geometry.surface import vertex_normals
@@ -40,8 +40,8 @@ INCISORS_SHARE = 0.25
 """Of the teeth, which are the foremost."""
 LIGHTEST_PERCENTILE = 80
 """Of the light on incisors, that which their colours are of."""
-UPPER_LIP_MIDDLE = 13
-LOWER_MIDDLE, ABOVE_LIP_EYE_DISTANCES, BELOW_LIP_EYE_DISTANCES = 14, 0.03, 0.05
+INNER_UPPER_LIP_VERTEX = 13
+INNER_LOWER_LIP_VERTEX, ABOVE_LIP_EYE_DISTANCES, BELOW_LIP_EYE_DISTANCES = 14, 0.03, 0.05
 """The middle of the lower inner lip, and eye distances above and below it between which lower teeth end: where a face opens its mouth farther or
 less far than its chin tells, they go along, and neither stand in the middle of a mouth nor leave it empty."""
 BARING_JAW_RADIANS = (0.12, 0.28)
@@ -65,7 +65,7 @@ AFFINE_FRAME = np.concatenate([np.zeros((1, 3)), np.eye(3)])
 """What a part's places follow from, since each part moves as a whole: the origin, and a step along each axis."""
 SAMPLES_PER_PIXEL = 2
 """To a pixel, along each axis, where outlines run: the inside is softened by the lips around it."""
-CLOSED_OPENING = 0.01
+MAX_CLOSED_OPENING = 0.01
 """Opening of a mouth of which nothing is seen."""
 
 
@@ -101,13 +101,13 @@ class ModelledMouth:
         inner = inner_lip_outline(face)
         box = box_around(inner, frame.shape[:2])
         share = shown_share(face, self._appearing)
-        if box is None or share == 0 or float(mouth_opening(face)) < CLOSED_OPENING or cv2.contourArea(inner) < 1:
+        if box is None or share == 0 or float(mouth_opening(face)) < MAX_CLOSED_OPENING or cv2.contourArea(inner) < 1:
             return
         x0, y0, x1, y1 = box
         shape, corner = (y1 - y0, x1 - x0), np.array([x0, y0], np.float32)
         points = self.places(face) - (x0, y0, 0)
         inside = np.zeros((*shape, 3), np.uint8)
-        inside[:] = self._textures[-1][RAMP_PIXELS[1] // 2, -1]
+        inside[:] = self._textures[-1][COLOUR_RAMP_PIXELS[1] // 2, -1]
         draw_surface(inside, False, self._surface, points.astype(np.float32), Scratch(), SAMPLES_PER_PIXEL, self._shade)
         unit = float(eye_distance(face))
         if self._softness > 0:
@@ -128,9 +128,9 @@ class ModelledMouth:
         jaw = jaw_behind_lips(self._at, front)
         lips = np.column_stack([front, depths])[list(LIPS_INNER)]
         tongue_jaw = jaw._replace(angle=TONGUE_JAW_SHARE * jaw.angle)
-        raised = min(float(front[UPPER_LIP_MIDDLE, 1]) + MAX_CROWN_EYE_DISTANCES - self._at.edge, 0.0) - covered_crown(
-            self._at, front
-        )
+        raised = min(
+            float(front[INNER_UPPER_LIP_VERTEX, 1]) + MAX_CROWN_EYE_DISTANCES - self._at.edge, 0.0
+        ) - covered_crown(self._at, front)
         bag = mouth_bag(lips, BAG_DEPTH_FACTOR)
         moved = np.concatenate(
             [AFFINE_FRAME + np.array([0, raised, 0]), jaw.moved(AFFINE_FRAME), tongue_jaw.moved(AFFINE_FRAME), bag]
@@ -179,7 +179,7 @@ class ModelledMouth:
 def jaw_behind_lips(at: RestingMouth, front: NDArray[np.floating]) -> Jaw:
     """The jaw of a face that rests as `at` says and is `front` (478, 2 or 3) from the front: as its chin tells, and where its lower lip is."""
     edge = np.array([at.middle, at.edge - OVERBITE_EYE_DISTANCES, at.depth + OVERJET_EYE_DISTANCES])
-    lip, jaw = float(front[LOWER_MIDDLE, 1]), jaw_of(front, at.shut)
+    lip, jaw = float(front[INNER_LOWER_LIP_VERTEX, 1]), jaw_of(front, at.shut)
     bared = float(np.interp(jaw.angle, BARING_JAW_RADIANS, (0, 1)))
     lip += covered_crown(at, front)  # rounded lips are before the lower teeth, too
     return held_between(jaw, edge, (lip - bared * ABOVE_LIP_EYE_DISTANCES, lip + BELOW_LIP_EYE_DISTANCES))
@@ -187,7 +187,7 @@ def jaw_behind_lips(at: RestingMouth, front: NDArray[np.floating]) -> Jaw:
 
 def covered_crown(at: RestingMouth, front: NDArray[np.floating]) -> float:
     """Eye distances of the upper row that the lips of a face that rests as `at` says and is `front` (478, 2 or 3) from the front cover, being rounded."""
-    width = float(np.linalg.norm(front[CORNERS[1], :2] - front[CORNERS[0], :2]))
+    width = float(np.linalg.norm(front[INNER_MOUTH_CORNER_VERTICES[1], :2] - front[INNER_MOUTH_CORNER_VERTICES[0], :2]))
     return ROUNDED_CROWN_EYE_DISTANCES * max(1 - width / max(at.width, 1e-6) - ROUNDED_NARROWING_SHARE, 0.0)
 
 
@@ -200,7 +200,7 @@ def shown_share(face: NDArray[np.floating], appearing: float) -> float:
 
 def _on_atlas(uv: NDArray[np.float32], number: int, count: int) -> NDArray[np.float32]:
     """Places on the `number`-th of `count` ramps that lie below one another, half a pixel off their edges."""
-    inset = np.array([0.5 / RAMP_PIXELS[0], 0.5 / RAMP_PIXELS[1]])
+    inset = np.array([0.5 / COLOUR_RAMP_PIXELS[0], 0.5 / COLOUR_RAMP_PIXELS[1]])
     held = inset + uv * (1 - 2 * inset)
     held[:, 1] = (held[:, 1] + number) / count
     return held.astype(np.float32)

@@ -13,12 +13,12 @@ from engine.face_animation.smoothstep import smoothstep
 from engine.face_animation.whites import white_tint
 from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER
 
-ENAMEL, DENTINE = np.array([216, 209, 197.0]), np.array([198, 185, 162.0])
-GUM, TONGUE = np.array([176, 96, 95.0]), np.array([196, 110, 108.0])
-LINING, THROAT = np.array([140, 60, 58.0]), np.array([66, 24, 23.0])
+ENAMEL_COLOUR, DENTINE_COLOUR = np.array([216, 209, 197.0]), np.array([198, 185, 162.0])
+GUM_COLOUR, TONGUE_COLOUR = np.array([176, 96, 95.0]), np.array([196, 110, 108.0])
+LINING_COLOUR, THROAT_COLOUR = np.array([140, 60, 58.0]), np.array([66, 24, 23.0])
 """sRGB, of mouths whose skin has the luminance `USUAL_SKIN_LUMINANCE`."""
 USUAL_SKIN_LUMINANCE = 165.0
-LIGHT_RANGE = (0.35, 1.25)
+SKIN_LIGHT_RANGE = (0.35, 1.25)
 LIP_HUE_SHARE = 0.5
 """Of the person's lips in what is flesh."""
 TONGUE_LIT_SHARE, TONGUE_DARK_SHARE, TONGUE_SIDES_SHARE = 0.15, 0.6, 0.3
@@ -44,7 +44,7 @@ BAG_LIGHT_SHARES = (0.75, 1.4)
 """Of the bag's light, what its roof has behind the upper lip, and its floor, on which light falls."""
 BAG_DARK_DEPTH_SHARE = 0.8
 """Of the bag's depth, from which on it is as dark as the throat."""
-RAMP_PIXELS = (64, 16)
+COLOUR_RAMP_PIXELS = (64, 16)
 """Width and height of a ramp of colours, pixels."""
 
 
@@ -65,21 +65,30 @@ def mouth_colours(
     known."""
     skin = skin_colour(rgb, mesh)
     luminance = max(float(skin @ LUMINANCE_WEIGHTS), 1.0)
-    light = float(np.clip(luminance / USUAL_SKIN_LUMINANCE, *LIGHT_RANGE))
+    light = float(np.clip(luminance / USUAL_SKIN_LUMINANCE, *SKIN_LIGHT_RANGE))
     lips = lip_colour(rgb, mesh)
     flesh = {
         name: _blended(light * colour, lips)
-        for name, colour in (("gum", GUM), ("tongue", TONGUE), ("lining", LINING), ("throat", THROAT))
+        for name, colour in (
+            ("gum", GUM_COLOUR),
+            ("tongue", TONGUE_COLOUR),
+            ("lining", LINING_COLOUR),
+            ("throat", THROAT_COLOUR),
+        )
     }
-    edge = light * ENAMEL * white_tint(rgb, mesh, TEETH_TINT_SHARES) if teeth is None else _of_a_tooth(teeth, rgb, mesh)
+    edge = (
+        light * ENAMEL_COLOUR * white_tint(rgb, mesh, TEETH_TINT_SHARES)
+        if teeth is None
+        else _of_a_tooth(teeth, rgb, mesh)
+    )
     least = max(
         MIN_TEETH_TO_SKIN_RATIO * luminance,
         min(MIN_TEETH_TO_FACE_RATIO * _light_place(rgb, mesh), MAX_TEETH_TO_SKIN_RATIO * luminance),
     )
     edge = edge * max(least / max(float(edge @ LUMINANCE_WEIGHTS), 1.0), 1.0)
     edge = edge * min(1.0, MAX_TEETH_LEVEL / float(edge.max()))
-    root = edge * (DENTINE / ENAMEL)
-    along, aside = np.linspace(0, 1, RAMP_PIXELS[0]), np.linspace(0, 1, RAMP_PIXELS[1])
+    root = edge * (DENTINE_COLOUR / ENAMEL_COLOUR)
+    along, aside = np.linspace(0, 1, COLOUR_RAMP_PIXELS[0]), np.linspace(0, 1, COLOUR_RAMP_PIXELS[1])
     crowns = np.where(
         along[:, None] < 0.5, flesh["gum"], root + (np.clip(2 * along - 1, 0, 1) ** 0.6)[:, None] * (edge - root)
     )
@@ -87,7 +96,7 @@ def mouth_colours(
     upper = shades[:, None, None] * crowns
     back = smoothstep(along, TONGUE_LIT_SHARE, TONGUE_DARK_SHARE)
     sides = smoothstep(aside, TONGUE_SIDES_SHARE, 1)
-    flat = np.broadcast_to(flesh["tongue"], (RAMP_PIXELS[1], RAMP_PIXELS[0], 3))
+    flat = np.broadcast_to(flesh["tongue"], (COLOUR_RAMP_PIXELS[1], COLOUR_RAMP_PIXELS[0], 3))
     for share, dark in ((back[None, :, None], TONGUE_BACK_DARKNESS), (sides[:, None, None], TONGUE_SIDES_DARKNESS)):
         flat = flat + share * (flesh["lining"] + dark * (flesh["throat"] - flesh["lining"]) - flat)
     furrow = 1 - 0.18 * np.exp(-0.5 * (aside / 0.1) ** 2)
@@ -112,7 +121,7 @@ def _of_a_tooth(teeth: NDArray[np.floating], rgb: NDArray[np.uint8], mesh: NDArr
     """What `teeth` (3,) look like, their hue held between none and an enamel's in the picture's light: neither blue nor violet, and no more yellow
     than that."""
     luminance = max(float(teeth @ LUMINANCE_WEIGHTS), 1.0)
-    most = ENAMEL / float(ENAMEL @ LUMINANCE_WEIGHTS) * white_tint(rgb, mesh)
+    most = ENAMEL_COLOUR / float(ENAMEL_COLOUR @ LUMINANCE_WEIGHTS) * white_tint(rgb, mesh)
     return np.asarray(luminance * np.clip(teeth / luminance, np.minimum(most, 1), np.maximum(most, 1)), np.float64)
 
 
@@ -128,4 +137,4 @@ def lip_colour(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np
     cv2.fillPoly(mask, [mesh[list(LIPS_OUTER), :2].round().astype(np.int32)], 1)
     cv2.fillPoly(mask, [mesh[list(LIPS_INNER), :2].round().astype(np.int32)], 0)
     found = rgb[mask > 0]
-    return np.asarray(found.mean(axis=0) if len(found) else GUM, np.float64)
+    return np.asarray(found.mean(axis=0) if len(found) else GUM_COLOUR, np.float64)

@@ -21,7 +21,7 @@ from engine.performances.modelling.teeth import LOWER_CROWNS, UPPER_CROWNS, Arch
 
 EYE_DISTANCE_METRES = 0.063
 """Metres between the middles of the eyes: people's mean."""
-CROWN_DETAIL, CROWN_UNEVENNESS = 0.4, 0.35
+CROWN_DETAIL_SHARE, CROWN_UNEVENNESS_SHARE = 0.4, 0.35
 """Of the crowns' meshes; and of what sets single crowns off their row: on faces of some eighty pixels their edges would become steps."""
 OVERBITE_EYE_DISTANCES, OVERJET_EYE_DISTANCES = 0.03, 0.05
 """Eye distances by which lower teeth end above the upper ones' edges, and lie behind them, where the jaw is closed."""
@@ -37,7 +37,7 @@ BAG_RINGS = ((0.0, 0.0, 1.0), (0.04, 0.1, 1.03), (0.15, 0.25, 1.15), (0.35, 0.28
 """Of the bag: eye distances behind the lips, by which it is higher and deeper than their opening, and its share of their width."""
 BAG_BOTTOM_EYE_DISTANCES = 0.05
 """Eye distances behind the last ring at which the bag ends."""
-CROWN_SHADES = (0.9, 1.1)
+CROWN_SHADE_FACTORS = (0.9, 1.1)
 """Of single crowns, the darkest and the lightest."""
 BACKING_DEPTH_METRES, BACKING_HEIGHT_SHARES, BACKING_LIGHT_SHARE = 0.0022, (-0.2, 0.93), 0.75
 """Metres behind the front of the arch, and shares of its crowns' heights, from and up to which there is the wall that closes the gaps between
@@ -62,7 +62,7 @@ class MouthPart:
 def modelled_teeth(at: RestingMouth, upper: bool) -> MouthPart:
     """A row of teeth, its gum, and the wall behind them: u from the gum to the crowns' edges, v the crowns' own shades."""
     arch = Arch(gum=0.0, front=0.0, up=-1 if upper else 1)
-    row = build_dentition(arch, CROWN_DETAIL, seed=3 if upper else 4, unevenness=CROWN_UNEVENNESS)
+    row = build_dentition(arch, CROWN_DETAIL_SHARE, seed=3 if upper else 4, unevenness=CROWN_UNEVENNESS_SHARE)
     wall, wall_triangles = _backing(arch)
     places = _in_eye_distances(np.concatenate([row.vertices, wall]))
     enamel = np.concatenate([row.enamel, np.full(len(wall), 0.5)])
@@ -75,7 +75,9 @@ def modelled_teeth(at: RestingMouth, upper: bool) -> MouthPart:
         if upper
         else (at.middle, at.edge - OVERBITE_EYE_DISTANCES, at.depth + OVERJET_EYE_DISTANCES)
     )
-    shade = (np.concatenate([row.shade, np.ones(len(wall))]) - CROWN_SHADES[0]) / (CROWN_SHADES[1] - CROWN_SHADES[0])
+    shade = (np.concatenate([row.shade, np.ones(len(wall))]) - CROWN_SHADE_FACTORS[0]) / (
+        CROWN_SHADE_FACTORS[1] - CROWN_SHADE_FACTORS[0]
+    )
     uv = np.column_stack([(enamel + 1) / 2, shade]).clip(0, 1).astype(np.float32)
     away = np.abs(places - (0, edge, front))
     triangles = np.concatenate([row.triangles, wall_triangles + len(row.vertices)])

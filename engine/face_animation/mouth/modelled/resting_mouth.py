@@ -9,17 +9,17 @@ from numpy.typing import NDArray
 
 from engine.perception.landmarks import mouth_opening
 
-CORNERS = (78, 308)
-UPPER_MIDDLE = (82, 13, 312)
+INNER_MOUTH_CORNER_VERTICES = (78, 308)
+UPPER_LIP_MIDDLE_VERTICES = (82, 13, 312)
 BEHIND_LIPS_EYE_DISTANCES = 0.03
 """Eye distances by which teeth lie behind the inner lips."""
 BELOW_LIPS_EYE_DISTANCES = 0.06
 """Eye distances below where the lips meet, at which upper teeth end."""
-SHUT_OPENING = 0.05
+MAX_SHUT_OPENING = 0.05
 """Of a mouth that tells where its lips meet."""
-FULL_OPENING = 0.09
+MIN_FULL_OPENING = 0.09
 """Of a mouth that is open."""
-NOSE_BASE = (2, 94, 98, 327)
+NOSE_BASE_VERTICES = (2, 94, 98, 327)
 
 
 @dataclass(frozen=True)
@@ -33,17 +33,19 @@ class RestingMouth:
     @property
     def depth(self) -> float:
         """Of the front of the upper teeth."""
-        return float(self.front[list(UPPER_MIDDLE), 2].mean()) + BEHIND_LIPS_EYE_DISTANCES
+        return float(self.front[list(UPPER_LIP_MIDDLE_VERTICES), 2].mean()) + BEHIND_LIPS_EYE_DISTANCES
 
     @property
     def middle(self) -> float:
         """Of the mouth, along x."""
-        return float(self.front[list(CORNERS), 0].mean())
+        return float(self.front[list(INNER_MOUTH_CORNER_VERTICES), 0].mean())
 
     @property
     def width(self) -> float:
         """From corner to corner."""
-        return float(np.linalg.norm(self.front[CORNERS[1]] - self.front[CORNERS[0]]))
+        return float(
+            np.linalg.norm(self.front[INNER_MOUTH_CORNER_VERTICES[1]] - self.front[INNER_MOUTH_CORNER_VERTICES[0]])
+        )
 
     @property
     def edge(self) -> float:
@@ -55,7 +57,7 @@ def resting_mouth(front: NDArray[np.floating], neutral: NDArray[np.floating]) ->
     """That of a face `front` (478, 3), whose mouth may be open: then `neutral` (478, 3), the person's face at rest, tells where its lips
     meet, the bases of both noses laid on one another."""
     whole = np.asarray(front, np.float64)
-    if float(mouth_opening(whole)) < SHUT_OPENING:
+    if float(mouth_opening(whole)) < MAX_SHUT_OPENING:
         return RestingMouth(whole, whole)
-    base = list(NOSE_BASE)
+    base = list(NOSE_BASE_VERTICES)
     return RestingMouth(whole, np.asarray(neutral + (whole[base] - neutral[base]).mean(axis=0), np.float64))

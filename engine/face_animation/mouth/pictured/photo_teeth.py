@@ -18,29 +18,34 @@ from engine.face_animation.mouth.modelled.modelled_mouth import (
     shown_share,
 )
 from engine.face_animation.mouth.modelled.mouth_light import mouth_light
-from engine.face_animation.mouth.modelled.resting_mouth import CORNERS, FULL_OPENING, UPPER_MIDDLE, RestingMouth
+from engine.face_animation.mouth.modelled.resting_mouth import (
+    INNER_MOUTH_CORNER_VERTICES,
+    MIN_FULL_OPENING,
+    UPPER_LIP_MIDDLE_VERTICES,
+    RestingMouth,
+)
 from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
-from engine.face_animation.mouth.pictured.teeth_strip import ARCH_CURVATURE, TeethStrip, teeth_strip
+from engine.face_animation.mouth.pictured.teeth_strip import ARCH_CURVATURE_PER_EYE_DISTANCE, TeethStrip, teeth_strip
 from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, is_grey, skin_colour
 from engine.perception.landmarks import FACE_OVAL, eye_distance, mouth_opening
 
 APPEARING_OPENING = 0.03
 """Of the mouth, from which on the inside appears."""
-REST_FACTOR = 1.15
+OWN_INSIDE_OPENING_RATIO = 1.15
 """Of a picture's own opening, up to which its own inside is shown."""
-MAX_WIDER, MAX_LONGER = 1.25, 1.35
+MAX_TEETH_WIDTH_RATIO, MAX_TEETH_LENGTH_RATIO = 1.25, 1.35
 """Than in the photograph: so that teeth fill mouths that are wider, and reach up to lips that are higher."""
-WIDE_PERCENTILE = 80
+MOUTH_SIZE_PERCENTILE = 80
 """Of the open mouths' widths and lips' heights, that teeth fill."""
 ARCH_ROUNDS = 3
 """How often it is asked how far back the teeth are that a pixel shows."""
-BRIGHT_PERCENTILE = 97
+FACE_LIGHT_PERCENTILE = 97
 """Of the face's light: teeth are no brighter."""
-LIGHTER_THAN_SKIN = 1.1
+MIN_PHOTO_TEETH_TO_SKIN_RATIO = 1.1
 """Teeth are than the skin beside them, at least."""
-GAIN_RANGE = (0.5, 1.7)
+TEETH_GAIN_RANGE = (0.5, 1.7)
 
 
 class PhotoTeeth:
@@ -64,7 +69,7 @@ class PhotoTeeth:
         self.at, self._behind = at, behind
         self._appearing = appearing
         self._strip = teeth_strip(photo, float(eye_distance(mesh[:, :2])))
-        self._wider, self._longer = self._size(faces[np.asarray(mouth_opening(faces)) > FULL_OPENING])
+        self._wider, self._longer = self._size(faces[np.asarray(mouth_opening(faces)) > MIN_FULL_OPENING])
         self._gain = teeth_gain(rgb, mesh, photo, self._strip)
         self._grey = is_grey(rgb, mesh)
 
@@ -115,8 +120,8 @@ class PhotoTeeth:
         y0 = across * back[0, 1] + down * back[1, 1] - self.at.depth * further[1] - self.at.edge
         x = x0
         for _ in range(ARCH_ROUNDS - 1):  # the arch goes back to both sides
-            x = x0 - ARCH_CURVATURE * further[0] * x**2
-        arch = ARCH_CURVATURE * x**2
+            x = x0 - ARCH_CURVATURE_PER_EYE_DISTANCE * further[0] * x**2
+        arch = ARCH_CURVATURE_PER_EYE_DISTANCE * x**2
         return np.stack([x0 - arch * further[0], y0 - arch * further[1]], axis=-1)
 
     def upper_teeth(self, places: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -132,20 +137,23 @@ class PhotoTeeth:
         widths, heights = [], []
         for face in faces:
             matrix, shift = skull_camera(self.at.front, face)
-            widths.append(np.linalg.norm(face[CORNERS[0]] - face[CORNERS[1]]) / np.linalg.norm(matrix[0]))
-            lip = face[list(UPPER_MIDDLE)].mean(axis=0) - shift - self.at.depth * matrix[:, 2]
+            widths.append(
+                np.linalg.norm(face[INNER_MOUTH_CORNER_VERTICES[0]] - face[INNER_MOUTH_CORNER_VERTICES[1]])
+                / np.linalg.norm(matrix[0])
+            )
+            lip = face[list(UPPER_LIP_MIDDLE_VERTICES)].mean(axis=0) - shift - self.at.depth * matrix[:, 2]
             heights.append(self.at.edge - np.linalg.solve(matrix[:, :2], lip)[1])
         middle = np.full((), self._strip.middle)
         own = float(self._strip.ends(middle) - self._strip.lip(middle))
-        wide, high = (float(np.percentile(one, WIDE_PERCENTILE)) for one in (widths, heights))
-        wider = float(np.clip(wide / self._strip.width, 1, MAX_WIDER))
-        return wider, float(np.clip(high / own, 1, MAX_LONGER))
+        wide, high = (float(np.percentile(one, MOUTH_SIZE_PERCENTILE)) for one in (widths, heights))
+        wider = float(np.clip(wide / self._strip.width, 1, MAX_TEETH_WIDTH_RATIO))
+        return wider, float(np.clip(high / own, 1, MAX_TEETH_LENGTH_RATIO))
 
 
 def appearing_opening(mesh: NDArray[np.floating]) -> float:
     """The opening of a mouth from which on its inside is drawn: up to there the picture's own is seen, whose face is at `mesh`
     (478, 2 or 3)."""
-    return max(APPEARING_OPENING, REST_FACTOR * float(mouth_opening(mesh)))
+    return max(APPEARING_OPENING, OWN_INSIDE_OPENING_RATIO * float(mouth_opening(mesh)))
 
 
 def teeth_gain(
@@ -164,7 +172,7 @@ def _gain(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], photo: PicturedFac
     brightness = float(ratio @ LUMINANCE_WEIGHTS)
     colour = np.sqrt(ratio / brightness)
     colour[1] = min(colour[1], max(colour[0], colour[2]))
-    return np.asarray(np.clip(brightness, *GAIN_RANGE) * colour / float(colour @ LUMINANCE_WEIGHTS), np.float32)
+    return np.asarray(np.clip(brightness, *TEETH_GAIN_RANGE) * colour / float(colour @ LUMINANCE_WEIGHTS), np.float32)
 
 
 def _held(brightest: float, rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:
@@ -173,6 +181,6 @@ def _held(brightest: float, rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) 
     mask = np.zeros(rgb.shape[:2], np.uint8)
     cv2.fillPoly(mask, [mesh[list(FACE_OVAL), :2].round().astype(np.int32)], 1)
     light = rgb[mask > 0].astype(np.float32) @ LUMINANCE_WEIGHTS
-    most = float(np.percentile(light, BRIGHT_PERCENTILE)) if len(light) else 255.0
-    least = LIGHTER_THAN_SKIN * float(skin_colour(rgb, mesh) @ LUMINANCE_WEIGHTS)
+    most = float(np.percentile(light, FACE_LIGHT_PERCENTILE)) if len(light) else 255.0
+    least = MIN_PHOTO_TEETH_TO_SKIN_RATIO * float(skin_colour(rgb, mesh) @ LUMINANCE_WEIGHTS)
     return float(np.clip(brightest, min(least, most), most)) / brightest

@@ -22,7 +22,7 @@ from engine.imaging.resample import resized
 from engine.perception.expression.features import frontalise
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
 
-ARCH_CURVATURE = 1.2
+ARCH_CURVATURE_PER_EYE_DISTANCE = 1.2
 """Eye distances by which teeth lie further back, for the square of one to the side."""
 LIP_SHADOW_EYE_DISTANCES = 0.02
 """Eye distances below the upper lip from which on teeth are taken: above are the lip and its edge."""
@@ -33,18 +33,18 @@ STRIP_SOFTNESS_EYE_DISTANCES = 0.018
 ROW_SAMPLES = 200
 MIN_CROWN_HEIGHT = 0.07
 """By how much crowns stand out (`TeethStrip.crowns`) that are seen."""
-CROWN_ROW = 0.55
+CROWN_ROW_SHARE = 0.55
 """Of the way from the lip to where teeth end, at which crowns are told apart."""
-CROWN_WIDTH, CROWN_WIDTHS = 0.125, 1.0
+CROWN_WIDTH_EYE_DISTANCES, CROWN_SMOOTHING_WIDTHS = 0.125, 1.0
 """Eye distances that a front tooth is wide, and such widths over which light is told that is no crown's."""
-MAX_SHARPENING = 0.6
+MAX_SHARPENING_SHARE = 0.6
 """Of what is finer than a pixel, where the photograph is enlarged twice or more: its own pixels have blurred it."""
 TEETH_PERCENTILE, USUAL_PERCENTILE = 90, 60
-EDGE_ROWS = 20
+TEETH_EDGE_ROWS = 20
 """From lip to lip at which it is looked for where teeth end."""
-EDGE_LIGHT = 0.6
+TEETH_EDGE_LIGHT_SHARE = 0.6
 """Of the lightest row's light, above which a row is of teeth."""
-EDGE_RANGE = (0.5, 1.0)
+TEETH_EDGE_RANGE = (0.5, 1.0)
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ class TeethStrip:
     def sampled(self, x: NDArray[np.floating], y: NDArray[np.floating]) -> NDArray[np.float32]:
         """(..., 4) colours and shares of teeth at places (h, w), whose height is held below the upper lip."""
         held = np.maximum(y, self.lip(x) + LIP_SHADOW_EYE_DISTANCES)
-        depth = self.depth + ARCH_CURVATURE * (x - self.middle) ** 2
+        depth = self.depth + ARCH_CURVATURE_PER_EYE_DISTANCE * (x - self.middle) ** 2
         photo = np.stack([x, held], axis=-1) @ self.matrix[:, :2].T + depth[..., None] * self.matrix[:, 2] + self.shift
         at = ((photo - self.corner + 0.5) * self.scale - 0.5).astype(np.float32)
         found = cv2.remap(self.layer, at[..., 0], at[..., 1], cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
@@ -116,9 +116,11 @@ class TeethStrip:
         """By how much single crowns stand out along the row: the standard deviation of light, of what is finer than two of them, as a share of
         the light."""
         x = np.linspace(self.upper[1, 0], self.upper[-2, 0], ROW_SAMPLES)
-        y = self.lip(x) + CROWN_ROW * (self.ends(x) - self.lip(x))
+        y = self.lip(x) + CROWN_ROW_SHARE * (self.ends(x) - self.lip(x))
         light = self.sampled(x[None], y[None])[0, :, :3] @ LUMINANCE_WEIGHTS
-        smooth = uniform_filter1d(light, round(CROWN_WIDTHS * ROW_SAMPLES * CROWN_WIDTH / np.ptp(x)), mode="nearest")
+        smooth = uniform_filter1d(
+            light, round(CROWN_SMOOTHING_WIDTHS * ROW_SAMPLES * CROWN_WIDTH_EYE_DISTANCES / np.ptp(x)), mode="nearest"
+        )
         return float((light - smooth).std() / max(float(light.mean()), 1.0))
 
     def usual(self) -> NDArray[np.float64]:
@@ -141,7 +143,7 @@ def teeth_strip(photo: PicturedFace, wanted: float) -> TeethStrip:
     size = max(round(part.rgb.shape[1] * scale), 8), max(round(part.rgb.shape[0] * scale), 8)
     scale = size[0] / part.rgb.shape[1]
     small = resized(part.rgb, size).astype(np.float32)
-    sharpness = MAX_SHARPENING * float(np.clip(wanted / unit - 1, 0, 1))
+    sharpness = MAX_SHARPENING_SHARE * float(np.clip(wanted / unit - 1, 0, 1))
     sharp = np.clip(small + sharpness * (small - cv2.GaussianBlur(small, (0, 0), 1.0)), 0, 255)
     lips = ((part.mesh[list(LIPS_INNER), :2] + 0.5) * scale - 0.5).astype(np.float32)
     softness = max(0.5, STRIP_SOFTNESS_EYE_DISTANCES * unit * scale)
@@ -161,10 +163,10 @@ def teeth_strip(photo: PicturedFace, wanted: float) -> TeethStrip:
 def _edge(photo: PicturedFace) -> float:
     """The share of the way from lip to lip where the upper teeth end, in the middle of the mouth."""
     upper, lower = (photo.mesh[list(lip[3:8]), :2] for lip in (UPPER_INNER_LIP, LOWER_INNER_LIP))
-    down = (np.arange(EDGE_ROWS) + 0.5)[:, None, None] / EDGE_ROWS
+    down = (np.arange(TEETH_EDGE_ROWS) + 0.5)[:, None, None] / TEETH_EDGE_ROWS
     at = np.asarray(upper + down * (lower - upper), np.float32)
     light = np.asarray(cv2.remap(photo.rgb, at[..., 0], at[..., 1], cv2.INTER_LINEAR), np.float32) @ LUMINANCE_WEIGHTS
     rows = light.mean(axis=1)
     lightest = int(rows.argmax())
-    below = np.flatnonzero(rows[lightest:] < EDGE_LIGHT * rows[lightest])
-    return float(np.clip((lightest + below[0]) / EDGE_ROWS if len(below) else 1.0, *EDGE_RANGE))
+    below = np.flatnonzero(rows[lightest:] < TEETH_EDGE_LIGHT_SHARE * rows[lightest])
+    return float(np.clip((lightest + below[0]) / TEETH_EDGE_ROWS if len(below) else 1.0, *TEETH_EDGE_RANGE))

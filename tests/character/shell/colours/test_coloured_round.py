@@ -13,17 +13,17 @@ from engine.character.shell.colours.round import (
     reflections,
     with_the_other,
 )
-from engine.character.shell.colours.unrolled import COLUMNS
+from engine.character.shell.colours.unrolled import UNROLLED_COLUMNS
 
 ROWS = 160
 NAVY, RED, WHITE = np.array([20, 30, 60]), np.array([220, 30, 40]), np.array([235, 235, 230])
-FACING = np.broadcast_to(np.cos(COLUMN_RADIANS), (ROWS, COLUMNS)).astype(np.float32)
+FACING = np.broadcast_to(np.cos(COLUMN_RADIANS), (ROWS, UNROLLED_COLUMNS)).astype(np.float32)
 SOURCE = FACING > 0.22
 BEHIND = FACING < -0.3
 
 
 def roll(*bands: tuple[slice, NDArray[np.int_]], ground: NDArray[np.int_] = NAVY) -> NDArray[np.float32]:
-    cloth = np.empty((ROWS, COLUMNS, 3), np.float32)
+    cloth = np.empty((ROWS, UNROLLED_COLUMNS, 3), np.float32)
     cloth[:] = ground
     for rows, colour in bands:
         cloth[rows] = colour
@@ -56,7 +56,7 @@ def test_a_tie_is_not_on_the_back_but_for_whoever_wants_the_front_mirrored() -> 
 
 
 def test_checks_are_on_the_back_as_on_the_front_and_inpainted_ones_are_not() -> None:
-    checks = ((np.arange(ROWS)[:, None] // 8 + np.arange(COLUMNS) // 8) % 2)[..., None]
+    checks = ((np.arange(ROWS)[:, None] // 8 + np.arange(UNROLLED_COLUMNS) // 8) % 2)[..., None]
     cloth = (checks * WHITE + (1 - checks) * np.array([150, 150, 150])).astype(np.float32)
     contrast = {back: painted(cloth, back=back)[BEHIND].std() for back in ("see_through", "inpaint")}
     assert contrast["see_through"] > 0.8 * cloth.std() > 5 * contrast["inpaint"] - 20
@@ -85,7 +85,7 @@ def test_nothing_seen_is_nothing_changed() -> None:
 
 
 def test_whoever_is_turned_has_a_tie_seen_aside_not_on_the_back() -> None:
-    turned = COLUMNS // 8
+    turned = UNROLLED_COLUMNS // 8
     cloth = roll()
     cloth[:, np.abs(COLUMN_SINES * (np.cos(COLUMN_RADIANS) > 0) + 2 * (np.cos(COLUMN_RADIANS) <= 0)) < 0.1] = RED
     facing, source = np.roll(FACING, turned, 1), np.roll(SOURCE, turned, 1)
@@ -128,26 +128,26 @@ def test_a_limb_of_which_a_strip_of_its_middle_is_seen_is_a_ring_of_that() -> No
 
 def test_what_a_leg_shows_is_reflected_at_its_border() -> None:
     """Known are 60 degrees to both sides of the middle; as far beyond as within, the same column is meant, and both sides' shares are all."""
-    half = COLUMNS // 6
-    known = np.zeros((60, COLUMNS), np.bool_)
-    known[:, COLUMNS // 2 - half : COLUMNS // 2 + half + 1] = True
+    half = UNROLLED_COLUMNS // 6
+    known = np.zeros((60, UNROLLED_COLUMNS), np.bool_)
+    known[:, UNROLLED_COLUMNS // 2 - half : UNROLLED_COLUMNS // 2 + half + 1] = True
     (right, of_right), (left, of_left) = reflections(known)
     np.testing.assert_allclose(of_right + of_left, 1, atol=1e-6)
-    assert (right[known] == np.broadcast_to(np.arange(COLUMNS), known.shape)[known]).all()
-    border = COLUMNS // 2 + half
+    assert (right[known] == np.broadcast_to(np.arange(UNROLLED_COLUMNS), known.shape)[known]).all()
+    border = UNROLLED_COLUMNS // 2 + half
     for beyond in (1, 10, half):
         assert (right[:, border + beyond] == border - beyond).all()
     inside = known[0]
     assert inside[right].all() and inside[left].all()
-    assert (of_right[:, border + 20] == 1).all() and (of_left[:, COLUMNS - border - 20] == 1).all()
+    assert (of_right[:, border + 20] == 1).all() and (of_left[:, UNROLLED_COLUMNS - border - 20] == 1).all()
 
 
 def test_a_legs_folds_have_no_seam_at_the_border() -> None:
-    columns = np.arange(COLUMNS)
+    columns = np.arange(UNROLLED_COLUMNS)
     folds = 120 + 30 * np.sin(columns / 5.0)
-    colours = np.broadcast_to(folds[None, :, None], (80, COLUMNS, 3)).astype(np.float32)
-    angle = (columns + 0.5) / COLUMNS * 2 * np.pi - np.pi
-    facing = np.broadcast_to(np.cos(angle), (80, COLUMNS)).astype(np.float32)
+    colours = np.broadcast_to(folds[None, :, None], (80, UNROLLED_COLUMNS, 3)).astype(np.float32)
+    angle = (columns + 0.5) / UNROLLED_COLUMNS * 2 * np.pi - np.pi
+    facing = np.broadcast_to(np.cos(angle), (80, UNROLLED_COLUMNS)).astype(np.float32)
     source = facing > 0.4
     filled, _ = coloured_round(np.where(source[..., None], colours, 0), source, facing, "mirror", None, True, True)
     steps = np.abs(np.diff(filled[40, :, 0]))

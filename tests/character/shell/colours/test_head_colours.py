@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from engine.character.shell.colours.hair import hair_share, strand_levels, strand_noise
 from engine.character.shell.colours.head_map import head_map
 from engine.character.shell.colours.head_round import head_round
-from engine.character.shell.colours.unrolled import COLUMNS
+from engine.character.shell.colours.unrolled import UNROLLED_COLUMNS
 
 SKIN, HAIR, HAT, COLLAR = (200.0, 150.0, 120.0), (60.0, 40.0, 20.0), (30.0, 60.0, 160.0), (240.0, 240.0, 250.0)
 
@@ -17,7 +17,7 @@ SKIN, HAIR, HAT, COLLAR = (200.0, 150.0, 120.0), (60.0, 40.0, 20.0), (30.0, 60.0
 def seen_from_before(
     colours: NDArray[np.float64],
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_], NDArray[np.float32]]:
-    """Colours (A, `COLUMNS`, 3), which of them are seen, and the cosines to the viewer."""
+    """Colours (A, `UNROLLED_COLUMNS`, 3), which of them are seen, and the cosines to the viewer."""
     facing = np.broadcast_to(np.cos(head_map().angle), colours.shape[:2]).astype(np.float32)
     source = facing > 0.2
     return np.where(source[..., None], colours, 0).astype(np.float32), source, facing
@@ -95,7 +95,7 @@ def test_a_bald_head_is_skin_all_round() -> None:
 
 def test_of_a_face_seen_from_one_side_the_other_cheek_is_the_same() -> None:
     head = head_map()
-    side = np.arange(COLUMNS) < COLUMNS // 2 + COLUMNS // 20
+    side = np.arange(UNROLLED_COLUMNS) < UNROLLED_COLUMNS // 2 + UNROLLED_COLUMNS // 20
     colours, source, facing = seen_from_before(painted())
     found = head_round(np.where(side[None, :, None], colours, 0), source & side, facing)
     assert off(found, ~side & (head.angle < 0.6) & head.between("nose", "eyes"), SKIN) < 2
@@ -119,20 +119,20 @@ def test_long_hair_covers_ears_and_neck() -> None:
 
 
 def test_strands_have_no_seam_and_are_drawn_out_along_the_head() -> None:
-    noise = strand_noise((120, COLUMNS))
+    noise = strand_noise((120, UNROLLED_COLUMNS))
     assert noise.mean() == pytest.approx(0, abs=1e-4) and noise.std() == pytest.approx(1, abs=1e-4)
     steps = np.abs(np.diff(noise, axis=1)).mean()
     assert np.abs(noise[:, 0] - noise[:, -1]).mean() < 1.5 * steps
     assert np.abs(np.diff(noise, axis=0)).mean() < 0.5 * steps
-    assert (noise == strand_noise((120, COLUMNS))).all()
+    assert (noise == strand_noise((120, UNROLLED_COLUMNS))).all()
 
 
 def test_strands_are_as_strong_as_what_is_fine_about_hair() -> None:
     random = np.random.default_rng(1)
-    hair = np.zeros((80, COLUMNS), np.bool_)
+    hair = np.zeros((80, UNROLLED_COLUMNS), np.bool_)
     hair[10:70, 20:90] = True
-    smooth = np.full((80, COLUMNS, 3), 90.0)
+    smooth = np.full((80, UNROLLED_COLUMNS, 3), 90.0)
     assert strand_levels(smooth, hair) < 1e-4
-    fine = smooth + random.normal(0, 5, (80, COLUMNS, 1))
+    fine = smooth + random.normal(0, 5, (80, UNROLLED_COLUMNS, 1))
     assert strand_levels(fine, hair) == pytest.approx(5, abs=0.7)
     assert strand_levels(fine, hair & False) == 0

@@ -15,7 +15,7 @@ from engine.character.fit.template_fit import load_human
 from engine.character.parts.label_map import Labels
 from engine.character.shell.colours.ear_shade import ear_shade
 from engine.character.shell.colours.evidence import witness
-from engine.character.shell.colours.paint import TEXTURE_SIZE_TEXELS, paint_shell, texels
+from engine.character.shell.colours.paint import SHELL_TEXTURE_SIZE_TEXELS, paint_shell, texels
 from engine.character.shell.shell import Shell
 from engine.character.shell.template_mesh import template_mesh
 from engine.render.attributes import interpolate
@@ -65,7 +65,7 @@ def test_all_of_somebody_in_one_colour_is_in_it_and_nothing_of_the_wall(
     shell, silhouette, labels = seen
     rgb = np.where(silhouette.mask[..., None], np.array(CLOTH), np.array(WALL)).astype(np.uint8)
     texture = paint_shell(rgb, silhouette, labels, shell)
-    assert texture.shape == (TEXTURE_SIZE_TEXELS, TEXTURE_SIZE_TEXELS, 3) and texture.dtype == np.uint8
+    assert texture.shape == (SHELL_TEXTURE_SIZE_TEXELS, SHELL_TEXTURE_SIZE_TEXELS, 3) and texture.dtype == np.uint8
     folds = interpolate(ear_shade()[:, None], shell.mesh.triangles, texels())[..., 0]
     assert np.abs(texture.astype(int) - CLOTH)[folds == 1].max() <= 2
     darker = texture[(texels().triangle >= 0) & (folds < 0.6)].astype(float)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from engine.face_animation.mouth.modelled.jaw import CHIN, held_between, jaw_of
+from engine.face_animation.mouth.modelled.jaw import CHIN_VERTICES, held_between, jaw_of
 from engine.face_animation.mouth.modelled.modelled_mouth import (
     BARING_JAW_RADIANS,
     ModelledMouth,
@@ -27,7 +27,7 @@ from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 
-LOWER = [*LIPS_INNER[11:], *LIPS_OUTER[11:], *CHIN]
+LOWER = [*LIPS_INNER[11:], *LIPS_OUTER[11:], *CHIN_VERTICES]
 EYES = 80.0
 SHAPE = (400, 400)
 WALL = (0, 255, 0)
