@@ -25,7 +25,7 @@ from benchmarks.scan_studio.distance import measured_surface
 from benchmarks.scan_studio.drawing import TexturedMesh, draw_over, empty_depths, textured_mesh
 from benchmarks.scan_studio.people.rigged_glb import read_in_clip
 from benchmarks.scan_studio.truth import Truth, read_truth
-from engine.avatar.landmarks.in_frames import EYE_POINTS
+from engine.avatar.landmarks.in_frames import EYE_MESH_VERTICES
 from engine.avatar.landmarks.spatial import LID_LANDMARKS
 from engine.geometry.camera import Camera
 from engine.perception.faces import find_faces
@@ -66,7 +66,7 @@ def eye_errors(person: Drawn, avatar: Drawn, cameras: list[Camera]) -> NDArray[n
         mine = _face(avatar.seen(camera))
         if mine is None:
             continue
-        for points in EYE_POINTS:
+        for points in EYE_MESH_VERTICES:
             scale = _pixels_per_metre(person, camera, true[points])
             rows.append(1000 * (_measures(mine[points], true[points]) / scale))
     return np.array(rows).reshape(-1, 4)

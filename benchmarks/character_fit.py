@@ -38,7 +38,7 @@ from engine.character.figure.silhouette import Silhouette, cut_out
 from engine.character.fit.template_fit import FittedBody, load_human
 from engine.character.stages import fit_template
 from engine.errors import InputError
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.skinning import bone_transforms, skin
 from engine.imaging.masks.mask_pieces import bounding_box
 from engine.media.limits import Limits
@@ -101,7 +101,7 @@ def of_truth(fitted: FittedBody, truth: Truth) -> list[float | None]:
     row: list[float | None] = []
     for joint in LIMBS.values():
         off = []
-        for side in SIDES:
+        for side in SIDE_NAMES:
             first, end = f"{side}{joint}", ENDS[f"{side}{joint}"]
             a, b = truth.joints[end] - truth.joints[first], laid.joints[end] - laid.joints[first]
             off.append(float(np.degrees(np.arccos(np.clip(a @ b / np.linalg.norm(a) / np.linalg.norm(b), -1, 1)))))
@@ -110,7 +110,7 @@ def of_truth(fitted: FittedBody, truth: Truth) -> list[float | None]:
     scale = (fitted.camera.focal / hips[2]) / (truth.camera.focal / true_hips[2])
     away = [
         np.linalg.norm(scale * (laid.joints[f"{side}{joint}"] - hips) - (truth.joints[f"{side}{joint}"] - true_hips))
-        for side in SIDES
+        for side in SIDE_NAMES
         for joint in COMPARED
     ]
     mask = truth.alpha > 0.5
@@ -145,7 +145,7 @@ def mask_soles(figure: Figure, mask: NDArray[np.bool_]) -> tuple[float, float]:
     height = float(np.ptp(np.flatnonzero(mask.any(1))))
     rows, columns = np.nonzero(mask)
     away, sure = [], []
-    for side in SIDES:
+    for side in SIDE_NAMES:
         marks = [BODY_LANDMARKS.index(f"{side}{name}") for name in ("Ankle", "Heel", "FootIndex")]
         points = figure.points[marks].astype(np.float64)
         ends = np.concatenate([points, points.mean(0, keepdims=True), (points[1:2] + points[2:3]) / 2])
@@ -170,7 +170,7 @@ def overlay(figure: Figure, silhouette: Silhouette, fitted: FittedBody) -> Pictu
     wide = max(1, round(silhouette.alpha.shape[0] / 400))
     lines, _ = cv2.findContours(laid.cover.astype(np.uint8), cv2.RETR_LIST, cv2.CHAIN_APPROX_NONE)
     cv2.drawContours(shown, lines, -1, (0, 255, 0), wide)
-    for side, colour in zip(SIDES, ((255, 0, 0), (0, 80, 255)), strict=True):
+    for side, colour in zip(SIDE_NAMES, ((255, 0, 0), (0, 80, 255)), strict=True):
         for chain in (("Arm", "ForeArm", "Hand"), ("UpLeg", "Leg", "Foot", "ToeBase")):
             line = fitted.camera.project(np.stack([laid.joints[f"{side}{joint}"] for joint in chain]))[:, :2]
             cv2.polylines(shown, [np.rint(line).astype(np.int32)], False, colour, wide)

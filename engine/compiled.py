@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-CONSTANTS = (bool, int, float, str, tuple, np.generic)
+CONSTANT_TYPES = (bool, int, float, str, tuple, np.generic)
 """What a compiled function holds as it was when it was compiled."""
 
 UNUSED_MODULES = [name for name in ("colorama", "coverage", "yaml") if name not in sys.modules]
@@ -76,7 +76,7 @@ def _fingerprint(function: Any) -> str:
                 value = one.__globals__.get(name)
                 if isinstance(value, numba.core.dispatcher.Dispatcher):
                     open_ends.append(value.py_func)
-                elif isinstance(value, CONSTANTS):
+                elif isinstance(value, CONSTANT_TYPES):
                     digest.update(f"{name}={value!r}".encode())
                 elif isinstance(value, np.ndarray):
                     digest.update(name.encode() + value.tobytes())

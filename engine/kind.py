@@ -77,7 +77,7 @@ class Candidates:
 Given = Path | tuple[Path, ...] | Candidates
 """What an input can be when the work begins."""
 
-AUTO = "auto"
+AUTO_CHOICE = "auto"
 """The name by which an input with a library asks for that choice."""
 
 

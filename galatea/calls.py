@@ -15,7 +15,7 @@ from engine import avatar, character, persona, portrait
 from engine.allocation import give_back_memory
 from engine.delivery import deliver
 from engine.errors import InputError
-from engine.kind import AUTO, Candidates, Given
+from engine.kind import AUTO_CHOICE, Candidates, Given
 from engine.motion.library import CLIPS
 from engine.performances import names, video
 from engine.run import Progress, Run
@@ -213,11 +213,11 @@ def make_persona(
 def _driver(given: File, folder: Path) -> Given:
     """What a driver's name or file stands for."""
     if isinstance(given, str) and not Path(given).is_file():
-        if given == AUTO:
+        if given == AUTO_CHOICE:
             return Candidates({name: video(name) for name in names()})
         if given in names():
             return video(given)
-    return file(given, "driver", folder, (*names(), AUTO))
+    return file(given, "driver", folder, (*names(), AUTO_CHOICE))
 
 
 def _checked(model: type[Options], given: Mapping[str, Any]) -> Options:

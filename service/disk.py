@@ -9,7 +9,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from service.problems import disk_full
-from service.settings import MEGABYTE, Settings
+from service.settings import BYTES_PER_MEGABYTE, Settings
 
 BALLAST_MB = 8
 """What erasing may take for a moment: the database's log, and some for those who write meanwhile."""
@@ -17,12 +17,12 @@ BALLAST_MB = 8
 
 def free_mb(settings: Settings) -> float:
     """Free space where the data lie, in megabytes."""
-    return shutil.disk_usage(settings.data_dir).free / MEGABYTE
+    return shutil.disk_usage(settings.data_dir).free / BYTES_PER_MEGABYTE
 
 
 def require_space(settings: Settings, incoming_bytes: int = 0) -> None:
     """Raise a 507 problem if accepting that many bytes would eat into the reserve."""
-    if free_mb(settings) - incoming_bytes / MEGABYTE < settings.disk_reserve_mb:
+    if free_mb(settings) - incoming_bytes / BYTES_PER_MEGABYTE < settings.disk_reserve_mb:
         raise disk_full()
     keep_ballast(settings)
 
@@ -36,7 +36,7 @@ def keep_ballast(settings: Settings) -> None:
     with suppress(OSError):  # without it, only erasing on a full disk is at risk
         descriptor = os.open(path, os.O_WRONLY | os.O_CREAT, 0o600)
         try:
-            os.posix_fallocate(descriptor, 0, BALLAST_MB * MEGABYTE)
+            os.posix_fallocate(descriptor, 0, BALLAST_MB * BYTES_PER_MEGABYTE)
         except OSError:
             path.unlink(missing_ok=True)  # what is too small would be taken for it ever after
         finally:

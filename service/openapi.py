@@ -12,7 +12,7 @@ from typing import Any
 from fastapi import FastAPI
 from pydantic.json_schema import models_json_schema
 
-from service.auth.sessions import COOKIE
+from service.auth.sessions import SESSION_COOKIE
 from service.http.guard import PUBLIC_PATH
 from service.jobs.schemas import JobIn, RevisionIn
 from service.problems import ProblemDocument, responses
@@ -33,7 +33,7 @@ KEYLESS_PATHS = (PUBLIC_PATH, "/v1/session")
 
 SECURITY_SCHEMES = {
     "key": {"type": "http", "scheme": "bearer", "description": "A key that `galatea keys create` or POST /keys made."},
-    "session": {"type": "apiKey", "in": "cookie", "name": COOKIE, "description": "A session of the web page."},
+    "session": {"type": "apiKey", "in": "cookie", "name": SESSION_COOKIE, "description": "A session of the web page."},
 }
 """How callers prove who they are; nobody needs to where the service is bound to loopback."""
 

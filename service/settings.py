@@ -15,7 +15,7 @@ from service.installed import page_folder
 from service.loopback import is_loopback
 from service.vault import Vault
 
-MEGABYTE = 1_000_000
+BYTES_PER_MEGABYTE = 1_000_000
 
 
 def _listed(value: object) -> object:
@@ -232,9 +232,9 @@ class Settings(BaseSettings):
     @property
     def limits(self) -> Limits:
         return Limits(
-            image_bytes=int(self.image_mb * MEGABYTE),
+            image_bytes=int(self.image_mb * BYTES_PER_MEGABYTE),
             image_megapixels=self.image_megapixels,
-            video_bytes=int(self.video_mb * MEGABYTE),
+            video_bytes=int(self.video_mb * BYTES_PER_MEGABYTE),
             video_seconds=self.video_seconds,
             video_megapixels=self.video_megapixels,
             video_megapixels_per_second=self.video_megapixels_per_second,

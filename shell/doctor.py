@@ -23,7 +23,7 @@ from rich.markup import escape
 
 from service.installed import checkout
 from service.redis_server import socket_path
-from service.settings import MEGABYTE, Settings
+from service.settings import BYTES_PER_MEGABYTE, Settings
 from shell.installation import data_files, install_anew, missing_files
 from shell.settings import read_settings
 from worker.programs.interpreter import module_command, module_environment
@@ -106,7 +106,7 @@ def _machine(settings: Settings) -> Iterator[Finding]:
     linux = sys.platform == "linux" and platform.machine() == "x86_64"
     mend = "two of the packages have no builds for other machines"
     yield Finding("ok" if linux else "missing", f"{platform.system()} on {platform.machine()}", "" if linux else mend)
-    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / MEGABYTE
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / BYTES_PER_MEGABYTE
     enough = memory >= 3500
     yield Finding(
         "ok" if enough else "warning",
@@ -207,7 +207,7 @@ def _folder(settings: Settings) -> Iterator[Finding]:
     if not os.access(nearest, os.W_OK):
         yield Finding("missing", f"{folder} cannot be written", "set GALATEA_DATA_DIR to a folder of your own")
         return
-    free = shutil.disk_usage(nearest).free / MEGABYTE
+    free = shutil.disk_usage(nearest).free / BYTES_PER_MEGABYTE
     enough = free > settings.disk_reserve_mb * 2
     yield Finding(
         "ok" if enough else "warning",

@@ -18,13 +18,13 @@ from pydantic import BaseModel, ValidationError
 
 from engine.delivery import deliver
 from engine.errors import Canceled, InputError
-from engine.kind import AUTO, Candidates, Given, Input, Kind
+from engine.kind import AUTO_CHOICE, Candidates, Given, Input, Kind
 from engine.package_data import IncompleteInstallation
 from engine.run import Progress, Run
 from engine.store import StageStore, trim
 from engine.unknown_options import with_suggestions
 from service.catalogue import built_in
-from service.settings import MEGABYTE, Settings
+from service.settings import BYTES_PER_MEGABYTE, Settings
 from shell.cli_error import CliError
 from shell.option_flags import flag_of, form_of, given_options, option_flags
 from shell.settings import read_settings
@@ -86,7 +86,7 @@ def _parameter(item: Input, place: int, alone: bool) -> click.Parameter:
 
 def _names_of(item: Input) -> Callable[[click.Context, click.Parameter, str], list[CompletionItem]]:
     """What a shell offers where the input is asked for: what is built in, and files."""
-    names = (*built_in.names(item.library), *([AUTO] if item.auto else [])) if item.library is not None else ()
+    names = (*built_in.names(item.library), *([AUTO_CHOICE] if item.auto else [])) if item.library is not None else ()
 
     def complete(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
         found = [CompletionItem(name) for name in names if name.startswith(begun)]
@@ -104,7 +104,7 @@ def _input(item: Input, given: str | None) -> Given | None:
     if path.is_file():
         return (path,) if item.many else path
     offered = built_in.names(item.library) if item.library is not None else ()
-    if item.auto and given == AUTO:
+    if item.auto and given == AUTO_CHOICE:
         return Candidates({name: built_in.item(item.library or "", name) for name in offered})
     if given in offered:
         return built_in.item(item.library or "", given)
@@ -162,7 +162,7 @@ def _run(kind: Kind, inputs: Mapping[str, Given], options: BaseModel, out: Path,
         click.echo(f"{click.style(notice.code, fg='yellow')}: {notice.message}", err=True)
     for result in results:
         click.echo(result)
-    trim([cache.folder], settings.cache_mb * MEGABYTE)
+    trim([cache.folder], settings.cache_mb * BYTES_PER_MEGABYTE)
 
 
 @contextmanager

@@ -18,7 +18,7 @@ from benchmarks.presentation.tables import table
 from engine.persona.learning import learn_persona
 from engine.persona.persona import Persona
 from engine.persona.texture.aligned_photos import align_photos
-from engine.persona.texture.appearance_subspace import RANK, exposed
+from engine.persona.texture.appearance_subspace import SUBSPACE_RANK, exposed
 from engine.persona.texture.bare_skin import bared
 from engine.persona.texture.dense_alignment import SMOOTHING_SIGMA
 from engine.persona.texture.texture_frame import TextureFrame
@@ -63,7 +63,7 @@ def _flows(persona: Persona, average: NDArray[np.float32]) -> list[NDArray[np.fl
     """(H, W, 2) where on B's frame what is at each pixel of B is in A's average, as offsets; smoothed over little, and over much."""
     face = persona.frame.face
     rows = exposed(np.asarray(persona.colours @ GREY, np.float32), face)[:, face]
-    basis = np.linalg.svd(rows, full_matrices=False)[2][:RANK]
+    basis = np.linalg.svd(rows, full_matrices=False)[2][:SUBSPACE_RANK]
     lit = average.copy()
     lit[face] = (basis @ average[face]) @ basis
     flow = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM)

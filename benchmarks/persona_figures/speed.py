@@ -22,7 +22,7 @@ from engine.perception.faces import FaceTracker
 from engine.performances import video
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona, read_persona
-from engine.persona.pipeline import LEARNING, make_persona
+from engine.persona.pipeline import LEARNING_STAGES, make_persona
 from engine.persona.texture.synthesis import texture_synthesis
 from engine.run import Run
 from engine.store import StageStore
@@ -34,7 +34,7 @@ TEXTURES = (((244, 194), 200), ((500, 400), 40))
 GOALS = {"puppet alone": 30.0, "photo": 20.0}
 SECONDS_PER_PHOTO = 0.6
 """That are aimed at."""
-MADE = (*LEARNING, "write_persona", "write_results")
+MADE = (*LEARNING_STAGES, "write_persona", "write_results")
 BATCH = 32
 
 

@@ -15,7 +15,7 @@ from benchmarks.scan_studio.people.pictured_moments import PICTURED, pictured
 from benchmarks.scan_studio.people.rigged_people import METRES, read_rigged
 from benchmarks.shared_media import media
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.skinning import skin
 from engine.motion.kinematics import pose_transforms
 
@@ -69,4 +69,6 @@ def photograph(who: str, how: str, camera: str, where: str) -> tuple[NDArray[np.
 
 def feet(names: Sequence[str], strongest: NDArray[np.integer]) -> list[NDArray[np.bool_]]:
     """Which vertices (V,) are of the left foot, and which of the right, by the joint that moves each most."""
-    return [np.array([name.startswith((f"{side}Foot", f"{side}Toe")) for name in names])[strongest] for side in SIDES]
+    return [
+        np.array([name.startswith((f"{side}Foot", f"{side}Toe")) for name in names])[strongest] for side in SIDE_NAMES
+    ]

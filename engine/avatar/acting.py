@@ -23,11 +23,11 @@ from engine.render.ground_shadow import GroundShadow
 
 TRAVEL_METRES = 0.1
 """Metres: a loop that gets further than this in one round goes somewhere."""
-VIEW_POINTS = 12
+FRAMED_FRAME_COUNT = 12
 """Frames of a clip by which the camera is placed so that all of them are in the picture."""
-FILMED = "filmed"
+FILMED_CLIP_NAME = "filmed"
 """The clip that holds the pose in which the person was filmed."""
-BUST_HEIGHT = 0.52
+BUST_HEIGHT_METRES = 0.52
 """Metres from the crown down that are shown where a face acts."""
 
 
@@ -43,7 +43,7 @@ def standing_clip(mesh: SkinnedMesh, rotations: NDArray[np.floating], root: NDAr
     """The pose in which the person was filmed, one frame. `rotations` (J, 3, 3): each joint's axes, in the world; `root` (3,)."""
     parents = mesh.skeleton.parents
     own = np.stack([rotations[p].T @ rotations[j] if p >= 0 else rotations[j] for j, p in enumerate(parents)])
-    return Clip(FILMED, fps, from_matrix(own)[None].astype(np.float32), np.asarray(root, np.float32)[None])
+    return Clip(FILMED_CLIP_NAME, fps, from_matrix(own)[None].astype(np.float32), np.asarray(root, np.float32)[None])
 
 
 def built_in_clips(mesh: SkinnedMesh, fps: float) -> list[Clip]:
@@ -80,11 +80,11 @@ def bust_camera(mesh: SkinnedMesh, clip: Clip, size: tuple[int, int]) -> Camera:
     """A camera before the avatar's face, which holds head and shoulders of the clip's first frame."""
     posed = _reached(mesh, replace(clip, rotations=clip.rotations[:1], root=clip.root[:1]))
     top = posed[:, 1].max()
-    return orbit_camera(posed[posed[:, 1] > top - BUST_HEIGHT], size, 0.0)
+    return orbit_camera(posed[posed[:, 1] > top - BUST_HEIGHT_METRES], size, 0.0)
 
 
 def _reached(mesh: SkinnedMesh, clip: Clip) -> NDArray[np.float32]:
     """The vertices of some frames of a clip, evenly spread, together: (F V, 3)."""
-    chosen = np.unique(np.linspace(0, len(clip.rotations) - 1, VIEW_POINTS).astype(int))
+    chosen = np.unique(np.linspace(0, len(clip.rotations) - 1, FRAMED_FRAME_COUNT).astype(int))
     transforms = pose_transforms(mesh.skeleton, clip.rotations[chosen], clip.root[chosen])
     return np.concatenate([skin(mesh.vertices, mesh.bones, mesh.weights, each) for each in transforms])

@@ -20,7 +20,7 @@ from engine.geometry.simplification.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 
-FACE_IMPORTANCE = 8.0
+HEAD_VERTEX_WEIGHT = 8.0
 """How much longer the head keeps its vertices than the rest: it is looked at, and has expressions."""
 
 
@@ -55,7 +55,7 @@ def with_fewer_triangles(
     whole: SkinnedMesh, morphs: tuple[MorphTarget, ...], triangles: int
 ) -> tuple[SkinnedMesh, tuple[MorphTarget, ...]]:
     """A mesh of so many triangles at most, with its morph targets."""
-    fewer = decimate(whole, triangles, joint_importance(whole, {"Head": FACE_IMPORTANCE, "Jaw": FACE_IMPORTANCE}))
+    fewer = decimate(whole, triangles, joint_importance(whole, {"Head": HEAD_VERTEX_WEIGHT, "Jaw": HEAD_VERTEX_WEIGHT}))
     if fewer.mesh is whole:
         return whole, morphs
     count = len(whole.vertices)
@@ -67,6 +67,6 @@ def coarser(avatar: Avatar, levels: int) -> list[SkinnedMesh]:
     found = []
     mesh = avatar.mesh
     for _ in range(levels):
-        mesh = decimate(mesh, len(mesh.triangles) // 4, joint_importance(mesh, {"Head": FACE_IMPORTANCE})).mesh
+        mesh = decimate(mesh, len(mesh.triangles) // 4, joint_importance(mesh, {"Head": HEAD_VERTEX_WEIGHT})).mesh
         found.append(mesh)
     return found

@@ -14,7 +14,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.acting import FILMED
+from engine.avatar.acting import FILMED_CLIP_NAME
 from engine.avatar.avatar import Avatar
 from engine.avatar.mesh import MAX_VERTEX_INFLUENCES
 from engine.body.rig import HUMAN_RIG
@@ -32,8 +32,8 @@ from engine.motion.files.gltf_file import GltfFile, Part
 MAX_VERTICES = 65_535
 MAX_TRIANGLES = 40_000
 """More than any avatar has."""
-MAX_TEXTURE_SIDE = 8192
-MAX_MORPHS = 200
+MAX_TEXTURE_SIDE_TEXELS = 8192
+MAX_MORPH_TARGETS = 200
 MAX_BODY_DISTANCE_METRES = 20.0
 """Metres: nothing of a person is farther from the ground's middle."""
 
@@ -114,7 +114,7 @@ def _mesh(
 
 def _morphs(accessors: Accessors, shape: Mapping[str, Any], count: int) -> tuple[MorphTarget, ...]:
     names, targets = shape["extras"]["targetNames"], shape["primitives"][0]["targets"]
-    if not set(FACE_UNITS) <= set(names) or len(set(names)) < len(names) or len(names) > MAX_MORPHS:
+    if not set(FACE_UNITS) <= set(names) or len(set(names)) < len(names) or len(names) > MAX_MORPH_TARGETS:
         raise ValueError("its morph targets are others")
     found = []
     for name, target in zip(names, targets, strict=True):
@@ -129,7 +129,7 @@ def _texture(file: GltfFile, primitive: Mapping[str, Any]) -> NDArray[np.uint8]:
     material = file.parts["materials"][primitive["material"]]
     texture = file.parts["textures"][material["pbrMetallicRoughness"]["baseColorTexture"]["index"]]
     data, _ = file.view(file.parts["images"][texture["source"]]["bufferView"])
-    if max(_jpeg_size(bytes(data))) > MAX_TEXTURE_SIDE:
+    if max(_jpeg_size(bytes(data))) > MAX_TEXTURE_SIDE_TEXELS:
         raise ValueError("its texture is larger than any")
     found = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
     if found is None:
@@ -153,8 +153,8 @@ def _jpeg_size(data: bytes) -> tuple[int, int]:
 
 def _filmed(file: GltfFile, accessors: Accessors, skeleton: Skeleton, axes: Array) -> Clip:
     """The pose in which the person was filmed, one frame."""
-    animation = next(one for one in file.parts["animations"] if one.name == FILMED)
-    turns = np.tile(rotation.IDENTITY, (len(skeleton.names), 1)).astype(np.float64)
+    animation = next(one for one in file.parts["animations"] if one.name == FILMED_CLIP_NAME)
+    turns = np.tile(rotation.IDENTITY_QUATERNION, (len(skeleton.names), 1)).astype(np.float64)
     turned = np.zeros(len(turns), np.bool_)
     root = skeleton.heads[0].astype(np.float64)
     joint_of = {node: joint for joint, node in enumerate(file.parts["skins"][0]["joints"])}
@@ -169,8 +169,8 @@ def _filmed(file: GltfFile, accessors: Accessors, skeleton: Skeleton, axes: Arra
             root = _near(first.reshape(1, 3))[0].astype(np.float64)
     above = rotation.from_matrix(axes_above(skeleton, axes))
     own = rotation.chain(above, turns, rotation.inverse(rotation.from_matrix(axes)))
-    own = np.where(turned[:, None], own, rotation.IDENTITY)
-    return Clip(FILMED, 30.0, own[None].astype(np.float32), root[None].astype(np.float32))
+    own = np.where(turned[:, None], own, rotation.IDENTITY_QUATERNION)
+    return Clip(FILMED_CLIP_NAME, 30.0, own[None].astype(np.float32), root[None].astype(np.float32))
 
 
 def _sampler(animation: Part, channel: Part) -> Any:

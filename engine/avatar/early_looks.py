@@ -15,7 +15,7 @@ from engine.export.still import write_still
 from engine.geometry.surface import triangulate
 from engine.imaging.resample import resized, size_within
 
-TEXTURE_SIDE = 640
+TEXTURE_SIDE_PIXELS = 640
 """Pixels of the small texture."""
 
 
@@ -30,5 +30,5 @@ def write_fitted_shape(out: Path, template: Template, fitted: FittedTemplate) ->
 def write_small_texture(out: Path, texture: NDArray[np.uint8], synthetic: bool) -> Path:
     """Write `texture_preview.jpg`, a texture (S, S, 3) as it is looked at before the avatar is there. Its path."""
     path = out / "texture_preview.jpg"
-    write_still(path, resized(texture, size_within(texture.shape, TEXTURE_SIDE)), synthetic)
+    write_still(path, resized(texture, size_within(texture.shape, TEXTURE_SIDE_PIXELS)), synthetic)
     return path

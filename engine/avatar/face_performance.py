@@ -31,7 +31,7 @@ from engine.perception.head_pose import canonical_face
 
 NECK_SHARE = 0.4
 """Of a head's turn: what the neck takes of it."""
-REFERENCE_EYE_DISTANCE = 100.0
+REFERENCE_EYE_DISTANCE_PIXELS = 100.0
 """Pixels between the eyes of the face with which the driver's rest is compared."""
 
 
@@ -65,7 +65,7 @@ def capture_performance(
         raise InputError(
             "no_face_in_driver", "The driver shows no face: film one from the front, large enough.", ("driver",)
         ) from None
-    reference = canonical_face() * np.float32(REFERENCE_EYE_DISTANCE)
+    reference = canonical_face() * np.float32(REFERENCE_EYE_DISTANCE_PIXELS)
     rest = track.meshes[choose_neutral_frame(track, reference, None).frame]
     weights = capture_face_units(load_face_units(), track.meshes, rest)
     head = rotation.from_matrix(head_rotations(track.meshes, rest))

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from engine.avatar.capture.chosen_frames import ChosenFrames
 from engine.export.still import write_still
 
-CELL_SIDE = 192
+CELL_SIDE_PIXELS = 192
 """Pixels of the longer side of each frame on a sheet."""
-COLUMNS = 10
+FRAME_SHEET_COLUMNS = 10
 
 
 def write_frame_sheets(folder: Path, clips: Mapping[str, ChosenFrames], synthetic: bool) -> list[Path]:
@@ -25,12 +25,12 @@ def write_frame_sheets(folder: Path, clips: Mapping[str, ChosenFrames], syntheti
     document: dict[str, Any] = {}
     paths = []
     for name, chosen in clips.items():
-        pictures = [chosen.picture(k, CELL_SIDE) for k in range(len(chosen))]
+        pictures = [chosen.picture(k, CELL_SIDE_PIXELS) for k in range(len(chosen))]
         paths.append(folder / f"{name}_frames.jpg")
         write_still(paths[-1], frame_sheet(pictures), synthetic)
         document[name] = {
             "sheet": paths[-1].name,
-            "columns": min(COLUMNS, len(pictures)),
+            "columns": min(FRAME_SHEET_COLUMNS, len(pictures)),
             "cell": [pictures[0].shape[1], pictures[0].shape[0]],
             "size": [chosen.size[1], chosen.size[0]],
             "frames": chosen.indices.tolist(),
@@ -42,9 +42,9 @@ def write_frame_sheets(folder: Path, clips: Mapping[str, ChosenFrames], syntheti
 
 
 def frame_sheet(pictures: list[NDArray[np.uint8]]) -> NDArray[np.uint8]:
-    """Pictures of one size (H, W, 3) in rows of `COLUMNS`; what is left of the last row is black."""
+    """Pictures of one size (H, W, 3) in rows of `FRAME_SHEET_COLUMNS`; what is left of the last row is black."""
     height, width = pictures[0].shape[:2]
-    columns = min(COLUMNS, len(pictures))
+    columns = min(FRAME_SHEET_COLUMNS, len(pictures))
     rows = -(-len(pictures) // columns)
     sheet = np.zeros((rows * height, columns * width, 3), np.uint8)
     for k, picture in enumerate(pictures):

@@ -9,7 +9,7 @@ from engine.body.template import Template
 from engine.geometry.surface import triangulate
 from engine.geometry.texture_atlas import atlas_from_uv
 
-MOUTH_RADIUS = 0.04
+MOUTH_RADIUS_METRES = 0.04
 """Metres from the middle of the tongue, along each axis, within which the mouth's bag lies."""
 
 
@@ -20,5 +20,5 @@ def mouth_faces(template: Template) -> NDArray[np.bool_]:
     places = template.vertices.astype(np.float64)
     away = np.abs(places[quads].mean(1) - places[template.vertices_of("tongue")].mean(0)).max(1)
     chart = atlas_from_uv(template.uv, triangulate(template.uv_quads[faces])).charts[: len(faces)]
-    near = np.bincount(chart[away < MOUTH_RADIUS], minlength=int(chart.max()) + 1)
+    near = np.bincount(chart[away < MOUTH_RADIUS_METRES], minlength=int(chart.max()) + 1)
     return np.asarray((2 * near > np.bincount(chart))[chart])

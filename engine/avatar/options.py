@@ -14,9 +14,9 @@ FrameIndex = Annotated[int, Field(ge=0, le=1_000_000)]
 LeftOut = Annotated[tuple[FrameIndex, ...], Field(max_length=150)]
 Coordinate = Annotated[float, Field(ge=-16384, le=16384)]
 Motion = Literal["idle", "walk", "run", "jump", "sit", "wave", "dance", "bow"]
-TEMPLATE_TRIANGLES = 27_676
+MAX_TEMPLATE_TRIANGLES = 27_676
 """Of the template's visible parts: an avatar has no more."""
-ATTACHED_TRIANGLES = 6_000
+MAX_ATTACHED_TRIANGLES = 6_000
 """Of what stands off the body, at most."""
 
 CAPTURE_OPTIONS = (
@@ -67,8 +67,8 @@ class AvatarOptions(BaseModel):
     texture_size: Literal[1024, 2048, 4096, 8192] = Field(
         4096, description="Width and height of the texture in pixels."
     )
-    triangles: Annotated[int, Field(ge=2000, le=TEMPLATE_TRIANGLES + ATTACHED_TRIANGLES)] = Field(
-        TEMPLATE_TRIANGLES + ATTACHED_TRIANGLES, description="Most triangles of the avatar."
+    triangles: Annotated[int, Field(ge=2000, le=MAX_TEMPLATE_TRIANGLES + MAX_ATTACHED_TRIANGLES)] = Field(
+        MAX_TEMPLATE_TRIANGLES + MAX_ATTACHED_TRIANGLES, description="Most triangles of the avatar."
     )
     levels: Annotated[int, Field(ge=0, le=3)] = Field(
         0, description="Further levels of detail, each with a quarter of the triangles, in the same GLB (MSFT_lod)."

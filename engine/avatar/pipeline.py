@@ -59,14 +59,14 @@ STAGES = {
     "animate": 1.0,
 }
 """The stages and their usual share of the time."""
-EACH_CLIP = ("choose_frames", "find_landmarks", "measure_cloud")
+STAGES_PER_CLIP = ("choose_frames", "find_landmarks", "measure_cloud")
 """Those that come once for each clip."""
 TURN_SECONDS = 6.0
 """Of the turntable."""
-PREVIEW_SPACING = 0.006
+PREVIEW_SPACING_METRES = 0.006
 """Metres between the points of `preview.ply`, which pages show: one or two megabytes."""
 
-MAX_FURTHER = 4
+MAX_FURTHER_CLIPS = 4
 """Further clips, at most: each takes its minutes."""
 UNMEASURED_CODES = frozenset({"person_not_measured"})
 """What makes a clip beside the body's, whose cameras were found, one that is not used: the body alone is an avatar, too."""
@@ -80,11 +80,11 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
     body, head, motion, driver = (file_of(inputs, name) for name in ("body", "head", "motion", "driver"))
     more = inputs.get("more", ())
     assert body is not None and isinstance(more, tuple)
-    if len(more) > MAX_FURTHER:
+    if len(more) > MAX_FURTHER_CLIPS:
         raise InputError(
-            "too_many_clips", f"Give {MAX_FURTHER} further clips at most: those that show most.", ("more",)
+            "too_many_clips", f"Give {MAX_FURTHER_CLIPS} further clips at most: those that show most.", ("more",)
         )
-    run.plan(STAGES, dict.fromkeys(EACH_CLIP, (1 if head is None else 2) + len(more)))
+    run.plan(STAGES, dict.fromkeys(STAGES_PER_CLIP, (1 if head is None else 2) + len(more)))
     if head is None:
         run.warn(
             "head_clip_missing", "Without a clip of the head, its shape and its texture are as good as the body's."
@@ -220,7 +220,7 @@ def _write_capture(out: Path, clips: Mapping[str, Clipped]) -> tuple[Path, Path,
     points, preview, cameras_path = (out / name for name in ("points.ply", "preview.ply", "cameras.json"))
     cloud = joined([scan.dense.cloud for _, scan in clips.values()])
     write_ply(points, cloud)
-    write_ply(preview, thinned(cloud, PREVIEW_SPACING))
+    write_ply(preview, thinned(cloud, PREVIEW_SPACING_METRES))
     write_cameras(cameras_path, written)
     return points, preview, cameras_path
 

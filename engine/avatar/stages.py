@@ -18,7 +18,7 @@ from engine.avatar.capture.chosen_frames import ChosenFrames
 from engine.avatar.capture.dense import DenseCloud, dense_cloud
 from engine.avatar.capture.foot_masks import FootFrame, feet_of, told_from_floor
 from engine.avatar.capture.limb_masks import limbs_of, shown_limbs, with_limbs
-from engine.avatar.capture.person_frame import USUAL_HEIGHT
+from engine.avatar.capture.person_frame import USUAL_HEIGHT_METRES
 from engine.avatar.landmarks.back_projection import back_projected, completed
 from engine.avatar.landmarks.detection import spatial_landmarks
 from engine.avatar.landmarks.given import GivenLandmark, placed_by_hand
@@ -40,19 +40,19 @@ from engine.geometry.registration.rigid import Similarity
 from engine.imaging.resample import enlarged_mask, resized
 from engine.perception.solutions import kept_networks
 
-FEATURE_SIDE = 1280
+FEATURE_SIDE_PIXELS = 1280
 """Pixels of the longer side of frames in which features are found."""
-STEREO_SIDE = 960
+STEREO_SIDE_PIXELS = 960
 """The same, at most, of frames between which stereo measures: a millimetre and a half of somebody who fills them."""
-FINEST_PIXEL = 0.001
+MIN_PIXEL_METRES = 0.001
 """Metres of the person that a pixel of these shows at least: clouds are smoothed over eight."""
-LANDMARK_SIDE = 1280
+LANDMARK_SIDE_PIXELS = 1280
 """The same of frames in which landmarks are found."""
-HEAD_VIEW_REACH = 1.5
+HEAD_VIEW_REACH_RATIO = 1.5
 """How far away frames of the head's clip are asked about the person, in distances of the head: shoes below a chin that sways are
 hidden by what the mesh has elsewhere."""
 
-OFF_RADIUS = 0.008
+STANDING_OFF_RADIUS_METRES = 0.008
 """Metres around points that stand off the body within which others do."""
 
 Tick = Callable[[float], None]
@@ -94,7 +94,7 @@ class ClipScan:
 
     def without(self, off: NDArray[np.floating]) -> ClipScan:
         """All of it but the cloud's points around those that are `off` (M, 3) the body."""
-        away = cKDTree(off).query(self.dense.cloud.points, distance_upper_bound=OFF_RADIUS)[0]
+        away = cKDTree(off).query(self.dense.cloud.points, distance_upper_bound=STANDING_OFF_RADIUS_METRES)[0]
         kept = np.flatnonzero(~np.isfinite(away))
         dense = replace(self.dense, cloud=self.dense.cloud[kept], support=self.dense.support[kept])
         return replace(self, dense=dense)
@@ -118,14 +118,15 @@ def find_cameras(
     """Where the cameras of both clips, and of `further` ones, stood, around somebody of usual height: section 3.2's first half.
     `lenses` are those of both, where they are known. Raises what `solve_cameras` raises."""
     clips = [
-        None if clip is None else [clip.picture(k, FEATURE_SIDE) for k in range(len(clip))] for clip in (body, head)
+        None if clip is None else [clip.picture(k, FEATURE_SIDE_PIXELS) for k in range(len(clip))]
+        for clip in (body, head)
     ]
     assert clips[0] is not None
     known = [
         None if clip is None or lens is None or frames is None else lens_of_frames(lens, clip.size, frames[0].shape[:2])
         for lens, clip, frames in zip(lenses, (body, head), clips, strict=True)
     ]
-    others = [[clip.picture(k, FEATURE_SIDE) for k in range(len(clip))] for clip in further]
+    others = [[clip.picture(k, FEATURE_SIDE_PIXELS) for k in range(len(clip))] for clip in further]
     return solve_cameras(clips[0], clips[1], warn, tick, (known[0], known[1]), others)
 
 
@@ -147,7 +148,7 @@ def find_landmarks(chosen: ChosenFrames, found: ClipCameras, whole: bool, warn: 
     cameras = [_camera_of(found, int(k), chosen.size) for k in placed]
     seen = []
     for number, k in enumerate(placed):
-        picture = chosen.picture(int(k), LANDMARK_SIDE)
+        picture = chosen.picture(int(k), LANDMARK_SIDE_PIXELS)
         seen.append(frame_landmarks(picture).scaled(chosen.size[0] / picture.shape[0]))
         tick(number / len(placed))
     for notice in worn_on_face(seen):
@@ -187,7 +188,7 @@ def stereo_side(found: ClipCameras) -> int:
     """The longer side, pixels, of the pictures that stereo takes: at the median camera's distance from the person's axis."""
     cameras = [camera for camera in found.cameras if camera is not None]
     shown = [float(np.hypot(camera.eye[0], camera.eye[2])) * max(camera.size) / camera.focal for camera in cameras]
-    return min(STEREO_SIDE, round(float(np.median(shown)) / FINEST_PIXEL))
+    return min(STEREO_SIDE_PIXELS, round(float(np.median(shown)) / MIN_PIXEL_METRES))
 
 
 def scan_clip(
@@ -210,7 +211,7 @@ def scan_clip(
 
 def in_metres(height_m: float | None) -> Similarity:
     """From somebody of usual height, as the clips measure everybody, to one of `height_m`."""
-    return Similarity((height_m or USUAL_HEIGHT) / USUAL_HEIGHT * np.eye(3), np.zeros(3))
+    return Similarity((height_m or USUAL_HEIGHT_METRES) / USUAL_HEIGHT_METRES * np.eye(3), np.zeros(3))
 
 
 def fit_template(body: ClipScan, head: ClipScan | None, check: Callable[[], None]) -> FittedTemplate:
@@ -269,7 +270,7 @@ def stitch_texture(
         of_head = 0 < number < len(placed)
         for k, camera, mask in zip(scan.placed, scan.cameras, scan.masks, strict=True):
             view = _frame_view(chosen, int(k), camera, mask, check)
-            away = HEAD_VIEW_REACH * float(np.linalg.norm(camera.eye - head))
+            away = HEAD_VIEW_REACH_RATIO * float(np.linalg.norm(camera.eye - head))
             views.append(replace(view, farthest=away) if of_head else view)
     surface = template_surface(human.template, human.rig).wearing(worn)
     vertices = np.concatenate([fitted.vertices, worn.vertices])

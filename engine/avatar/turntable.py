@@ -15,9 +15,9 @@ from engine.motion.kinematics import pose_transforms
 from engine.render.character import Actor, film_cast, prepare_character
 from engine.render.ground_shadow import GroundShadow
 
-FIELD_OF_VIEW = np.radians(28.0)
+FIELD_OF_VIEW_RADIANS = np.radians(28.0)
 """Along the picture's height: a long lens, as for portraits, so that what is near is not large."""
-FRAMING_MARGIN = 1.12
+FRAMING_MARGIN_RATIO = 1.12
 """By how much more than the avatar the picture holds, in height and in width."""
 CAMERA_HEIGHT_SHARE = 0.6
 """Of the avatar's height: where the camera is; it looks at the middle."""
@@ -56,8 +56,8 @@ def orbit_camera(posed: NDArray[np.floating], size: tuple[int, int], angle: floa
     low, high = posed.min(0), posed.max(0)
     middle = (low + high) / 2
     tall, wide = float(high[1] - low[1]), float(2 * np.hypot(*(posed - middle)[:, [0, 2]].T).max())
-    focal = height / 2 / np.tan(FIELD_OF_VIEW / 2)
-    distance = FRAMING_MARGIN * focal * max(tall / height, wide / width) + wide / 2
+    focal = height / 2 / np.tan(FIELD_OF_VIEW_RADIANS / 2)
+    distance = FRAMING_MARGIN_RATIO * focal * max(tall / height, wide / width) + wide / 2
     away = np.array([distance * np.sin(angle), (CAMERA_HEIGHT_SHARE - 0.5) * tall, distance * np.cos(angle)])
     lens = Camera((0.0, 0.0, 0.0), focal, ((width - 1) / 2, (height - 1) / 2), (height, width))
     return lens.aimed(middle + away, middle)

@@ -21,14 +21,14 @@ from engine.body.template import load_rig, load_template
 from engine.geometry.skeleton import Skeleton
 
 SPACE_COMPONENTS = 40
-SAMPLED_BODIES = 600
+SAMPLED_BODY_COUNT = 600
 SAMPLING_SEED = 20
 
 VARIED_REGIONS = ("arms", "legs", "torso", "hip", "stomach", "pelvis", "buttocks", "neck", "feet", "hands")
 """The parts of the body of which some are changed in each sample."""
 CHANGES_PER_SAMPLE = 6
 """Local changes of a sample."""
-MAX_CHANGE = 0.7
+MAX_LOCAL_CHANGE = 0.7
 """Strength of a local change, at most, in [0, 1] of MakeHuman's own range."""
 
 
@@ -120,18 +120,18 @@ def _changes(space: ShapeSpace, random: np.random.Generator) -> dict[str, float]
     """Some changes to limbs and torso, the same on both sides."""
     offered = [name for room in VARIED_REGIONS for name in space.rooms[room] if not name.startswith("r-")]
     chosen = random.choice(offered, CHANGES_PER_SAMPLE, replace=False)
-    changes = {str(name): float(random.uniform(0, MAX_CHANGE)) for name in chosen}
+    changes = {str(name): float(random.uniform(0, MAX_LOCAL_CHANGE)) for name in chosen}
     return changes | {f"r-{name[2:]}": weight for name, weight in changes.items() if name.startswith("l-")}
 
 
 def _convert() -> dict[str, np.ndarray]:
-    bodies, joints = sample_bodies(SAMPLED_BODIES, SAMPLING_SEED)
-    rows = np.concatenate([bodies, joints], 1).reshape(SAMPLED_BODIES, -1).astype(np.float64)
+    bodies, joints = sample_bodies(SAMPLED_BODY_COUNT, SAMPLING_SEED)
+    rows = np.concatenate([bodies, joints], 1).reshape(SAMPLED_BODY_COUNT, -1).astype(np.float64)
     mean = rows.mean(0)
     rows -= mean
     values, vectors = np.linalg.eigh(rows @ rows.T)
     order = np.argsort(values)[::-1][:SPACE_COMPONENTS]
-    directions = vectors[:, order].T @ rows / np.sqrt(SAMPLED_BODIES)  # one standard deviation each
+    directions = vectors[:, order].T @ rows / np.sqrt(SAMPLED_BODY_COUNT)  # one standard deviation each
     basis = directions.reshape(SPACE_COMPONENTS, -1, 3)
     split = bodies.shape[1]
     scale = np.abs(basis[:, :split]).max((1, 2)) / np.iinfo(np.int16).max

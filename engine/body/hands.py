@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from engine.body.body_space import BodySpace
 from engine.body.rig import Rig
 from engine.body.template import Template
-from engine.geometry.joint_names import FINGERS, Side
+from engine.geometry.joint_names import FINGER_NAMES, Side
 from engine.perception.hands import HAND_JOINTS
 
-FINGERTIP_DEPTH = 0.006
+FINGERTIP_DEPTH_METRES = 0.006
 """Metres within the skin at which the landmark of a fingertip lies."""
 
 
@@ -54,7 +54,7 @@ def hand_model(template: Template, space: BodySpace, rig: Rig, side: Side) -> Ha
         along = space.mean[own].mean(0) - space.joint_mean[at]
         along = along / np.linalg.norm(along)
         last = own[np.argmax(space.mean[own] @ along)]
-        means.append(space.mean[last] - FINGERTIP_DEPTH * along)
+        means.append(space.mean[last] - FINGERTIP_DEPTH_METRES * along)
         bases.append(space.basis[:, last])
     places = np.stack(means)
     bend, spread = bending_axes(places)
@@ -82,11 +82,11 @@ def bending_axes(places: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDA
     across = index - little
     along = (index + little) / 2 - places[0]
     palm = np.cross(along, across)
-    tips = places[[finger_landmarks(finger)[3] for finger in FINGERS[1:]]].mean(0) - (index + little) / 2
+    tips = places[[finger_landmarks(finger)[3] for finger in FINGER_NAMES[1:]]].mean(0) - (index + little) / 2
     palm *= np.sign(palm @ tips)  # fingers at rest are a little bent, towards the palm
     palm /= np.linalg.norm(palm)
     axes = []
-    for finger in FINGERS:
+    for finger in FINGER_NAMES:
         first, last = finger_landmarks(finger)[1 if finger == "Thumb" else 0], finger_landmarks(finger)[3]
         out = places[last] - places[first]
         axes.append(np.cross(out, little - places[first] if finger == "Thumb" else palm))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.body_space import BodySpace
-from engine.body.face.face_points import EYE_CORNERS, MOUTH_CORNERS, face_points, nose_tip
+from engine.body.face.face_points import EYE_CORNER_FACE_POINTS, MOUTH_CORNER_FACE_POINTS, face_points, nose_tip
 from engine.body.rig import Rig
 from engine.body.template import Template
 
@@ -28,7 +28,7 @@ JOINT_LANDMARKS = {
 }
 """Landmarks that are joints, both without their side. The others are points of the surface."""
 
-LANDMARK_RISE = {"Shoulder": 0.012, "Hip": 0.017, "Knee": 0.007, "Ankle": 0.032, "Heel": 0.027}
+LANDMARK_RISE_METRES = {"Shoulder": 0.012, "Hip": 0.017, "Knee": 0.007, "Ankle": 0.032, "Heel": 0.027}
 """Metres by which perception sees a landmark above the template's joint: means over renders of the template itself."""
 
 
@@ -61,7 +61,7 @@ def landmark_model(template: Template, space: BodySpace, rig: Rig) -> LandmarkMo
         else:
             means.append(space.mean[vertices].mean(0))
             bases.append(space.basis[:, vertices].mean(1))
-    higher = [LANDMARK_RISE.get(name.removeprefix("Left").removeprefix("Right"), 0.0) for name in found]
+    higher = [LANDMARK_RISE_METRES.get(name.removeprefix("Left").removeprefix("Right"), 0.0) for name in found]
     return LandmarkModel(
         tuple(found),
         np.array([space.names.index(joint) for joint, _ in found.values()]),
@@ -90,7 +90,7 @@ def surface_landmarks(template: Template, space: BodySpace, rig: Rig) -> Mapping
     points: dict[str, NDArray[np.intp]] = dict(eyes)
     points["Nose"] = np.array([nose_tip(template, space)])
     on_face = face_points(template, space)
-    points |= {name: on_face[[number]] for name, number in (EYE_CORNERS | MOUTH_CORNERS).items()}
+    points |= {name: on_face[[number]] for name, number in (EYE_CORNER_FACE_POINTS | MOUTH_CORNER_FACE_POINTS).items()}
     for side, sign in SIDE_SIGNS:
         beside = head[(np.abs(mesh[head, 1] - height + 0.01) < 0.02) & (sign * mesh[head, 0] > 0)]
         points[f"{side}Ear"] = _furthest(mesh, beside, 0, sign)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.rig import Rig
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 
 BODY_PARTS = ("head", "torso", "left_arm", "right_arm", "left_leg", "right_leg")
 """Labels in order; the person's own left and right."""
@@ -14,7 +14,7 @@ BODY_PARTS = ("head", "torso", "left_arm", "right_arm", "left_leg", "right_leg")
 
 def part_of_bone(name: str) -> int:
     """The label of what a joint moves, by its Mixamo name."""
-    for side in SIDES:
+    for side in SIDE_NAMES:
         rest = name.removeprefix(side)
         if rest != name and rest.startswith(("Arm", "ForeArm", "Hand")):
             return BODY_PARTS.index(f"{side.lower()}_arm")

@@ -42,7 +42,7 @@ from engine.character.stages import (
     make_shell_character,
 )
 from engine.errors import InputError
-from engine.export.animated_gif import MAX_GIF_SIDE
+from engine.export.animated_gif import MAX_GIF_SIDE_PIXELS
 from engine.export.encoders import VideoTarget
 from engine.export.glb import JPEG_QUALITY, CharacterModel, write_glb
 from engine.export.still import write_first_impression, write_still
@@ -305,7 +305,7 @@ def write_film(
 ) -> tuple[str, int]:
     """The animation, and `poster.jpg` from its first third; returns the animation's name and how many frames it has."""
     plate = background.rgb
-    longest = MAX_GIF_SIDE if options.format == "gif" else DEFAULT_VIDEO_PIXELS
+    longest = MAX_GIF_SIDE_PIXELS if options.format == "gif" else DEFAULT_VIDEO_PIXELS
     size = film_size((plate.shape[1], plate.shape[0]), options.size, longest)
     name = "animation." + {"png": "zip"}.get(options.format, options.format)
     acting = [(person.character, person.played.film) for person in people]

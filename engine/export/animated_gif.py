@@ -24,7 +24,7 @@ from av.video.frame import VideoFrame
 from engine.export import synthetic
 from engine.export.encoders import VideoTarget
 
-MAX_GIF_SIDE = 640
+MAX_GIF_SIDE_PIXELS = 640
 """Pixels of the longer side where no size is asked for: files grow with the area, and hold no video's compression."""
 PALETTE_FRAMES = 25
 """Frames of which the palette is made, at most."""

@@ -24,7 +24,7 @@ from engine.export.gltf_materials import Material, add_materials
 from engine.export.gltf_morphs import add_morphs
 from engine.export.influences import quantise_influences
 from engine.export.meshopt_compression import compressed
-from engine.export.synthetic import SOURCE_TYPE, STATEMENT, marked_jpeg
+from engine.export.synthetic import SOURCE_TYPE, SYNTHETIC_STATEMENT, marked_jpeg
 from engine.geometry.joint_axes import mixamo_axes
 from engine.geometry.morph_target import MorphTarget, MorphTrack
 from engine.geometry.skinned_mesh import SkinnedMesh
@@ -158,7 +158,7 @@ def build_glb(model: CharacterModel, texture: bytes, *, name: str = "character",
     mesh, skeleton = model.mesh, model.mesh.skeleton
     gltf = gl.GLTF2(asset=gl.Asset(version="2.0", generator="Galatea"))
     if synthetic:
-        gltf.asset.extras = {"comment": STATEMENT, "digitalSourceType": SOURCE_TYPE}
+        gltf.asset.extras = {"comment": SYNTHETIC_STATEMENT, "digitalSourceType": SOURCE_TYPE}
     buffer = Buffer(gltf)
     axes = mixamo_axes(skeleton) if model.mixamo else None
     add_skeleton(gltf, buffer, skeleton, axes)

@@ -19,7 +19,7 @@ from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.surface import vertex_normals
 from engine.render.character import DrawnCharacter
 
-NEAR_PLANE, FAR_PLANE = 0.05, 100.0
+NEAR_PLANE_METRES, FAR_PLANE_METRES = 0.05, 100.0
 """Metres from the camera between which things are seen."""
 
 PLATFORM_LIBRARIES = {"egl": ("libEGL.so.1",), "osmesa": ("libOSMesa.so.8", "libOSMesa.so.6")}
@@ -93,8 +93,8 @@ class LitPreview:
             camera.focal * camera.aspect,
             camera.centre[0] + 0.5,  # OpenGL's pixels have their centres at halves
             camera.centre[1] + 0.5,
-            znear=NEAR_PLANE,
-            zfar=FAR_PLANE,
+            znear=NEAR_PLANE_METRES,
+            zfar=FAR_PLANE_METRES,
         )
         scene.add(lens, pose=view)
         middle = posed.mean(0)

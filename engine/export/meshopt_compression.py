@@ -18,10 +18,10 @@ from engine.meshopt.filters import encode_exponential, rounded
 from engine.meshopt.index_codec import encode_indices
 from engine.meshopt.triangle_codec import encode_triangles
 
-EXTENSION = "EXT_meshopt_compression"
-FLOAT = 5126
-COMPONENT_BYTES = {5121: 1, 5123: 2, 5125: 4, FLOAT: 4}
-COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+MESHOPT_EXTENSION = "EXT_meshopt_compression"
+FLOAT_COMPONENT_TYPE = 5126
+COMPONENT_BYTES = {5121: 1, 5123: 2, 5125: 4, FLOAT_COMPONENT_TYPE: 4}
+COMPONENT_COUNTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 STEP_EXPONENTS = {
     "POSITION": -16,
@@ -71,15 +71,15 @@ def compressed(glb: bytes) -> bytes:
         _settle_bounds(use)
         told |= {"byteLength": len(packed), "byteStride": use.stride, "mode": use.mode}
         told |= {"count": len(raw) // use.stride, "filter": "NONE" if use.step is None else "EXPONENTIAL"}
-        view |= {"buffer": 1, "byteOffset": plain, "extensions": {EXTENSION: told}}
+        view |= {"buffer": 1, "byteOffset": plain, "extensions": {MESHOPT_EXTENSION: told}}
         plain += len(raw) + -len(raw) % 4
         data += packed + bytes(-len(packed) % 4)
     document["buffers"] = [
         {"byteLength": len(data)},
-        {"byteLength": plain, "extensions": {EXTENSION: {"fallback": True}}},
+        {"byteLength": plain, "extensions": {MESHOPT_EXTENSION: {"fallback": True}}},
     ]
     for key in ("extensionsUsed", "extensionsRequired"):
-        document[key] = [*document.get(key, ()), EXTENSION]
+        document[key] = [*document.get(key, ()), MESHOPT_EXTENSION]
     return _glb(document, bytes(data))
 
 
@@ -88,8 +88,8 @@ def _uses(document: Document) -> dict[int, _Use]:
     uses: dict[int, _Use] = {}
     steps, triangles = dict(_steps(document)), set(_triangles(document))
     for number, accessor in enumerate(document["accessors"]):
-        stride = COMPONENT_BYTES[accessor["componentType"]] * COMPONENTS[accessor["type"]]
-        step = steps.get(number) if accessor["componentType"] == FLOAT else None
+        stride = COMPONENT_BYTES[accessor["componentType"]] * COMPONENT_COUNTS[accessor["type"]]
+        step = steps.get(number) if accessor["componentType"] == FLOAT_COMPONENT_TYPE else None
         if "bufferView" in accessor:
             use = uses.setdefault(accessor["bufferView"], _Use(stride, step=step))
             use.mode = "TRIANGLES" if number in triangles else use.mode

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from engine.geometry.point_cloud import PointCloud
 
-VERTEX = np.dtype([("xyz", "<f4", 3), ("normal", "<f4", 3), ("rgb", "u1", 3)])
-HEADER = """ply
+VERTEX_RECORD = np.dtype([("xyz", "<f4", 3), ("normal", "<f4", 3), ("rgb", "u1", 3)])
+PLY_HEADER = """ply
 format binary_little_endian 1.0
 element vertex {count}
 property float x
@@ -28,7 +28,7 @@ property uchar blue
 end_header
 """
 
-TRIANGLE = np.dtype([("count", "u1"), ("corners", "<i4", 3)])
+TRIANGLE_RECORD = np.dtype([("count", "u1"), ("corners", "<i4", 3)])
 MESH_HEADER = """ply
 format binary_little_endian 1.0
 element vertex {vertices}
@@ -43,16 +43,16 @@ end_header
 
 def write_ply(path: Path, cloud: PointCloud) -> None:
     """Write a cloud: 27 bytes a point."""
-    rows = np.empty(len(cloud), VERTEX)
+    rows = np.empty(len(cloud), VERTEX_RECORD)
     rows["xyz"], rows["normal"], rows["rgb"] = cloud.points, cloud.normals, cloud.colours
     with path.open("wb") as file:
-        file.write(HEADER.format(count=len(cloud)).encode())
+        file.write(PLY_HEADER.format(count=len(cloud)).encode())
         file.write(rows.tobytes())
 
 
 def write_mesh_ply(path: Path, vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> None:
     """Write a mesh, its vertices (V, 3) and triangles (T, 3), without colours: 12 and 13 bytes each."""
-    corners = np.empty(len(triangles), TRIANGLE)
+    corners = np.empty(len(triangles), TRIANGLE_RECORD)
     corners["count"], corners["corners"] = 3, triangles
     with path.open("wb") as file:
         file.write(MESH_HEADER.format(vertices=len(vertices), triangles=len(triangles)).encode())

@@ -11,7 +11,7 @@ from engine.export.synthetic import mark_image
 from engine.imaging.resample import resized, size_within
 from engine.media.image import over_white, write_image
 
-THUMBNAIL_SIDE = 320
+THUMBNAIL_SIDE_PIXELS = 320
 """Pixels of a thumbnail's longer side, at most."""
 THUMBNAIL_BYTES = 11_000
 """Of a thumbnail's file, at most: five in a list are less than 60 kB."""
@@ -38,10 +38,10 @@ def write_first_impression(
 
 
 def write_thumbnail(path: Path, rgb: NDArray[np.uint8], synthetic: bool) -> None:
-    """Write `rgb` (H, W, 3) as a JPEG within `THUMBNAIL_SIDE` and `THUMBNAIL_BYTES`: the coarser, the more there is to
+    """Write `rgb` (H, W, 3) as a JPEG within `THUMBNAIL_SIDE_PIXELS` and `THUMBNAIL_BYTES`: the coarser, the more there is to
     see in it."""
     for share, quality in _REDUCTIONS:
-        small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, round(THUMBNAIL_SIDE * share)))
+        small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, round(THUMBNAIL_SIDE_PIXELS * share)))
         write_image(path, small, quality=quality)
         if synthetic:
             mark_image(path)

@@ -16,9 +16,9 @@ import zlib
 from pathlib import Path
 
 SOURCE_TYPE = "http://cv.iptc.org/newscodes/digitalsourcetype/compositeSynthetic"
-STATEMENT = "Synthetic: made from a still picture by Galatea."
-VIDEO_TAGS = {"comment": STATEMENT, "DIGITAL_SOURCE_TYPE": SOURCE_TYPE}
-"""Tags of a video file: `STATEMENT` and `SOURCE_TYPE`."""
+SYNTHETIC_STATEMENT = "Synthetic: made from a still picture by Galatea."
+VIDEO_TAGS = {"comment": SYNTHETIC_STATEMENT, "DIGITAL_SOURCE_TYPE": SOURCE_TYPE}
+"""Tags of a video file: `SYNTHETIC_STATEMENT` and `SOURCE_TYPE`."""
 
 XMP_PACKET = (
     '<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?>'
@@ -27,7 +27,7 @@ XMP_PACKET = (
     'xmlns:xmp="http://ns.adobe.com/xap/1.0/" xmlns:dc="http://purl.org/dc/elements/1.1/">'
     f"<Iptc4xmpExt:DigitalSourceType>{SOURCE_TYPE}</Iptc4xmpExt:DigitalSourceType>"
     "<xmp:CreatorTool>Galatea</xmp:CreatorTool>"
-    f'<dc:description><rdf:Alt><rdf:li xml:lang="x-default">{STATEMENT}</rdf:li></rdf:Alt></dc:description>'
+    f'<dc:description><rdf:Alt><rdf:li xml:lang="x-default">{SYNTHETIC_STATEMENT}</rdf:li></rdf:Alt></dc:description>'
     '</rdf:Description></rdf:RDF></x:xmpmeta><?xpacket end="r"?>'
 ).encode()
 

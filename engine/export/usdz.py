@@ -15,7 +15,7 @@ from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, UsdSkel, UsdUtils, Vt
 from engine.export.animation_tracks import tracks
 from engine.export.glb import jpeg
 from engine.export.influences import FULL_WEIGHT, quantise_influences
-from engine.export.synthetic import SOURCE_TYPE, STATEMENT
+from engine.export.synthetic import SOURCE_TYPE, SYNTHETIC_STATEMENT
 from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.welding import seamless_normals
@@ -75,7 +75,7 @@ def _describe(stage: Usd.Stage, mesh: SkinnedMesh, clip: Clip, name: str, synthe
     root = UsdSkel.Root.Define(stage, f"/{name}")
     stage.SetDefaultPrim(root.GetPrim())
     if synthetic:
-        stage.GetRootLayer().comment = STATEMENT
+        stage.GetRootLayer().comment = SYNTHETIC_STATEMENT
         root.GetPrim().SetCustomDataByKey("digitalSourceType", SOURCE_TYPE)
     skeleton = _add_skeleton(stage, mesh.skeleton, name)
     skeleton.CreateVisibilityAttr(UsdGeom.Tokens.inherited)

@@ -52,7 +52,7 @@ REQUIRED_BONES = (
 )
 """Bones without which there is no VRM humanoid."""
 
-EYE_REACH = {"HorizontalInner": 30.0, "HorizontalOuter": 30.0, "VerticalDown": 25.0, "VerticalUp": 25.0}
+MAX_EYE_TURN_DEGREES = {"HorizontalInner": 30.0, "HorizontalOuter": 30.0, "VerticalDown": 25.0, "VerticalUp": 25.0}
 """Degrees that eyes turn before the head does."""
 
 
@@ -172,7 +172,7 @@ def _meta(meta: VrmMeta) -> dict[str, Any]:
 
 def _look_at(mesh: SkinnedMesh, by: Literal["bone", "expression"]) -> dict[str, Any]:
     """Where a first-person camera sits, between the eyes if the skeleton has them, else in the middle of the head; and how
-    far the eyes go when they look aside: joints all the way to what they look at, up to `EYE_REACH`, or as far as the
+    far the eyes go when they look aside: joints all the way to what they look at, up to `MAX_EYE_TURN_DEGREES`, or as far as the
     expressions go."""
     skeleton = mesh.skeleton
     head = skeleton.heads[skeleton.index("Head")]
@@ -186,6 +186,6 @@ def _look_at(mesh: SkinnedMesh, by: Literal["bone", "expression"]) -> dict[str, 
         "offsetFromHeadBone": [float(value) for value in offset],
         **{
             f"rangeMap{name}": {"inputMaxValue": reach, "outputScale": reach if by == "bone" else 1.0}
-            for name, reach in EYE_REACH.items()
+            for name, reach in MAX_EYE_TURN_DEGREES.items()
         },
     }

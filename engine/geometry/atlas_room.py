@@ -18,11 +18,11 @@ from scipy import ndimage
 
 from engine.geometry.texture_atlas import TextureAtlas
 
-CELLS = 512
+ATLAS_ROOM_CELLS = 512
 """Cells along a side of the texture by which room is looked for."""
 GAP_CELLS = 2
 """Cells between charts."""
-SCALE_STEP = 0.85
+CHART_SCALE_STEP = 0.85
 """By how much smaller charts are tried until all fit."""
 MAX_STEPS = 24
 
@@ -38,7 +38,7 @@ class _Chart:
 
 
 def placed_between(taken: NDArray[np.bool_], atlas: TextureAtlas, scale: float) -> TextureAtlas:
-    """`atlas` with its charts where `taken` (`CELLS`, `CELLS`), a texture's cells with charts in them, leaves room.
+    """`atlas` with its charts where `taken` (`ATLAS_ROOM_CELLS`, `ATLAS_ROOM_CELLS`), a texture's cells with charts in them, leaves room.
 
     A length of 1 on `atlas` becomes `scale` on the texture, or less where there is too little room.
 
@@ -46,7 +46,7 @@ def placed_between(taken: NDArray[np.bool_], atlas: TextureAtlas, scale: float) 
     """
     charts = _charts(atlas)
     for step in range(MAX_STEPS):
-        placed = _placed(ndimage.binary_dilation(taken, iterations=GAP_CELLS), charts, scale * SCALE_STEP**step)
+        placed = _placed(ndimage.binary_dilation(taken, iterations=GAP_CELLS), charts, scale * CHART_SCALE_STEP**step)
         if placed is not None:
             uv = np.zeros((len(atlas.uv), 2), np.float32)
             for chart, places in zip(charts, placed, strict=True):
@@ -56,8 +56,10 @@ def placed_between(taken: NDArray[np.bool_], atlas: TextureAtlas, scale: float) 
 
 
 def cells_of(atlas: TextureAtlas) -> NDArray[np.bool_]:
-    """(`CELLS`, `CELLS`) the cells that an atlas' triangles touch."""
-    return _cells(np.asarray(atlas.uv, np.float64) * CELLS, atlas.corners, (CELLS, CELLS))
+    """(`ATLAS_ROOM_CELLS`, `ATLAS_ROOM_CELLS`) the cells that an atlas' triangles touch."""
+    return _cells(
+        np.asarray(atlas.uv, np.float64) * ATLAS_ROOM_CELLS, atlas.corners, (ATLAS_ROOM_CELLS, ATLAS_ROOM_CELLS)
+    )
 
 
 def _charts(atlas: TextureAtlas) -> list[_Chart]:
@@ -77,9 +79,9 @@ def _placed(taken: NDArray[np.bool_], charts: list[_Chart], scale: float) -> lis
     for chart in charts:
         best: tuple[int, NDArray[np.float64], NDArray[np.bool_], tuple[int, int]] | None = None
         for turn in range(2):
-            places = CELLS * scale * (chart.places if turn == 0 else _turned(chart.places))
+            places = ATLAS_ROOM_CELLS * scale * (chart.places if turn == 0 else _turned(chart.places))
             size = np.ceil(places.max(0)).astype(int)[::-1] + 1
-            if (size >= CELLS).any():
+            if (size >= ATLAS_ROOM_CELLS).any():
                 continue
             cells = _cells(places, chart.triangles, (int(size[0]), int(size[1])))
             free = cv2.matchTemplate(full.astype(np.float32), cells.astype(np.float32), cv2.TM_CCORR) < 0.5
@@ -92,9 +94,9 @@ def _placed(taken: NDArray[np.bool_], charts: list[_Chart], scale: float) -> lis
         _, at, cells, (y, x) = best
         grown = ndimage.binary_dilation(np.pad(cells, GAP_CELLS), iterations=GAP_CELLS)
         top, left = max(y - GAP_CELLS, 0), max(x - GAP_CELLS, 0)
-        part = grown[top - y + GAP_CELLS :, left - x + GAP_CELLS :][: CELLS - top, : CELLS - left]
+        part = grown[top - y + GAP_CELLS :, left - x + GAP_CELLS :][: ATLAS_ROOM_CELLS - top, : ATLAS_ROOM_CELLS - left]
         full[top : top + part.shape[0], left : left + part.shape[1]] |= part
-        found.append(at / CELLS)
+        found.append(at / ATLAS_ROOM_CELLS)
     return found
 
 

@@ -23,14 +23,14 @@ from engine.geometry.registration.rigid import Similarity
 
 Axes = tuple[tuple[float, ...], ...]
 
-UPRIGHT: Axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-TO_VISION = np.diag([1.0, -1.0, -1.0])
+IDENTITY_ROTATION: Axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+RENDER_TO_VISION_AXES = np.diag([1.0, -1.0, -1.0])
 """From x right, y up, z backwards to x right, y down, z forwards, and back."""
 DISTORTION_COEFFICIENTS = 5
 """Of a lens: k1, k2, p1, p2, k3."""
-NEWTON_STEPS = 50
+MAX_UNDISTORTION_STEPS = 50
 """Steps in which distortion is undone, at most."""
-CONVERGED_STEP = 1e-12
+CONVERGED_STEP_LENGTH = 1e-12
 """Length of a step, on the plane at distance 1, at which distortion is undone."""
 
 
@@ -51,7 +51,7 @@ class Camera:
     focal: float
     centre: tuple[float, float]
     size: tuple[int, int]
-    axes: Axes = UPRIGHT
+    axes: Axes = IDENTITY_ROTATION
     distortion: tuple[float, ...] = ()
     aspect: float = 1.0
 
@@ -74,7 +74,7 @@ class Camera:
         if abs(intrinsics[0, 1]) > 1e-9 * abs(intrinsics[0, 0]):
             raise ValueError("a camera whose pixels are skew is not supported")
         x, y, z = (-np.asarray(rotation, np.float64).T @ translation).tolist()
-        axes: Axes = tuple(map(tuple, (TO_VISION @ rotation).tolist()))
+        axes: Axes = tuple(map(tuple, (RENDER_TO_VISION_AXES @ rotation).tolist()))
         focal, centre = float(intrinsics[0, 0]), (float(intrinsics[0, 2]), float(intrinsics[1, 2]))
         return Camera((x, y, z), focal, centre, size, axes, distortion, float(intrinsics[1, 1]) / focal)
 
@@ -87,7 +87,7 @@ class Camera:
     @property
     def rotation(self) -> NDArray[np.float64]:
         """R (3, 3): from the world's axes to x right, y down, z forwards."""
-        return np.asarray(TO_VISION @ np.array(self.axes))
+        return np.asarray(RENDER_TO_VISION_AXES @ np.array(self.axes))
 
     @property
     def translation(self) -> NDArray[np.float64]:
@@ -232,7 +232,7 @@ def _undistort(places: np.ndarray, coefficients: np.ndarray) -> np.ndarray:
     found = np.full_like(places, np.nan)
     for n in range(len(places)):
         x, y = places[n]
-        for _ in range(NEWTON_STEPS):
+        for _ in range(MAX_UNDISTORTION_STEPS):
             at_x, at_y = _distorted(x, y, coefficients)
             r = x * x + y * y
             radial = 1 + r * (k1 + r * (k2 + r * k3))
@@ -244,7 +244,7 @@ def _undistort(places: np.ndarray, coefficients: np.ndarray) -> np.ndarray:
             off_x, off_y = places[n, 0] - at_x, places[n, 1] - at_y
             step_x, step_y = (yy * off_x - xy * off_y) / determinant, (xx * off_y - xy * off_x) / determinant
             x, y = x + step_x, y + step_y
-            if abs(step_x) + abs(step_y) < CONVERGED_STEP:
+            if abs(step_x) + abs(step_y) < CONVERGED_STEP_LENGTH:
                 if radial > 0 and determinant > 0:  # else it is a solution beyond where the lens folds back
                     found[n, 0], found[n, 1] = x, y
                 break

@@ -17,7 +17,7 @@ from engine.geometry.surface import vertex_normals
 
 NEAREST_VERTICES = 3
 """Vertices whose triangles are looked at for each point."""
-FEW_POINTS = 2048
+SINGLE_THREAD_POINTS = 2048
 """So many are looked for without threads: starting them costs more, and a process that has started any must not be forked."""
 
 
@@ -69,7 +69,7 @@ def closest_points(
     count = min(NEAREST_VERTICES, len(used))
     near = cKDTree(places[used]).query(asked, k=count)[1].reshape(len(asked), count)
     found = ClosestPoints(np.empty(len(asked)), np.zeros(len(asked), np.intp), np.zeros((len(asked), 3)))
-    search = _find_few if len(asked) <= FEW_POINTS else _find_many
+    search = _find_few if len(asked) <= SINGLE_THREAD_POINTS else _find_many
     search(asked, places, corners, near, starts, order // 3, found.distance, found.triangle, found.barycentrics)
     return found
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.adjacency import neighbours
 
-SHRINKING, GROWING = 0.5, -0.53
+TAUBIN_LAMBDA, TAUBIN_MU = 0.5, -0.53
 """Taubin's lambda and mu: ripples shorter than some six edges go, and the rest stays."""
 
 
@@ -20,6 +20,6 @@ def fair(vertices: NDArray[np.floating], triangles: NDArray[np.integer], rounds:
     number = np.maximum(np.asarray(beside.sum(1)).reshape(-1, 1), 1)
     moved = np.asarray(vertices, np.float64)
     for _ in range(rounds):
-        for share in (SHRINKING, GROWING):
+        for share in (TAUBIN_LAMBDA, TAUBIN_MU):
             moved = moved + share * (beside @ moved / number - moved)
     return moved

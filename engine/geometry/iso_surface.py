@@ -14,7 +14,7 @@ from itertools import permutations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]])
+CELL_CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]])
 """Of a cell, by their numbers."""
 MIN_EDGE_SHARE = 0.02
 """Share of an edge from its ends at which the surface may cross it, at least: no triangle becomes a needle."""
@@ -31,9 +31,9 @@ def iso_surface(
     """
     field = np.pad(np.asarray(values, np.float64), 1, constant_values=min(float(np.min(values, initial=0.0)), -1e-6))
     above, strides = field > 0, np.array([field.shape[1] * field.shape[2], field.shape[2], 1])
-    number = sum(_of_cells(above, corner).astype(np.int8) for corner in CORNERS)
-    cells = np.argwhere((number > 0) & (number < len(CORNERS))) @ strides
-    tetrahedra = (cells[:, None, None] + (CORNERS @ strides)[_tetrahedra()]).reshape(-1, 4)
+    number = sum(_of_cells(above, corner).astype(np.int8) for corner in CELL_CORNERS)
+    cells = np.argwhere((number > 0) & (number < len(CELL_CORNERS))) @ strides
+    tetrahedra = (cells[:, None, None] + (CELL_CORNERS @ strides)[_tetrahedra()]).reshape(-1, 4)
     edges = _triangles(above.ravel(), tetrahedra)
     crossed, triangles = np.unique(edges.reshape(-1, 2), axis=0, return_inverse=True)
     triangles = triangles.reshape(-1, 3)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import FINGERS
+from engine.geometry.joint_names import FINGER_NAMES
 from engine.geometry.skeleton import Skeleton
 
 FOOT_SLOPE = (0.0, -0.6, 0.8)
@@ -58,7 +58,7 @@ def _set_hand(axes: NDArray[np.float64], skeleton: Skeleton, side: str, sign: fl
     if across is not None:
         palm = sign * np.cross(across, outward)
     axes[skeleton.index(f"{side}Hand")] = _frame(outward, palm)
-    for finger in FINGERS:
+    for finger in FINGER_NAMES:
         along = outward
         for number in (1, 2, 3):
             joint = f"{side}Hand{finger}{number}"

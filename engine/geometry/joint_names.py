@@ -5,6 +5,6 @@ from __future__ import annotations
 from typing import Literal
 
 Side = Literal["Left", "Right"]
-SIDES: tuple[Side, Side] = ("Left", "Right")
+SIDE_NAMES: tuple[Side, Side] = ("Left", "Right")
 """The person's own."""
-FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
+FINGER_NAMES = ("Thumb", "Index", "Middle", "Ring", "Pinky")

@@ -17,14 +17,14 @@ from scipy.spatial import cKDTree
 
 from engine.geometry.point_cloud import thinning
 
-MAX_NEIGHBOURS = 160
+MAX_PLANE_POINTS = 160
 """Points of which a plane is made, at most."""
-FEWEST, FEWEST_SHARE = 8, 0.35
+MIN_PLANE_POINTS, FEWEST_SHARE = 8, 0.35
 """Those without which there is none, and the share of the usual number without which there is none: at a border there are half as
 many as elsewhere, and beside a sheet few."""
-ASKED_POINTS = 12
+ASKED_POINT_COUNT = 12
 """Points of a sheet that are asked about a place."""
-KERNEL_WIDTH = 0.7
+KERNEL_WIDTH_SPACINGS = 0.7
 """Of the Gaussian by which they are asked, in distances of the nearest of them, where that is more than they are apart."""
 
 
@@ -39,10 +39,10 @@ class PointSheet:
     def distances(self, places: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(M,) how far `places` (M, 3) are from the sheet, or from what it would be if it went on, and (M,) how far from its
         points along itself: about 0 where it is, growing beyond its border."""
-        count = min(ASKED_POINTS, len(self.points))
+        count = min(ASKED_POINT_COUNT, len(self.points))
         found = cKDTree(self.points).query(places, count)
         nearest, which = (np.reshape(one, (-1, count)) for one in found)
-        width = np.maximum(KERNEL_WIDTH * nearest[:, :1], self.spacing)
+        width = np.maximum(KERNEL_WIDTH_SPACINGS * nearest[:, :1], self.spacing)
         weights = np.exp((nearest[:, :1] ** 2 - nearest**2) / width**2)
         offsets = np.asarray(places)[:, None] - self.points[which]
         squares = np.einsum("nkd,nkd->nk", offsets, self.normals[which]) ** 2
@@ -65,14 +65,14 @@ def sheet_through(points: NDArray[np.floating], radius: float, rounds: int, spac
 
 def _on_planes(points: NDArray[np.float64], radius: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Points moved onto the planes of those around them, and the planes' normals; lone ones left out."""
-    count = min(MAX_NEIGHBOURS, len(points))
-    if count < FEWEST:
+    count = min(MAX_PLANE_POINTS, len(points))
+    if count < MIN_PLANE_POINTS:
         return points[:0], points[:0]
     found = cKDTree(points).query(points, count, distance_upper_bound=radius)
     distance, which = (np.asarray(one) for one in found)
     within = np.isfinite(distance)
     number = within.sum(1)
-    crowd = number >= max(FEWEST, FEWEST_SHARE * float(np.median(number)))
+    crowd = number >= max(MIN_PLANE_POINTS, FEWEST_SHARE * float(np.median(number)))
     distance, which, within = distance[crowd], np.where(within, which, 0)[crowd], within[crowd]
     weights = np.where(within, np.exp(-((2 * np.where(within, distance, 0) / radius) ** 2)), 0)
     mean = np.einsum("nk,nkd->nd", weights, points[which]) / weights.sum(1)[:, None]

@@ -17,15 +17,15 @@ from engine.imaging.features import Features
 
 MAX_RATIO = 0.8
 """Of the distances to the nearest and to the second nearest descriptor (Lowe's value)."""
-MAX_EPIPOLAR_ERROR = 4.0
+MAX_EPIPOLAR_ERROR_PIXELS = 4.0
 """Pixels from the epipolar line, of pictures 1000 pixels long: people who are to hold still sway by as much."""
 MIN_MATCHES = 15
 """In accord with one motion; fewer come by chance."""
-MIN_AGREEING = 0.25
+MIN_AGREEING_SHARE = 0.25
 """Share of the matches that must be in accord."""
 MANY_MATCHES = 400
 """So many tie two pictures; where there are fewer, more are looked for along epipolar lines."""
-MIN_LIKENESS = 0.8
+MIN_DESCRIPTOR_COSINE = 0.8
 """Cosine between descriptors that are looked for so."""
 OVERLAP_FEATURES = 300
 """The largest features of each picture, by which it is seen which pictures show the same."""
@@ -66,7 +66,7 @@ def _guided(
     x, y = np.ascontiguousarray(b.pixels.T)
     _keep_near(likeness, lines.astype(np.float32), x, y, np.float32(max_error))
     matches = np.asarray(_mutual(likeness, max_ratio), np.intp)
-    return matches[likeness[matches[:, 0], matches[:, 1]] >= MIN_LIKENESS]
+    return matches[likeness[matches[:, 0], matches[:, 1]] >= MIN_DESCRIPTOR_COSINE]
 
 
 def verified_matches(a: Features, b: Features, length: float, max_ratio: float = MAX_RATIO) -> NDArray[np.intp]:
@@ -84,7 +84,7 @@ def verified_matches(a: Features, b: Features, length: float, max_ratio: float =
     if len(matches) < MIN_MATCHES:
         return none
     first, second = a.pixels[matches[:, 0]].astype(np.float64), b.pixels[matches[:, 1]].astype(np.float64)
-    error = MAX_EPIPOLAR_ERROR * length / 1000
+    error = MAX_EPIPOLAR_ERROR_PIXELS * length / 1000
     try:
         fundamental, mask = cv2.findFundamentalMat(first, second, cv2.USAC_MAGSAC, error, 0.999, 2000)
     except cv2.error:  # it asserts that it found a matrix, and among wrong matches alone it may not
@@ -92,7 +92,7 @@ def verified_matches(a: Features, b: Features, length: float, max_ratio: float =
     if mask is None:
         return none
     agreed = mask.ravel() > 0
-    if agreed.sum() < max(MIN_MATCHES, MIN_AGREEING * len(matches)):
+    if agreed.sum() < max(MIN_MATCHES, MIN_AGREEING_SHARE * len(matches)):
         return none
     if agreed.sum() >= MANY_MATCHES:
         return matches[agreed]

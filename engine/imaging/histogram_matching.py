@@ -9,9 +9,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-QUANTILES = 65
+QUANTILE_COUNT = 65
 """At which two distributions are compared; between them the map is linear."""
-IGNORED_TAIL = 0.02
+IGNORED_TAIL_SHARE = 0.02
 """Share of the reference at either end that is not followed: highlights, and what is not of it."""
 
 MIN_RANGE = 2.0
@@ -24,11 +24,11 @@ def matched_in_lab(colours: NDArray[np.floating], reference: NDArray[np.floating
     if not len(colours) or not len(reference):
         return np.asarray(colours, np.float32)
     own, goal = to_lab(colours), to_lab(reference)
-    steps = np.linspace(0, 1, QUANTILES)
+    steps = np.linspace(0, 1, QUANTILE_COUNT)
     out = np.empty_like(own)
     for channel in range(3):
         have = np.quantile(own[:, channel], steps)
-        want = np.quantile(goal[:, channel], IGNORED_TAIL + (1 - 2 * IGNORED_TAIL) * steps)
+        want = np.quantile(goal[:, channel], IGNORED_TAIL_SHARE + (1 - 2 * IGNORED_TAIL_SHARE) * steps)
         if np.ptp(have) < MIN_RANGE:
             out[:, channel] = own[:, channel] + np.median(want) - np.median(have)
         else:

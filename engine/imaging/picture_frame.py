@@ -11,9 +11,9 @@ PLAIN_LEVELS = 6
 """Levels by which the pixels of a margin differ from one another at most, in any channel: JPEG's noise."""
 PLAIN_SHARE = 0.98
 """Of the pixels of a line along the border that are of the margin's colour."""
-EDGE_LEVELS, EDGE_SHARE, EDGE_PIXELS = 12, 0.6, 2
+EDGE_LEVELS, FRAME_EDGE_SHARE, EDGE_PIXELS = 12, 0.6, 2
 """Where a margin ends, so large a share of the line's pixels change by so much, within so many lines: a backdrop ends at a person, or fades."""
-RINGING = 16
+RINGING_LINES = 16
 """Lines before the edge that JPEG may have made uneven: a block of its colours."""
 LARGEST_SHARE = 0.4
 """Of the picture's width or height, that is a margin."""
@@ -42,7 +42,7 @@ def inner_picture(rgb: NDArray[np.uint8]) -> Window:
 def _margin(lines: NDArray[np.uint8]) -> int:
     """How many of the first lines (N, L, 3) are a margin."""
     colour = np.median(lines[0], axis=0).astype(np.int16)
-    furthest = int(LARGEST_SHARE * len(lines)) + RINGING
+    furthest = int(LARGEST_SHARE * len(lines)) + RINGING_LINES
     if (np.abs(lines[0] - colour).max(axis=1) <= PLAIN_LEVELS).mean() < PLAIN_SHARE:
         return 0
     away = np.abs(lines[:furthest] - colour).max(axis=2)
@@ -50,7 +50,7 @@ def _margin(lines: NDArray[np.uint8]) -> int:
     if plain.all():
         return 0
     wide = int(np.argmin(plain))
-    near = lines[max(wide - EDGE_PIXELS, 0) : wide + RINGING + EDGE_PIXELS].astype(np.int16)
+    near = lines[max(wide - EDGE_PIXELS, 0) : wide + RINGING_LINES + EDGE_PIXELS].astype(np.int16)
     change = np.abs(near[EDGE_PIXELS:] - near[:-EDGE_PIXELS]).max(axis=2)
-    ends = (change > EDGE_LEVELS).mean(axis=1) >= EDGE_SHARE
+    ends = (change > EDGE_LEVELS).mean(axis=1) >= FRAME_EDGE_SHARE
     return max(wide - EDGE_PIXELS, 0) + EDGE_PIXELS + int(np.argmax(ends)) if ends.any() else 0

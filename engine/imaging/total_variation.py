@@ -13,7 +13,7 @@ from engine.compiled import njit
 
 OPERATOR_NORM_SQUARED = 8.0
 """Of the gradient on a grid of pixels, at most."""
-ITERATIONS = 150
+SPLIT_BREGMAN_ITERATIONS = 150
 
 
 def denoised(
@@ -27,7 +27,7 @@ def denoised(
     values = np.ascontiguousarray(field, np.float32)
     believed = np.ones_like(values) if trust is None else np.ascontiguousarray(trust, np.float32)
     convexity = 1.0 if trust is None else 0.0  # of the data's term: what may be believed nowhere has none
-    return np.asarray(_solve(values, believed, weight, huber / weight, convexity, ITERATIONS), np.float32)
+    return np.asarray(_solve(values, believed, weight, huber / weight, convexity, SPLIT_BREGMAN_ITERATIONS), np.float32)
 
 
 @njit(nogil=True, fastmath=True, error_model="numpy", boundscheck=False)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from engine.errors import InputError
 from engine.media.demux import Header, without_picture
-from engine.media.limits import MAX_DECODED_SIDE, SHORTEST_SIDE, Limits
+from engine.media.limits import MAX_DECODED_SIDE_PIXELS, MIN_SIDE_PIXELS, Limits
 from engine.media.sniff import VIDEO_TYPES, is_still_webp, sniff
 
 
@@ -48,15 +48,15 @@ def check_video(width: int, height: int, fps: float, seconds: float, frames: int
             "video_too_large",
             f"The video is {width} x {height}: scale it to at most {limits.video_megapixels:g} megapixels a frame.",
         )
-    if max(width, height) > MAX_DECODED_SIDE:
+    if max(width, height) > MAX_DECODED_SIDE_PIXELS:
         raise InputError(
             "video_too_large",
-            f"The video is {width} x {height}: cut or scale it to at most {MAX_DECODED_SIDE} pixels a side.",
+            f"The video is {width} x {height}: cut or scale it to at most {MAX_DECODED_SIDE_PIXELS} pixels a side.",
         )
-    if 0 < min(width, height) < SHORTEST_SIDE:  # 0 is not known yet
+    if 0 < min(width, height) < MIN_SIDE_PIXELS:  # 0 is not known yet
         raise InputError(
             "video_too_small",
-            f"The video is {width} x {height}, too small to show anybody: each side must have at least {SHORTEST_SIDE} "
+            f"The video is {width} x {height}, too small to show anybody: each side must have at least {MIN_SIDE_PIXELS} "
             "pixels.",
         )
     if seconds > limits.video_seconds:

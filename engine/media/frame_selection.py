@@ -29,9 +29,9 @@ MOVEMENT_SIGMA = 2.0
 """Frames: the Gaussian by which the movement is smoothed (the paper's value)."""
 NEIGHBOURHOOD_FRAMES = 5
 """Frames among which the sharpest is taken, the selected one in their middle (the paper's k)."""
-FLOW_SIDE = 320
+FLOW_SIDE_PIXELS = 320
 """Pixels of the longer side at which optical flow is computed: 10 ms a frame."""
-FLOW_STEP = 2
+FLOW_STEP_FRAMES = 2
 """Frames from one flow to the next: half of the flows say as much, since they are smoothed over more than that."""
 FARNEBACK_PARAMETERS = {
     "pyr_scale": 0.5,
@@ -59,7 +59,7 @@ class SelectedFrame:
 
 
 def measure_movement(
-    path: Path, limits: Limits | None = None, step: int = FLOW_STEP, tick: Tick = lambda fraction: None
+    path: Path, limits: Limits | None = None, step: int = FLOW_STEP_FRAMES, tick: Tick = lambda fraction: None
 ) -> NDArray[np.float64]:
     """How far the picture moves from each frame to the next: (F - 1,) the mean length of the optical flow, in shares of
     the picture's longer side, of a video of F frames.
@@ -67,7 +67,7 @@ def measure_movement(
     Flow is computed over `step` frames at once and spread evenly over them. Raises what `probe_video` raises.
     """
     clip = open_clip(path, limits or Limits())
-    shrink = _Grey(clip.scaled_size(FLOW_SIDE))
+    shrink = _Grey(clip.scaled_size(FLOW_SIDE_PIXELS))
     lengths: list[float] = []
     before: NDArray[np.uint8] | None = None
     waiting, latest = 0, None

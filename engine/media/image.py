@@ -14,7 +14,7 @@ from PIL import ExifTags, Image, ImageOps, UnidentifiedImageError
 
 from engine.errors import InputError
 from engine.imaging.filling.nearest import nearest_colours
-from engine.media.limits import MAX_DECODED_SIDE, SHORTEST_SIDE, Limits
+from engine.media.limits import MAX_DECODED_SIDE_PIXELS, MIN_SIDE_PIXELS, Limits
 from engine.media.sniff import IMAGE_TYPES, sniff
 
 _FORMATS = {f"image/{name.lower()}": name for name in ("JPEG", "PNG", "WEBP", "AVIF", "GIF")}
@@ -160,16 +160,16 @@ def _check_size(size: tuple[int, int], limits: Limits) -> None:
     width, height = size
     if width * height > limits.image_megapixels * 1e6:
         raise _too_large(f" ({width} x {height} pixels)", limits)
-    if max(size) > MAX_DECODED_SIDE:
+    if max(size) > MAX_DECODED_SIDE_PIXELS:
         raise InputError(
             "image_too_large",
-            f"The picture is too long ({width} x {height} pixels): cut or scale it to at most {MAX_DECODED_SIDE} pixels a side.",
+            f"The picture is too long ({width} x {height} pixels): cut or scale it to at most {MAX_DECODED_SIDE_PIXELS} pixels a side.",
         )
-    if min(size) < SHORTEST_SIDE:
+    if min(size) < MIN_SIDE_PIXELS:
         raise InputError(
             "image_too_small",
             f"The picture is too small ({width} x {height} pixels) to show anybody: each side must have at least "
-            f"{SHORTEST_SIDE} pixels.",
+            f"{MIN_SIDE_PIXELS} pixels.",
         )
 
 

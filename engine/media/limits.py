@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-MAX_DECODED_SIDE = 16_384
+MAX_DECODED_SIDE_PIXELS = 16_384
 """Pixels of a side of whatever is looked at. Detectors and warps keep coordinates in 16 bits: from 32,767 on they end the
 whole process; half of it leaves room for what they put around a picture."""
-SHORTEST_SIDE = 16
+MIN_SIDE_PIXELS = 16
 """Pixels of a side: in less there is no face, and nobody whole."""
 
 

@@ -18,7 +18,7 @@ hundredths (GIF), phones let them tremble a little; at half a frame the place on
 _SHORTEST_STEP = 1e-9
 """Seconds: timestamps that lie closer, or of which rounding leaves no order, are of no clock."""
 
-SHORTEST_SPAN = 1e-3
+MIN_SPAN_SECONDS = 1e-3
 """Seconds for which a frame is on show at least; of those that are not, nobody sees anything."""
 
 _MIN_FPS = 1.0
@@ -100,7 +100,7 @@ def at_own_times(frames: Iterable[tuple[float, Shown]], start: float) -> Iterato
     for time, frame in frames:
         if held is None:
             held = max(time, start), frame
-        elif time > held[0] + SHORTEST_SPAN:
+        elif time > held[0] + MIN_SPAN_SECONDS:
             yield held
             held = time, frame
         else:

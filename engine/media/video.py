@@ -17,7 +17,7 @@ from engine.media.colour import SrgbConverter
 from engine.media.decode import Damage
 from engine.media.demux import unreadable
 from engine.media.limits import Limits
-from engine.media.timing import SHORTEST_SPAN
+from engine.media.timing import MIN_SPAN_SECONDS
 
 Warn = Callable[[str, str], None]
 
@@ -112,7 +112,7 @@ def read_video(
             f"There is nothing between {start:g} s and {end:g} s: the video lasts {seconds:.2f} s.",
             ("trim",),
         )
-    least = SHORTEST_SPAN if fps is None and not clip.rate.constant else 0.5 / (fps or clip.rate.fps)
+    least = MIN_SPAN_SECONDS if fps is None and not clip.rate.constant else 0.5 / (fps or clip.rate.fps)
     damage = Damage()
     converter = SrgbConverter(clip.scaled_size(longest_side))
     shown: tuple[VideoFrame, np.ndarray] | None = None

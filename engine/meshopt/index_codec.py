@@ -9,23 +9,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.meshopt.varint import BROKEN, MAX_BYTES, get_number, put_number, signed, zigzag
+from engine.meshopt.varint import BROKEN_STREAM, MAX_VARINT_BYTES, get_number, put_number, signed, zigzag
 
-HEADER = 0xD1
+INDEX_HEADER = 0xD1
 TAIL_BYTES = 4
 """Reserved, zeros."""
 
 
 def encode_indices(indices: NDArray[np.integer]) -> bytes:
     """The stream of any numbers (N,) from 0 to 2^29, small where each is near the one before."""
-    out = np.empty(len(indices) * MAX_BYTES, np.uint8)
+    out = np.empty(len(indices) * MAX_VARINT_BYTES, np.uint8)
     used = _encode(np.ascontiguousarray(indices, np.int64), out)
-    return bytes([HEADER]) + out[:used].tobytes() + bytes(TAIL_BYTES)
+    return bytes([INDEX_HEADER]) + out[:used].tobytes() + bytes(TAIL_BYTES)
 
 
 def decode_indices(stream: bytes, count: int) -> NDArray[np.uint32]:
     """(count,) the numbers of a stream. Raises ValueError where it is none of so many."""
-    if len(stream) < 1 + count + TAIL_BYTES or stream[0] != HEADER:
+    if len(stream) < 1 + count + TAIL_BYTES or stream[0] != INDEX_HEADER:
         raise ValueError(f"no stream of {count} indices")
     indices = np.empty(count, np.uint32)
     if not _decode(np.frombuffer(stream, np.uint8)[1:-TAIL_BYTES], indices):
@@ -49,7 +49,7 @@ def _decode(data: np.ndarray, indices: np.ndarray) -> bool:
     place = 0
     for k in range(len(indices)):
         code, place = get_number(data, place)
-        if place == BROKEN:
+        if place == BROKEN_STREAM:
             return False
         baselines[code & 1] += signed(code >> 1)
         indices[k] = baselines[code & 1] & 0xFFFFFFFF

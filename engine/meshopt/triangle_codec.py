@@ -10,16 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.meshopt.varint import BROKEN, MAX_BYTES, get_number, put_number, signed, zigzag
+from engine.meshopt.varint import BROKEN_STREAM, MAX_VARINT_BYTES, get_number, put_number, signed, zigzag
 
-HEADER = 0xE1
-RECENT = 16
+TRIANGLE_HEADER = 0xE1
+RECENT_COUNT = 16
 """Edges, and vertices, that are remembered."""
-EXPLICIT = 15
+EXPLICIT_CODE = 15
 """Says that a vertex is told by its difference to the one told last, an edge that none is shared."""
 BELOW_LAST, ABOVE_LAST = 13, 14
 """Say that a vertex is next to the one told last."""
-OLD = -1
+REMEMBERED_VERTEX = -1
 """Of a vertex that is remembered, and is not remembered anew."""
 FREE_TRIANGLES = (0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xA9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69)
 """Pairs of where the second and third vertex of a triangle without a shared edge come from, that one byte tells."""
@@ -30,17 +30,17 @@ TAIL_BYTES = 16
 def encode_triangles(triangles: NDArray[np.integer]) -> bytes:
     """The stream of triangles (T, 3) of vertex numbers. What is decoded has the same triangles in the same order and with the
     same winding; each may begin at another of its vertices."""
-    table = np.zeros(RECENT, np.uint8)
+    table = np.zeros(RECENT_COUNT, np.uint8)
     table[: len(FREE_TRIANGLES)] = FREE_TRIANGLES
     codes = np.empty(len(triangles), np.uint8)
-    more = np.empty(len(triangles) * (1 + 3 * MAX_BYTES), np.uint8)
+    more = np.empty(len(triangles) * (1 + 3 * MAX_VARINT_BYTES), np.uint8)
     used = _encode(np.ascontiguousarray(triangles, np.int64), table, codes, more)
-    return bytes([HEADER]) + codes.tobytes() + more[:used].tobytes() + table.tobytes()
+    return bytes([TRIANGLE_HEADER]) + codes.tobytes() + more[:used].tobytes() + table.tobytes()
 
 
 def decode_triangles(stream: bytes, count: int) -> NDArray[np.uint32]:
     """(count, 3) the triangles of a stream. Raises ValueError where it is none of so many, or its tail is broken."""
-    if len(stream) < 1 + count + TAIL_BYTES or stream[0] != HEADER:
+    if len(stream) < 1 + count + TAIL_BYTES or stream[0] != TRIANGLE_HEADER:
         raise ValueError(f"no stream of {count} triangles")
     data = np.frombuffer(stream, np.uint8)
     triangles = np.empty((count, 3), np.uint32)
@@ -52,8 +52,8 @@ def decode_triangles(stream: bytes, count: int) -> NDArray[np.uint32]:
 @njit(nogil=True)
 def _age(recent: np.ndarray, place: int, vertex: int) -> int:
     """How many vertices were remembered after this one; -1 where it is forgotten."""
-    for age in range(RECENT):
-        if recent[(place - 1 - age) % RECENT] == vertex:
+    for age in range(RECENT_COUNT):
+        if recent[(place - 1 - age) % RECENT_COUNT] == vertex:
             return age
     return -1
 
@@ -61,8 +61,8 @@ def _age(recent: np.ndarray, place: int, vertex: int) -> int:
 @njit(nogil=True)
 def _shared_edge(edges: np.ndarray, place: int, triangle: np.ndarray) -> tuple[int, int]:
     """How many edges were remembered after one that this triangle has, and at which of its vertices it begins; -1 for none."""
-    for age in range(EXPLICIT):
-        edge = edges[(place - 1 - age) % RECENT]
+    for age in range(EXPLICIT_CODE):
+        edge = edges[(place - 1 - age) % RECENT_COUNT]
         for first in range(3):
             if edge[0] == triangle[first] and edge[1] == triangle[(first + 1) % 3]:
                 return age, first
@@ -71,7 +71,7 @@ def _shared_edge(edges: np.ndarray, place: int, triangle: np.ndarray) -> tuple[i
 
 @njit(nogil=True)
 def _encode(triangles: np.ndarray, table: np.ndarray, codes: np.ndarray, out: np.ndarray) -> int:
-    edges, vertices = np.empty((RECENT, 2), np.int64), np.empty(RECENT, np.int64)
+    edges, vertices = np.empty((RECENT_COUNT, 2), np.int64), np.empty(RECENT_COUNT, np.int64)
     edges[:], vertices[:] = -1, -1
     edge_place = vertex_place = end = 0
     new = last = 0  # the number that a vertex not seen before has; the vertex told last
@@ -83,25 +83,25 @@ def _encode(triangles: np.ndarray, table: np.ndarray, codes: np.ndarray, out: np
         a, b, c = triangles[t, first], triangles[t, (first + 1) % 3], triangles[t, (first + 2) % 3]
         if age >= 0:
             known = _age(vertices, vertex_place, c)
-            code = known if 1 <= known < BELOW_LAST else EXPLICIT
-            if code == EXPLICIT and c == new:
+            code = known if 1 <= known < BELOW_LAST else EXPLICIT_CODE
+            if code == EXPLICIT_CODE and c == new:
                 code = 0
                 new += 1
-            elif code == EXPLICIT and abs(c - last) == 1:
+            elif code == EXPLICIT_CODE and abs(c - last) == 1:
                 code = BELOW_LAST if c < last else ABOVE_LAST
                 last = c
-            elif code == EXPLICIT:
+            elif code == EXPLICIT_CODE:
                 end = put_number(out, end, zigzag(c - last))
                 last = c
             codes[t] = age << 4 | code
             if code == 0 or code >= BELOW_LAST:
                 vertices[vertex_place] = c
-                vertex_place = (vertex_place + 1) % RECENT
+                vertex_place = (vertex_place + 1) % RECENT_COUNT
         else:
             for k, vertex in enumerate((a, b, c)):
                 known = _age(vertices, vertex_place, vertex)
-                whence[k] = known + 1 if k and 0 <= known < EXPLICIT - 1 else EXPLICIT
-                if whence[k] == EXPLICIT and vertex == new:
+                whence[k] = known + 1 if k and 0 <= known < EXPLICIT_CODE - 1 else EXPLICIT_CODE
+                if whence[k] == EXPLICIT_CODE and vertex == new:
                     whence[k] = 0
                     new += 1
             both = whence[1] << 4 | whence[2]
@@ -117,36 +117,36 @@ def _encode(triangles: np.ndarray, table: np.ndarray, codes: np.ndarray, out: np
                 out[end] = both
                 end += 1
             for k, vertex in enumerate((a, b, c)):
-                if whence[k] == EXPLICIT:
+                if whence[k] == EXPLICIT_CODE:
                     end = put_number(out, end, zigzag(vertex - last))
                     last = vertex
-                if whence[k] == 0 or whence[k] == EXPLICIT:
+                if whence[k] == 0 or whence[k] == EXPLICIT_CODE:
                     vertices[vertex_place] = vertex
-                    vertex_place = (vertex_place + 1) % RECENT
+                    vertex_place = (vertex_place + 1) % RECENT_COUNT
             edges[edge_place, 0], edges[edge_place, 1] = b, a
-            edge_place = (edge_place + 1) % RECENT
-        after = (edge_place + 1) % RECENT
+            edge_place = (edge_place + 1) % RECENT_COUNT
+        after = (edge_place + 1) % RECENT_COUNT
         edges[edge_place, 0], edges[edge_place, 1], edges[after, 0], edges[after, 1] = c, b, a, c
-        edge_place = (edge_place + 2) % RECENT
+        edge_place = (edge_place + 2) % RECENT_COUNT
     return end
 
 
 @njit(nogil=True)
 def _decode(codes: np.ndarray, data: np.ndarray, table: np.ndarray, triangles: np.ndarray) -> bool:
     """Read all triangles; whether the data held them and nothing else."""
-    edges, vertices = np.zeros((RECENT, 2), np.int64), np.zeros(RECENT, np.int64)
+    edges, vertices = np.zeros((RECENT_COUNT, 2), np.int64), np.zeros(RECENT_COUNT, np.int64)
     edge_place = vertex_place = place = 0
     new = last = 0
     whence, corners = np.empty(3, np.int64), np.empty(3, np.int64)
     for t in range(len(codes)):
         age, code = np.int64(codes[t]) >> 4, np.int64(codes[t]) & 15
-        if age < EXPLICIT:
-            edge = edges[(edge_place - 1 - age) % RECENT]
+        if age < EXPLICIT_CODE:
+            edge = edges[(edge_place - 1 - age) % RECENT_COUNT]
             corners[0], corners[1] = edge[0], edge[1]
-            whence[0] = whence[1] = OLD  # both are remembered
-            whence[2] = code if code == 0 or code >= BELOW_LAST else OLD
-            if whence[2] == OLD:
-                corners[2] = vertices[(vertex_place - 1 - code) % RECENT]
+            whence[0] = whence[1] = REMEMBERED_VERTEX  # both are remembered
+            whence[2] = code if code == 0 or code >= BELOW_LAST else REMEMBERED_VERTEX
+            if whence[2] == REMEMBERED_VERTEX:
+                corners[2] = vertices[(vertex_place - 1 - code) % RECENT_COUNT]
         else:
             both = np.int64(table[code])
             if code >= len(FREE_TRIANGLES):  # no pair of the table: the next byte
@@ -155,36 +155,36 @@ def _decode(codes: np.ndarray, data: np.ndarray, table: np.ndarray, triangles: n
                 both = np.int64(data[place])
                 place += 1
                 new = 0 if both == 0 else new
-            whence[0] = EXPLICIT if code == EXPLICIT else 0
+            whence[0] = EXPLICIT_CODE if code == EXPLICIT_CODE else 0
             whence[1], whence[2] = both >> 4, both & 15
             for k in range(1, 3):
-                if 0 < whence[k] < EXPLICIT:
-                    corners[k] = vertices[(vertex_place - whence[k]) % RECENT]
-                    whence[k] = OLD
+                if 0 < whence[k] < EXPLICIT_CODE:
+                    corners[k] = vertices[(vertex_place - whence[k]) % RECENT_COUNT]
+                    whence[k] = REMEMBERED_VERTEX
         for k in range(3):
             if whence[k] == 0:
                 corners[k] = new
                 new += 1
-            elif whence[k] == EXPLICIT:
+            elif whence[k] == EXPLICIT_CODE:
                 number, place = get_number(data, place)
-                if place == BROKEN:
+                if place == BROKEN_STREAM:
                     return False
                 last = (last + signed(number)) & 0xFFFFFFFF
                 corners[k] = last
-            elif whence[k] != OLD:
+            elif whence[k] != REMEMBERED_VERTEX:
                 last = (last + (1 if whence[k] == ABOVE_LAST else -1)) & 0xFFFFFFFF
                 corners[k] = last
         a, b, c = corners[0], corners[1], corners[2]
-        if age == EXPLICIT:
+        if age == EXPLICIT_CODE:
             edges[edge_place, 0], edges[edge_place, 1] = b, a
-            edge_place = (edge_place + 1) % RECENT
-        after = (edge_place + 1) % RECENT
+            edge_place = (edge_place + 1) % RECENT_COUNT
+        after = (edge_place + 1) % RECENT_COUNT
         edges[edge_place, 0], edges[edge_place, 1], edges[after, 0], edges[after, 1] = c, b, a, c
-        edge_place = (edge_place + 2) % RECENT
+        edge_place = (edge_place + 2) % RECENT_COUNT
         for k in range(3):
-            if whence[k] != OLD:
+            if whence[k] != REMEMBERED_VERTEX:
                 vertices[vertex_place] = corners[k]
-                vertex_place = (vertex_place + 1) % RECENT
+                vertex_place = (vertex_place + 1) % RECENT_COUNT
         for k in range(3):
             triangles[t, k] = corners[k]
     return place == len(data)

@@ -9,9 +9,9 @@ import numpy as np
 
 from engine.compiled import njit
 
-MAX_BYTES = 5
+MAX_VARINT_BYTES = 5
 """Of a number of 32 bits."""
-BROKEN = -1
+BROKEN_STREAM = -1
 
 
 @njit(nogil=True)
@@ -27,16 +27,16 @@ def put_number(out: np.ndarray, end: int, number: int) -> int:
 
 @njit(nogil=True)
 def get_number(data: np.ndarray, place: int) -> tuple[int, int]:
-    """A number, and where it ends: `BROKEN` where the data end within it, or it has more than 32 bits."""
+    """A number, and where it ends: `BROKEN_STREAM` where the data end within it, or it has more than 32 bits."""
     number = 0
-    for k in range(MAX_BYTES):
+    for k in range(MAX_VARINT_BYTES):
         if place + k >= len(data):
             break
         byte = int(data[place + k])
         number |= (byte & 127) << (7 * k)
         if byte < 128:
-            return number, place + k + 1 if number < 1 << 32 else BROKEN
-    return 0, BROKEN
+            return number, place + k + 1 if number < 1 << 32 else BROKEN_STREAM
+    return 0, BROKEN_STREAM
 
 
 @njit(nogil=True)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from engine.errors import InputError
 from engine.motion.beginning import beginning, duration
 from engine.motion.files.source_motion import SourceMotion
-from engine.motion.retargeting.joint_map import REQUIRED_JOINTS, map_joints
+from engine.motion.retargeting.joint_map import REQUIRED_MOTION_JOINTS, map_joints
 from engine.motion.retargeting.retarget import clean_motion
 
 
@@ -59,6 +59,6 @@ def check_motion(motion: SourceMotion, overrides: Mapping[str, str | None] | Non
         parents=tuple(motion.names[parent] if parent >= 0 else None for parent in motion.parents),
         mapping=mapping,
         loops=loops,
-        missing=tuple(name for name in REQUIRED_JOINTS if name not in mapping),
+        missing=tuple(name for name in REQUIRED_MOTION_JOINTS if name not in mapping),
         refused=refused,
     )

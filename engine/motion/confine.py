@@ -22,7 +22,7 @@ from engine.motion.kinematics import local_rotations, place_joints, world_rotati
 
 Array = NDArray[np.float64]
 
-FREE_SHARE = 0.5
+FREE_MOTION_SHARE = 0.5
 """The share of the room in which places stay where they are."""
 
 TURNING_METRES = 0.5
@@ -86,9 +86,9 @@ def _saturated(way: Array, room: float) -> Array:
     """Where a way (F,), not below 0 where it counts, ends: itself at first, at most `room` in the end, smooth between."""
     if room <= 0:
         return room * -np.expm1(-np.maximum(way, 0) / TURNING_METRES)
-    rest = (1 - FREE_SHARE) * room
-    beyond = np.maximum(way - FREE_SHARE * room, 0)
-    return np.minimum(way, FREE_SHARE * room) + rest * -np.expm1(-beyond / rest)
+    rest = (1 - FREE_MOTION_SHARE) * room
+    beyond = np.maximum(way - FREE_MOTION_SHARE * room, 0)
+    return np.minimum(way, FREE_MOTION_SHARE * room) + rest * -np.expm1(-beyond / rest)
 
 
 def _fading(share: Array) -> Array:

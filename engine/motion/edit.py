@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.skeleton import Skeleton
 from engine.motion.clip import Clip, loop_step
 from engine.motion.feet.foot_contact import sole_places
@@ -65,7 +65,7 @@ def keep_pictured_parts(skeleton: Skeleton, clip: Clip, pictured: Clip, parts: S
         joints.add("Hips")
         root[:] = pictured.root[0]
     for index, name in enumerate(skeleton.names):
-        finger = any(name.startswith(f"{side}Hand") and f"{side}Hand" in joints for side in SIDES)
+        finger = any(name.startswith(f"{side}Hand") and f"{side}Hand" in joints for side in SIDE_NAMES)
         if name in joints or finger:
             rotations[:, index] = pictured.rotations[0, index]
     kept = replace(clip, rotations=rotations, root=root)

@@ -11,13 +11,13 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
-IDENTITY: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
-AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+IDENTITY_QUATERNION: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
+AXIS_VECTORS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
 def identity(*shape: int) -> Array:
     """(*shape, 4): no turn."""
-    return np.broadcast_to(np.array(IDENTITY), (*shape, 4)).copy()
+    return np.broadcast_to(np.array(IDENTITY_QUATERNION), (*shape, 4)).copy()
 
 
 def normalize(vectors: ArrayLike) -> Array:
@@ -70,7 +70,7 @@ def rotate(turns: ArrayLike, vectors: ArrayLike) -> Array:
 
 def about(axis: str | ArrayLike, radians: ArrayLike) -> Array:
     """Turns by `radians` (...) about an axis: "x", "y", "z" or vectors (..., 3)."""
-    direction = normalize(AXES[axis] if isinstance(axis, str) else axis)
+    direction = normalize(AXIS_VECTORS[axis] if isinstance(axis, str) else axis)
     half = np.asarray(radians, np.float64)[..., None] / 2
     return np.concatenate(np.broadcast_arrays(direction * np.sin(half), np.cos(half)), -1)[..., [0, 1, 2, -1]]
 
@@ -119,7 +119,7 @@ def from_matrix(matrices: ArrayLike) -> Array:
 def to_matrix(turns: ArrayLike) -> Array:
     """Rotation matrices (..., 3, 3)."""
     q = np.asarray(turns, np.float64)
-    return np.stack([rotate(q, axis) for axis in AXES.values()], -1)
+    return np.stack([rotate(q, axis) for axis in AXIS_VECTORS.values()], -1)
 
 
 def between(start: ArrayLike, end: ArrayLike) -> Array:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.perception.solutions import network
 
 BODY_LANDMARKS = (
@@ -35,7 +35,7 @@ MIXAMO_JOINTS: dict[str, tuple[tuple[str, float], ...]] = {
     "Head": (("LeftEar", 0.5), ("RightEar", 0.5)),
     **{
         f"{side}{joint}": ((f"{side}{landmark}", 1.0),)
-        for side in SIDES
+        for side in SIDE_NAMES
         for joint, landmark in (
             *(("Arm", "Shoulder"), ("ForeArm", "Elbow"), ("Hand", "Wrist"), ("HandIndex1", "Index")),
             *(("UpLeg", "Hip"), ("Leg", "Knee"), ("Foot", "Ankle"), ("ToeBase", "FootIndex")),

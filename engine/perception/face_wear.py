@@ -19,7 +19,7 @@ from engine.imaging.resample import resized
 from engine.media.tone_mapping import srgb_light
 from engine.perception.landmarks import LIPS_OUTER
 
-EYES_APART = 160
+COPY_EYE_CORNERS_PIXELS = 160
 """Pixels between the outer corners of the eyes in the copy."""
 MIN_BRIDGE_EYE_PIXELS = 80
 """Pixels between them in the picture from which a bridge can be seen ..."""
@@ -27,7 +27,7 @@ MIN_HAIR_EYE_PIXELS = 40
 """... and hair."""
 MAX_NOSE_OFFSET = 0.5
 """By how much of half their distance the tip of the nose may stand off their middle: of a face seen from the side nothing is told."""
-OUTER_CORNERS, INNER_CORNERS, NOSE_TIP = (33, 263), (133, 362), 4
+OUTER_CORNERS, INNER_CORNERS, NOSE_TIP_VERTEX = (33, 263), (133, 362), 4
 """Vertices of the face mesh; the person's right eye's first."""
 NOSE_ROOT = (8, 168, 6, 197, 195)
 """From between the brows down the nose: a bridge crosses this line."""
@@ -43,9 +43,9 @@ ABOVE_LIP = ((2, 98, 92, 0, 167, 165), (2, 327, 322, 0, 393, 391))
 """Corners of the skin between nose and lip, of the right and the left half."""
 CHEEK_VERTICES = ((50, 101, 205, 36, 142, 187), (280, 330, 425, 266, 371, 411))
 """Those of the cheeks."""
-LIP_MARGIN = 7
+LIP_MARGIN_PIXELS = 7
 """Pixels of the copy about the lips that are none of the skin."""
-MIN_SKIN = 15
+MIN_SKIN_PIXELS = 15
 """Pixels of a region that say what colour it is."""
 
 
@@ -66,7 +66,7 @@ def face_wear(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> FaceWear:
     apart = float(np.linalg.norm(left - right))
     if (
         apart < MIN_HAIR_EYE_PIXELS
-        or abs((places[NOSE_TIP] - (left + right) / 2) @ (left - right)) > MAX_NOSE_OFFSET * apart**2 / 2
+        or abs((places[NOSE_TIP_VERTEX] - (left + right) / 2) @ (left - right)) > MAX_NOSE_OFFSET * apart**2 / 2
     ):
         return FaceWear()
     copy, at = _copy(rgb, places)
@@ -74,9 +74,9 @@ def face_wear(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> FaceWear:
 
 
 def _copy(rgb: NDArray[np.uint8], places: NDArray[np.float64]) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
-    """The face, upright, with `EYES_APART` (2 by 2 of them), and the mesh's (478, 2) places there."""
+    """The face, upright, with `COPY_EYE_CORNERS_PIXELS` (2 by 2 of them), and the mesh's (478, 2) places there."""
     right, left = places[list(OUTER_CORNERS)]
-    scale = EYES_APART / float(np.linalg.norm(left - right))
+    scale = COPY_EYE_CORNERS_PIXELS / float(np.linalg.norm(left - right))
     if scale < 1:  # warping alone would skip pixels
         size = max(2, round(rgb.shape[1] * scale)), max(2, round(rgb.shape[0] * scale))
         places = (places + 0.5) * (np.array(size) / rgb.shape[1::-1]) - 0.5
@@ -86,10 +86,10 @@ def _copy(rgb: NDArray[np.uint8], places: NDArray[np.float64]) -> tuple[NDArray[
 
 def _warped(rgb: NDArray[np.uint8], places: NDArray[np.float64]) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
     right, left = places[list(OUTER_CORNERS)]
-    along = (left - right) / np.linalg.norm(left - right) ** 2 * EYES_APART
+    along = (left - right) / np.linalg.norm(left - right) ** 2 * COPY_EYE_CORNERS_PIXELS
     turn = np.array([[along[0], along[1]], [-along[1], along[0]]])
-    shift = np.array([EYES_APART, 0.75 * EYES_APART]) - turn @ ((left + right) / 2)
-    side = 2 * EYES_APART
+    shift = np.array([COPY_EYE_CORNERS_PIXELS, 0.75 * COPY_EYE_CORNERS_PIXELS]) - turn @ ((left + right) / 2)
+    side = 2 * COPY_EYE_CORNERS_PIXELS
     copy = cv2.warpAffine(
         np.ascontiguousarray(rgb), np.column_stack([turn, shift]), (side, side), flags=cv2.INTER_LINEAR
     )
@@ -122,12 +122,12 @@ def strongest_path(response: NDArray[np.floating]) -> float:
 
 def _lip_darkness(copy: NDArray[np.uint8], at: NDArray[np.float64]) -> float:
     light = np.log(srgb_light(copy.astype(np.float32) / 255) + 1e-3).mean(2)
-    lips = cv2.dilate(_filled(at[list(LIPS_OUTER)]), np.ones((LIP_MARGIN, LIP_MARGIN), np.uint8)) > 0
+    lips = cv2.dilate(_filled(at[list(LIPS_OUTER)]), np.ones((LIP_MARGIN_PIXELS, LIP_MARGIN_PIXELS), np.uint8)) > 0
     darker = []
     for above, cheek in zip(ABOVE_LIP, CHEEK_VERTICES, strict=True):
         skin, beside = (_filled(at[list(corners)]) > 0 for corners in (above, cheek))
         skin &= ~lips
-        if min(int(skin.sum()), int(beside.sum())) < MIN_SKIN:
+        if min(int(skin.sum()), int(beside.sum())) < MIN_SKIN_PIXELS:
             return nan
         darker.append(float(np.median(light[beside]) - np.median(light[skin])))
     return min(darker)
@@ -135,6 +135,6 @@ def _lip_darkness(copy: NDArray[np.uint8], at: NDArray[np.float64]) -> float:
 
 def _filled(corners: NDArray[np.float64]) -> NDArray[np.uint8]:
     """1 within the convex hull of points (N, 2) of the copy."""
-    out = np.zeros((2 * EYES_APART, 2 * EYES_APART), np.uint8)
+    out = np.zeros((2 * COPY_EYE_CORNERS_PIXELS, 2 * COPY_EYE_CORNERS_PIXELS), np.uint8)
     hull = cv2.convexHull(corners.astype(np.float32)).round().astype(np.int32)
     return np.asarray(cv2.fillConvexPoly(out, hull, 1), np.uint8)

@@ -26,7 +26,7 @@ MIN_SECOND_FACE_WIDTH = 1 / 3
 quarter of the picture or more, nobody is looked for part by part."""
 MAX_PARTS = 30
 """Parts of one size that are looked at, at most: who is smaller in a large picture is found in a crop of it."""
-MIN_PART_PIXELS = 450
+MIN_SEARCHED_PART_PIXELS = 450
 """Pixels of the least part that is looked at: faces that go unseen in it have eyes less than 16 pixels apart, and are too
 small to be animated."""
 CROP_HALF_SIDES = (1.25, 0.7)
@@ -100,7 +100,7 @@ def find_faces(
             boxes = [box + corner for part in parts for box in _detected(detector, seen, part)]
             meshes = _looked_at(rgb, boxes, meshes, most, CROP_HALF_SIDES, confidence)
             least = max((MIN_SECOND_FACE_WIDTH * float(np.ptp(mesh[:, 0])) for mesh in meshes), default=0.0)
-            if side * MIN_DETECTED_SHARE <= least or side < 2 * MIN_PART_PIXELS:
+            if side * MIN_DETECTED_SHARE <= least or side < 2 * MIN_SEARCHED_PART_PIXELS:
                 break
             side = -(-side // 2)
     middles = [(mesh, mesh[:, :2].mean(axis=0)) for mesh in meshes]

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from engine.imaging.masks.mask_pieces import largest_piece
 from engine.imaging.resample import resized, size_within
 
-WORKING_SIZE = 400
+STROKES_SIZE_PIXELS = 400
 """Longest side, in pixels, at which strokes are looked for."""
 MIN_STROKE_GREY_LEVELS = 18.0
 """Grey levels by which a stroke is darker, or of another colour, than the paper around it."""
@@ -38,7 +38,7 @@ def figure_on_plain_ground(
     """
     if (belief > 0.9).sum() > MIN_CERTAIN_SHARE * (belief > 0.3).sum():
         return None
-    size = size_within(rgb.shape, WORKING_SIZE)
+    size = size_within(rgb.shape, STROKES_SIZE_PIXELS)
     figure = _on_paper(resized(np.ascontiguousarray(rgb), size).astype(np.float32))
     if figure is None:
         return None
@@ -52,7 +52,7 @@ def figure_on_plain_ground(
 def figure_on_paper(rgb: NDArray[np.uint8]) -> NDArray[np.bool_] | None:
     """The largest thing (H, W) that lines enclose on plain paper, whoever or whatever it is; None without paper or lines, or where it is
     no drawing of lines: not of the paper's colour inside."""
-    small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE)).astype(np.float32)
+    small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, STROKES_SIZE_PIXELS)).astype(np.float32)
     figure = _on_paper(small)
     if figure is None or _strokes(small)[figure].mean() > MAX_FILLED_SHARE:
         return None

@@ -11,17 +11,17 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import FINGERS, SIDES, Side
+from engine.geometry.joint_names import FINGER_NAMES, SIDE_NAMES, Side
 from engine.perception.body import Body
 from engine.perception.solutions import network
 
 HAND_JOINTS = (
     "",
-    *(f"{finger}{k}" for finger in FINGERS for k in (1, 2, 3, 4)),
+    *(f"{finger}{k}" for finger in FINGER_NAMES for k in (1, 2, 3, 4)),
 )
 """The 21 points as ends of Mixamo names: point k of a left hand is the joint "LeftHand" + JOINTS[k]."""
 
-CROP_SIZE = 256
+CROP_SIZE_PIXELS = 256
 """Pixels a side of the crop in which the hand at a body's wrist is looked for."""
 
 
@@ -79,7 +79,7 @@ def find_hands(rgb: NDArray[np.uint8], body: Body | None = None, confidence: flo
     if body is None:
         with _hands(video=False, hands=4, confidence=confidence) as seer:
             return _read(seer.process(np.ascontiguousarray(rgb)), rgb.shape[:2])
-    sides: tuple[Side, ...] = SIDES
+    sides: tuple[Side, ...] = SIDE_NAMES
     found = (_hand_at_wrist(rgb, body, side, confidence) for side in sides)
     return sorted((hand for hand in found if hand is not None), key=lambda hand: -hand.confidence)
 
@@ -92,13 +92,15 @@ def _hand_at_wrist(rgb: NDArray[np.uint8], body: Body, side: Side, confidence: f
     # a foreshortened forearm or palm must not shrink the crop: shoulders are about two hands wide
     reach = max(2.2 * palm, 0.75 * float(np.linalg.norm(elbow - wrist)), 0.5 * shoulders, 8.0)
     centre = wrist + 0.8 * (knuckles - wrist)
-    scale = CROP_SIZE / (2 * reach)
-    into_crop = np.array([[scale, 0, CROP_SIZE / 2 - scale * centre[0]], [0, scale, CROP_SIZE / 2 - scale * centre[1]]])
+    scale = CROP_SIZE_PIXELS / (2 * reach)
+    into_crop = np.array(
+        [[scale, 0, CROP_SIZE_PIXELS / 2 - scale * centre[0]], [0, scale, CROP_SIZE_PIXELS / 2 - scale * centre[1]]]
+    )
     crop = cv2.warpAffine(
-        rgb, into_crop, (CROP_SIZE, CROP_SIZE), flags=cv2.INTER_AREA if scale < 1 else cv2.INTER_CUBIC
+        rgb, into_crop, (CROP_SIZE_PIXELS, CROP_SIZE_PIXELS), flags=cv2.INTER_AREA if scale < 1 else cv2.INTER_CUBIC
     )
     with _hands(video=False, hands=2, confidence=confidence) as seer:
-        hands = _read(seer.process(np.ascontiguousarray(crop, np.uint8)), (CROP_SIZE, CROP_SIZE))
+        hands = _read(seer.process(np.ascontiguousarray(crop, np.uint8)), (CROP_SIZE_PIXELS, CROP_SIZE_PIXELS))
     hands = [
         replace(
             hand,

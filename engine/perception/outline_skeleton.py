@@ -20,13 +20,13 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.imaging.masks.mask_pieces import largest_piece
 from engine.perception.body import BODY_LANDMARKS
 
-WORKING_HEIGHT = 300
+OUTLINE_WORKING_PIXELS = 300
 """Pixels of the outline's longer side on which the axis is found."""
-SMOOTHING = 0.008
+OUTLINE_SIGMA_SHARE = 0.008
 """Standard deviation, as a share of that side, by which the outline is smoothed first: wobbly lines have no limbs."""
 MAX_ENDS = 11
 """Ends of the axis that are tried as head, hands and feet: those that stick out furthest."""
@@ -109,10 +109,10 @@ class _Five:
 def outline_skeleton(mask: NDArray[np.bool_]) -> NDArray[np.float32] | None:
     """The landmarks `BODY_LANDMARKS` (33, 2), pixels, of whoever has the outline `mask` (H, W); None where it is nobody's who stands
     upright with head, hands and feet apart."""
-    scale = WORKING_HEIGHT / max(mask.shape)
+    scale = OUTLINE_WORKING_PIXELS / max(mask.shape)
     size = (max(1, round(mask.shape[1] * scale)), max(1, round(mask.shape[0] * scale)))
     small = cv2.resize(mask.astype(np.float32), size, interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR)
-    smooth = cv2.GaussianBlur(small, (0, 0), SMOOTHING * WORKING_HEIGHT) > 0.5
+    smooth = cv2.GaussianBlur(small, (0, 0), OUTLINE_SIGMA_SHARE * OUTLINE_WORKING_PIXELS) > 0.5
     if not smooth.any():
         return None
     axis = medial_axis(largest_piece(smooth))
@@ -250,7 +250,7 @@ def _landmarks(axis: MedialAxis, ends: _Ends, five: _Five) -> dict[str, NDArray[
     left = np.array([-up[1], up[0]])
     marks = {"Nose": head}
     for side, towards, hand, foot, leaves in zip(
-        SIDES, (left, -left), five.hands, five.feet, five.arms_leave, strict=True
+        SIDE_NAMES, (left, -left), five.hands, five.feet, five.arms_leave, strict=True
     ):
         arm = _from(axis, ends.ways[five.head, hand], leaves)
         leg = _from(axis, ends.ways[five.head, foot], five.crotch)

@@ -7,16 +7,16 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.perception.body import BODY_LANDMARKS, FAINT_CONFIDENCE, Body, find_body
 from engine.perception.faces import find_faces
 
-MAX_PEOPLE = 12
+MAX_DETECTED_PEOPLE = 12
 """People that are looked for, at most."""
 LIMB_LINES = tuple(
     (f"{side}{a}", f"{side}{b}")
-    for side in SIDES
+    for side in SIDE_NAMES
     for a, b in (
         *(("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Wrist", "Index"), ("Shoulder", "Hip")),
         *(("Hip", "Knee"), ("Knee", "Ankle"), ("Ankle", "FootIndex")),
@@ -33,7 +33,7 @@ MIN_DISTANCE_SHARE = 0.15
 """How far from one another two bodies' points are at least, in the median, as a share of their size."""
 WIDE_PICTURE_ASPECT = 1.4
 """Width over height from which a picture is wide."""
-MIN_SQUARE = 64
+MIN_SQUARE_PIXELS = 64
 """Pixels of a side: in less, no character can be made of anybody, and a strip would be looked at in a thousand squares."""
 MAX_COVERED_SHARE = 0.5
 """Share of a further body's points that may lie on one found before."""
@@ -42,7 +42,7 @@ CLOSER_MARGIN_SHARE = 0.35
 rocket is not."""
 
 
-def find_people(rgb: NDArray[np.uint8], most: int = MAX_PEOPLE) -> list[Body]:
+def find_people(rgb: NDArray[np.uint8], most: int = MAX_DETECTED_PEOPLE) -> list[Body]:
     """The bodies in a picture (H, W, 3) uint8, the largest first."""
     found: list[Body] = []
     remaining = np.ascontiguousarray(rgb).copy()
@@ -149,7 +149,7 @@ def _squares(shape: tuple[int, ...]) -> list[tuple[float, float, float, float]]:
     """Squares that cover a wide picture, one overlapping the next by half: the network makes every picture a small square,
     in which the people of a wide one are tiny."""
     height, width = shape[:2]
-    if width < WIDE_PICTURE_ASPECT * height or height < MIN_SQUARE:
+    if width < WIDE_PICTURE_ASPECT * height or height < MIN_SQUARE_PIXELS:
         return []
     count = int(np.ceil(2 * (width - height) / height)) + 1
     return [(left, 0, height, height) for left in np.linspace(0, width - height, count)]

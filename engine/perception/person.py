@@ -20,7 +20,7 @@ from engine.imaging.resample import resized, size_within
 from engine.media.image import is_cut_out
 from engine.perception.figure import figure_on_plain_ground
 from engine.perception.matting import MattingModel
-from engine.perception.segmentation import WORKING_SIZE, Mask, people_confidence
+from engine.perception.segmentation import MATTE_SIZE_PIXELS, Mask, people_confidence
 
 CUT_SIZE = 480
 """Longest side at which colours have their say."""
@@ -37,7 +37,7 @@ LIKELY_BELIEF = 0.99
 EDGE_NEIGHBOURHOOD = np.ones((9, 9), np.uint8)
 """The neighbourhood within which the mask that was found may end beside a cut-out's own edge."""
 
-LEFT_OUT = 0.1
+MAX_LEFT_OUT_SHARE = 0.1
 """Share of what is known to be the person's that a matting model may leave out: fingers are thin, outlines differ."""
 
 
@@ -79,10 +79,10 @@ def person_mask(
         if others is not None:
             found = np.where(others, 0, found).astype(np.float32)
         surely = None if seed is None else seed > CERTAIN_BELIEF
-        if surely is None or (surely & (found < 0.5)).sum() <= LEFT_OUT * surely.sum():
+        if surely is None or (surely & (found < 0.5)).sum() <= MAX_LEFT_OUT_SHARE * surely.sum():
             return found
         return np.maximum(found, person_mask(rgb, seed, None, None, others, whole))
-    small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE))
+    small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, MATTE_SIZE_PIXELS))
     belief = resized(people_confidence(rgb, whole) if people is None else people, (small.shape[1], small.shape[0]))
     sure = np.zeros(rgb.shape[:2], np.float32) if seed is None else seed.astype(np.float32)
     sure = resized(sure, (small.shape[1], small.shape[0])).copy()

@@ -25,9 +25,9 @@ Mask = NDArray[np.float32]
 MODEL_FILE = "u2netp.onnx"
 MODEL_SHA256 = "309c8469258dda742793dce0ebea8e6dd393174f89934733ecc8b14c76f4ddd8"
 
-NETWORK_SIDE = 320
+NETWORK_SIDE_PIXELS = 320
 """Pixels of the square that the network looks at."""
-MEAN, DEVIATION = (0.485, 0.456, 0.406), (0.229, 0.224, 0.225)
+COLOUR_MEANS, COLOUR_DEVIATIONS = (0.485, 0.456, 0.406), (0.229, 0.224, 0.225)
 """Of the colours in [0, 1] that it was trained on."""
 SURROUNDINGS_SHARE = 0.2
 """How much of the picture around people it looks at, as a share of their box's longer side."""
@@ -43,7 +43,7 @@ HELD_BELIEF, HAND_REACH = 0.9, 0.075
 LARGEST_HELD, HELD_THING_LIMITS = 0.3, 0.7
 """Size of what is held, as a share of people's, at most, and how surely all of it stands out, in the mean. What goes on beyond what is looked
 at is held by nobody."""
-THREADS = 2
+NETWORK_THREADS = 2
 """Of the network."""
 
 
@@ -88,9 +88,11 @@ def with_salience(rgb: NDArray[np.uint8], people: Mask, limbs: NDArray[np.bool_]
 
 
 def salience(rgb: NDArray[np.uint8]) -> Mask:
-    """What stands out (`NETWORK_SIDE`, `NETWORK_SIDE`) of a picture (H, W, 3) that is made a square of that size; in [0, 1]."""
-    square = resized(np.ascontiguousarray(rgb), (NETWORK_SIDE, NETWORK_SIDE)).astype(np.float32) / np.float32(255)
-    normal = (square - np.array(MEAN, np.float32)) / np.array(DEVIATION, np.float32)
+    """What stands out (`NETWORK_SIDE_PIXELS`, `NETWORK_SIDE_PIXELS`) of a picture (H, W, 3) that is made a square of that size; in [0, 1]."""
+    square = resized(np.ascontiguousarray(rgb), (NETWORK_SIDE_PIXELS, NETWORK_SIDE_PIXELS)).astype(
+        np.float32
+    ) / np.float32(255)
+    normal = (square - np.array(COLOUR_MEANS, np.float32)) / np.array(COLOUR_DEVIATIONS, np.float32)
     session = loaded_network()
     tensor = np.ascontiguousarray(normal.transpose(2, 0, 1)[None], np.float32)
     return np.asarray(session.run(None, {session.get_inputs()[0].name: tensor})[0][0, 0], np.float32)
@@ -110,5 +112,5 @@ def loaded_network() -> Any:
         )
     options = onnxruntime.SessionOptions()
     options.log_severity_level = 3
-    options.intra_op_num_threads = THREADS
+    options.intra_op_num_threads = NETWORK_THREADS
     return onnxruntime.InferenceSession(content, options, providers=["CPUExecutionProvider"])

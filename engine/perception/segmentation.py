@@ -17,7 +17,7 @@ from engine.perception.solutions import network
 
 Mask = NDArray[np.float32]
 
-WORKING_SIZE = 800
+MATTE_SIZE_PIXELS = 800
 """Longest side, in pixels, at which people are looked for and their matte is solved; larger pictures get it by guided
 upsampling."""
 
@@ -30,7 +30,7 @@ SELFIE_SHARE_OF_WHOLE = 1 / 2
 def people_confidence(rgb: NDArray[np.uint8], whole: bool = False) -> Mask:
     """What the networks believe to be people in a picture (H, W, 3), in [0, 1] at the size at which a matte is solved;
     `whole` as in `person_mask`."""
-    small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE))
+    small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, MATTE_SIZE_PIXELS))
     posed = _pose_mask(small)
     if posed is None and whole:  # who hardly stands out was found by such a look, at this size
         posed = _pose_mask(rgb, FAINT_CONFIDENCE)

@@ -17,14 +17,14 @@ from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.image import write_image
 from engine.media.video import read_video
-from engine.performances.catalogue import FPS, POSTER_SIDE, VIDEOS, names, performance, scored, video
+from engine.performances.catalogue import FPS, POSTER_SIDE_PIXELS, VIDEOS, names, performance, scored, video
 from engine.performances.modelling.actor import build_actor
 from engine.performances.rendering.filming import film
 from engine.performances.rendering.lighting import lamps
 from engine.performances.rendering.studio import HAIR_LAMPS, PICTURE_SIZE
 from engine.performances.scores.score import SCORES
 
-CRF = 16
+VIDEO_CRF = 16
 """H.264 quality: without visible loss, all together below 8 MB."""
 
 
@@ -44,7 +44,9 @@ def render(chosen: tuple[str, ...], folder: Path, proof: bool) -> None:
     for name in chosen or [one.name for one in scored()]:
         poses = [SCORES[name](index / FPS) for index in range(round(performance(name).seconds * FPS))]
         frames = film(actor, poses, 1, 0.35) if proof else film(actor, poses)
-        with VideoWriter(VideoTarget(folder / f"{name}.mp4", (PICTURE_SIZE, PICTURE_SIZE), FPS, crf=CRF)) as writer:
+        with VideoWriter(
+            VideoTarget(folder / f"{name}.mp4", (PICTURE_SIZE, PICTURE_SIZE), FPS, crf=VIDEO_CRF)
+        ) as writer:
             for index, frame in enumerate(frames):
                 writer.write(frame)
                 click.echo(f"\r{name}: {index + 1} of {len(poses)}", nl=index + 1 == len(poses))
@@ -63,7 +65,7 @@ def posters(chosen: tuple[str, ...], folder: Path) -> None:
 def _photograph(name: str, folder: Path) -> None:
     index = performance(name).poster_frame
     frame = next(islice(read_video(video(name, folder)), index, None)).rgb
-    small = cv2.resize(frame, (POSTER_SIDE, POSTER_SIDE), interpolation=cv2.INTER_AREA)
+    small = cv2.resize(frame, (POSTER_SIDE_PIXELS, POSTER_SIDE_PIXELS), interpolation=cv2.INTER_AREA)
     write_image(folder / f"{name}.jpg", np.asarray(small, np.uint8), quality=88)
 
 

@@ -9,7 +9,7 @@ from typing import Literal, get_args
 from engine.package_data import package_folder
 
 FPS = 30
-POSTER_SIDE = 256
+POSTER_SIDE_PIXELS = 256
 """Pixels of a poster."""
 
 VIDEOS = package_folder("engine.performances", "videos")

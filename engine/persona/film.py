@@ -14,7 +14,7 @@ from engine.persona.motion.performance import Performance
 from engine.persona.persona import Persona
 from engine.persona.puppet import Puppet
 
-HEADROOM = 1.25
+FILM_EXTENT_RATIO = 1.25
 """Of the space that the face takes in all frames, that the picture has."""
 MAX_DRIVER_WIDTH_RATIO = 2.0
 """Times the puppet's width that a driver beside it may take."""
@@ -66,7 +66,7 @@ def _framing(performance: Performance, size: tuple[int, int]) -> tuple[float, ND
     places = np.einsum("fij,fvj->fvi", performance.linear, performance.faces) + performance.shift[:, None]
     low, high = places[..., :2].min(axis=(0, 1)), places[..., :2].max(axis=(0, 1))
     extent = np.array(size, np.float64)
-    scale = float((extent / (HEADROOM * (high - low))).min())
+    scale = float((extent / (FILM_EXTENT_RATIO * (high - low))).min())
     shift = np.zeros(3)
     shift[:2] = (extent - 1) / 2 - scale * (low + high) / 2
     return scale, shift

@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.persona.collection.face_photo import FacePhoto
-from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
+from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 from engine.persona.texture.expression_weights import expression_points, expression_weights
 from engine.persona.texture.synthesis import TextureSynthesis, texture_synthesis
 from engine.persona.texture.texture_frame import TextureFrame, texture_frame
 
-VERSION = 1
+PERSONA_FORMAT_VERSION = 1
 MAX_PHOTOS = 2000
 MAX_SIDE = 1024
-MAX_BYTES = 3_000_000_000
+MAX_ARRAYS_BYTES = 3_000_000_000
 """Of a file's arrays together."""
 MAX_EYE_DISTANCES = 5.0
 """Nothing of a face is farther from its middle."""
@@ -76,7 +76,7 @@ class Persona:
 
     def weights_of_points(self, points: NDArray[np.floating], smoothing: float = 0.0) -> NDArray[np.float32]:
         """(F, N) the same for faces of which the points of `expression_points` are known, (F, 51, 2)."""
-        scale = self.frame.scale * REFERENCE_WIDTH / self.frame.size[1]
+        scale = self.frame.scale * REFERENCE_WIDTH_PIXELS / self.frame.size[1]
         return expression_weights(points * scale, self.points * scale, smoothing)
 
 
@@ -89,7 +89,7 @@ def write_persona(path: Path, persona: Persona) -> None:
         if photo is not None:
             arrays |= {f"{name}_rgb": photo.rgb, f"{name}_mesh": photo.mesh, f"{name}_number": np.int64(photo.number)}
     with path.open("wb") as file:
-        np.savez_compressed(file, version=np.int64(VERSION), **arrays)
+        np.savez_compressed(file, version=np.int64(PERSONA_FORMAT_VERSION), **arrays)
 
 
 _SHAPES = {
@@ -113,10 +113,10 @@ def read_persona(path: Path) -> Persona:
     """
     try:
         with zipfile.ZipFile(path) as archive:
-            if sum(member.file_size for member in archive.infolist()) > MAX_BYTES:
+            if sum(member.file_size for member in archive.infolist()) > MAX_ARRAYS_BYTES:
                 raise InputError("persona_too_large", "The persona's file is larger than any that is made here.")
         with np.load(path, allow_pickle=False) as arrays:
-            if int(arrays["version"]) != VERSION:
+            if int(arrays["version"]) != PERSONA_FORMAT_VERSION:
                 raise InputError(
                     "persona_unreadable", "The persona was made by another release: make it again of its photos."
                 )

@@ -24,9 +24,9 @@ from engine.render.mipmap import build_mipmap
 from engine.render.scratch import Scratch
 from engine.render.surface import Surface, draw_surface, triangle_spread
 
-SUBDIVISIONS = 2
+FRAME_SUBDIVISIONS = 2
 """Of the subdivision: triangles of a frame 194 wide are three pixels wide then."""
-CAMERA_DISTANCE_PIXELS = 4096.0
+PUPPET_CAMERA_DISTANCE_PIXELS = 4096.0
 """Pixels from the eye to the face: so far off that nearer parts are no larger."""
 FACE_VERTICES = 468
 """Of the mesh's: those after them are the irises'."""
@@ -53,7 +53,7 @@ class Puppet:
         """
         linear, shift = placing
         points = self.vertices(face) @ np.asarray(linear, np.float64).T + shift
-        points[:, 2] += CAMERA_DISTANCE_PIXELS - points[:, 2].mean()
+        points[:, 2] += PUPPET_CAMERA_DISTANCE_PIXELS - points[:, 2].mean()
         drawn = picture.copy()
         enlarged = np.cbrt(abs(np.linalg.det(linear))) / self.persona.frame.scale
         finest = min(texture.shape[:2])
@@ -92,7 +92,7 @@ class Puppet:
     @cached_property
     def _subdivision(self) -> tuple[sp.csr_array, NDArray[np.int32]]:
         coarse = face_triangles() if self.openings else np.concatenate([face_triangles(), opening_triangles()])
-        matrix, triangles = midpoint_subdivision(coarse, FACE_VERTICES, SUBDIVISIONS)
+        matrix, triangles = midpoint_subdivision(coarse, FACE_VERTICES, FRAME_SUBDIVISIONS)
         return matrix, np.ascontiguousarray(triangles[:, ::-1])  # counter-clockwise, which is what is not culled
 
     @cached_property

@@ -8,20 +8,20 @@ from engine.media.image import write_image
 from engine.media.video import read_video
 from engine.performances import video
 
-PERFORMANCES = (
+SAMPLE_PERFORMANCES = (
     *("happy", "surprise", "anger", "sadness", "fear"),
     *("happy-strong", "surprise-strong", "anger-strong", "sadness-strong"),
 )
-INSTANTS = (0.25, 0.45, 0.65)
+SAMPLE_INSTANT_SHARES = (0.25, 0.45, 0.65)
 """Of each of them: at their beginnings and ends he is at rest, which is one photograph many times."""
 
 
 def write_sample_photos(folder: Path) -> tuple[Path, ...]:
     """Three photographs of each performance, and one at rest, as JPEG files in the existing `folder`."""
     made: list[Path] = []
-    for name in PERFORMANCES:
+    for name in SAMPLE_PERFORMANCES:
         frames = [frame.rgb.copy() for frame in read_video(video(name))]
-        for instant in (*((0.0,) if name == PERFORMANCES[0] else ()), *INSTANTS):
+        for instant in (*((0.0,) if name == SAMPLE_PERFORMANCES[0] else ()), *SAMPLE_INSTANT_SHARES):
             made.append(folder / f"{len(made):02}-{name}.jpg")
             write_image(made[-1], frames[round(instant * (len(frames) - 1))])
     return tuple(made)

@@ -32,13 +32,13 @@ MIN_DRIVER_PHOTOS = 8
 """That can be used, for what a driver's face is like at rest: the quarter that shows least is of two then."""
 EYE_SHARE = 67 / 194
 """Of a texture's width, between the eyes."""
-ENLARGEMENT = 1.6
+MAX_ENLARGEMENT_RATIO = 1.6
 """Of the median photograph's face, by which textures may be larger: many photographs together are finer than one."""
-MIN_WIDTH, MAX_WIDTH = 194, 400
+MIN_TEXTURE_WIDTH_PIXELS, MAX_TEXTURE_WIDTH_PIXELS = 194, 400
 """Pixels of a texture: the paper's, and one that a portrait of 800 pixels has use for."""
-ASPECT = 244 / 194
+FRAME_ASPECT_RATIO = 244 / 194
 
-WORDS: dict[Reason, str] = {
+REFUSAL_PHRASES: dict[Reason, str] = {
     "somebody_else": "show somebody else",
     "uncertain": "may show somebody else",
     "turned": "are turned too far aside, up or down",
@@ -154,7 +154,7 @@ def learn(
     them; textures `width` pixels wide."""
     kept = [(number, face) for number, face in enumerate(chosen.faces) if chosen.reasons[number] is None]
     meshes = np.array([face.mesh for _, face in kept])
-    size = round(width * ASPECT), width
+    size = round(width * FRAME_ASPECT_RATIO), width
     sure = [place for place, (number, _) in enumerate(kept) if number in insisted]
     return learn_persona(meshes, lambda place: photos.picture(kept[place][1].photo), size, tick, sure)
 
@@ -189,11 +189,11 @@ def rest_of_photos(paths: Sequence[Path], limits: Limits, tick: Callable[[float]
 def texture_width(kept: Sequence[PhotoFace]) -> int:
     """Pixels, as the photographs have them."""
     usual = float(np.median([face.eye_distance for face in kept])) / EYE_SHARE
-    return int(np.clip(round(usual * ENLARGEMENT), MIN_WIDTH, MAX_WIDTH))
+    return int(np.clip(round(usual * MAX_ENLARGEMENT_RATIO), MIN_TEXTURE_WIDTH_PIXELS, MAX_TEXTURE_WIDTH_PIXELS))
 
 
 def _spoken(left_out: Mapping[Reason, int]) -> str:
-    told = ", ".join(f"{count} {WORDS[reason]}" for reason, count in left_out.items())
+    told = ", ".join(f"{count} {REFUSAL_PHRASES[reason]}" for reason, count in left_out.items())
     return f" Of the others {told}." if told else ""
 
 

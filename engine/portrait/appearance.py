@@ -32,7 +32,7 @@ BARE_SKIN = (
 )
 """Vertices on bare skin, on both sides alike: light and palette are read around them."""
 
-PATCH_RADIUS = 0.06
+SAMPLE_RADIUS_EYE_DISTANCES = 0.06
 """Eye distances around each of them within which is averaged."""
 
 SAMPLED_FPS = 6.0
@@ -108,7 +108,7 @@ def _shading(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> tuple[NDArra
     linear = (rgb.astype(np.float32) / 255) ** 2.2
     places, colours = [], []
     for x, y in mesh[list(BARE_SKIN), :2]:
-        reach = max(PATCH_RADIUS * unit, 1.0)
+        reach = max(SAMPLE_RADIUS_EYE_DISTANCES * unit, 1.0)
         rows = slice(max(int(y - reach), 0), max(int(y + reach) + 1, 1))
         columns = slice(max(int(x - reach), 0), max(int(x + reach) + 1, 1))
         patch = linear[rows, columns]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.export.animated_gif import MAX_GIF_SIDE
+from engine.export.animated_gif import MAX_GIF_SIDE_PIXELS
 from engine.face_animation.eyes.lower_lids import fit_lower_lids
 from engine.face_animation.target_face import TargetFace
 from engine.imaging.resample import even_size
@@ -25,9 +25,9 @@ from engine.perception.segmentation import people_confidence
 from engine.portrait.options import PortraitOptions
 from engine.run import ConcurrentStage, Run
 
-MAX_PICTURE_SIDE = 1920
+MAX_PICTURE_SIDE_PIXELS = 1920
 """Pixels of the result by default (the project's conventions)."""
-MAX_REACTIVE_SIDE = 640
+MAX_REACTIVE_SIDE_PIXELS = 640
 """Pixels of a reactive profile by default: pages show one smaller than that, and all of its clips are loaded."""
 MIN_EYE_DISTANCE_PIXELS = 16.0
 """Pixels; a smaller face has nothing to animate."""
@@ -225,7 +225,11 @@ def _placement(
         scale = min(options.size[0] / box[2], options.size[1] / box[3])
     else:
         longest = (
-            MAX_REACTIVE_SIDE if options.reactive else MAX_GIF_SIDE if options.format == "gif" else MAX_PICTURE_SIDE
+            MAX_REACTIVE_SIDE_PIXELS
+            if options.reactive
+            else MAX_GIF_SIDE_PIXELS
+            if options.format == "gif"
+            else MAX_PICTURE_SIDE_PIXELS
         )
         scale = min(1.0, longest / max(box[2], box[3]))
     out = even_size(box[2] * scale, box[3] * scale)

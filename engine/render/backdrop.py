@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.camera import TO_VISION, Camera
+from engine.geometry.camera import RENDER_TO_VISION_AXES, Camera
 
 
 @dataclass(frozen=True)
@@ -88,4 +88,4 @@ def _homography(
 ) -> NDArray[np.float64]:
     """(3, 3): from coordinates on a plane to homogeneous pixels."""
     seen = np.array(camera.axes) @ np.stack([along, across, origin - camera.eye], 1)
-    return np.asarray(camera.intrinsics @ TO_VISION @ seen)
+    return np.asarray(camera.intrinsics @ RENDER_TO_VISION_AXES @ seen)

@@ -12,7 +12,7 @@ from engine.compiled import njit
 from engine.geometry.camera import Camera
 from engine.render.rasteriser import draw_into
 
-CELL_METRES = 0.02
+SHADOW_CELL_METRES = 0.02
 """Metres of ground to a cell of the shadow's map."""
 
 SHADOW_HEIGHT_METRES = 0.06
@@ -53,7 +53,7 @@ def cast_on_ground(
     (H, W, 3) is the same picture without any shadow: where several fall, the darkest stays. See `shadow_map` for
     `closed`."""
     points, corner, (rows, columns) = _laid(posed, shadow)
-    ends = corner + np.array([[0, 0], [columns, 0], [0, rows], [columns, rows]]) * CELL_METRES
+    ends = corner + np.array([[0, 0], [columns, 0], [0, rows], [columns, rows]]) * SHADOW_CELL_METRES
     seen = camera.project(np.stack([ends[:, 0], np.zeros(4), ends[:, 1]], 1))
     left, top, right, bottom = 0, 0, camera.size[1], camera.size[0]
     if (seen[:, 2] > 0).all():
@@ -98,13 +98,13 @@ def _laid(
         raise ValueError("the light of a ground shadow must come from above")
     height = np.maximum(posed[:, 1], 0)
     x, z = posed[:, 0] - height * (lx / ly), posed[:, 2] - height * (lz / ly)
-    margin = 3 * PENUMBRA_SCALE * shadow.softness + CELL_METRES
+    margin = 3 * PENUMBRA_SCALE * shadow.softness + SHADOW_CELL_METRES
     corner = np.array([x.min(), z.min()], np.float64) - margin
     far = np.array([x.max(), z.max()], np.float64) + margin
-    columns, rows = (int(np.clip(np.ceil(side / CELL_METRES), 1, MAX_CELLS)) for side in far - corner)
-    points = np.stack([(z - corner[1]) / CELL_METRES - 0.5, (x - corner[0]) / CELL_METRES - 0.5, height], 1).astype(
-        np.float32
-    )
+    columns, rows = (int(np.clip(np.ceil(side / SHADOW_CELL_METRES), 1, MAX_CELLS)) for side in far - corner)
+    points = np.stack(
+        [(z - corner[1]) / SHADOW_CELL_METRES - 0.5, (x - corner[0]) / SHADOW_CELL_METRES - 0.5, height], 1
+    ).astype(np.float32)
     return points, corner, (rows, columns)
 
 
@@ -120,7 +120,7 @@ def _density(
     across = np.full(size[::-1], np.inf, np.float32)
     draw_into(points, triangles, False, closed, np.empty(across.shape, np.int32), across)
     above = np.ascontiguousarray(across.T)
-    blur = shadow.softness / CELL_METRES
+    blur = shadow.softness / SHADOW_CELL_METRES
     hit = np.isfinite(above)
     above[~hit] = 0
     core = cv2.GaussianBlur(hit * np.exp(-above / np.float32(SHADOW_HEIGHT_METRES)), (0, 0), max(blur, 1e-3))
@@ -146,8 +146,8 @@ def _darken(
             if not slope * eye[1] < 0:  # the ray does not meet the ground
                 continue
             far = -eye[1] / slope
-            x = (eye[0] + far * (start[0] + j * across[0] + i * down[0]) - corner[0]) / CELL_METRES - 0.5
-            z = (eye[2] + far * (start[2] + j * across[2] + i * down[2]) - corner[1]) / CELL_METRES - 0.5
+            x = (eye[0] + far * (start[0] + j * across[0] + i * down[0]) - corner[0]) / SHADOW_CELL_METRES - 0.5
+            z = (eye[2] + far * (start[2] + j * across[2] + i * down[2]) - corner[1]) / SHADOW_CELL_METRES - 0.5
             if not (x >= 0 and z >= 0 and x < columns - 1 and z < rows - 1):
                 continue
             c, r = int(x), int(z)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.render.rasteriser import SUBPIXEL_BITS, SUBPIXEL_STEPS, edge_bias, snap_to_subpixels
+from engine.render.rasteriser import RASTER_SUBPIXEL_BITS, SUBPIXEL_STEPS, edge_bias, snap_to_subpixels
 
 BLOCK_SHIFT = 3
 """Binary logarithm of the side, in pixels, of the blocks by which triangles find the chosen pixels that they touch."""
@@ -81,10 +81,10 @@ def draw_samples(
         ax, ay = int(places[a, 0]), int(places[a, 1])
         bx, by = int(places[b, 0]), int(places[b, 1])
         cx, cy = int(places[c, 0]), int(places[c, 1])
-        left = max((min(ax, bx, cx) - reach + SUBPIXEL_STEPS - 1) >> SUBPIXEL_BITS, 0)
-        right = min((max(ax, bx, cx) + reach) >> SUBPIXEL_BITS, width - 1)
-        top = max((min(ay, by, cy) - reach + SUBPIXEL_STEPS - 1) >> SUBPIXEL_BITS, 0)
-        bottom = min((max(ay, by, cy) + reach) >> SUBPIXEL_BITS, height - 1)
+        left = max((min(ax, bx, cx) - reach + SUBPIXEL_STEPS - 1) >> RASTER_SUBPIXEL_BITS, 0)
+        right = min((max(ax, bx, cx) + reach) >> RASTER_SUBPIXEL_BITS, width - 1)
+        top = max((min(ay, by, cy) - reach + SUBPIXEL_STEPS - 1) >> RASTER_SUBPIXEL_BITS, 0)
+        bottom = min((max(ay, by, cy) + reach) >> RASTER_SUBPIXEL_BITS, height - 1)
         if left > right or top > bottom or not _any(starts, blocks, top, bottom, left, right):
             continue
         step_a, step_b, step_c = by - cy, cy - ay, ay - by
@@ -103,7 +103,7 @@ def draw_samples(
                     y, x = pixels[k, 0], pixels[k, 1]
                     if y < top or y > bottom or x < left or x > right:
                         continue
-                    px, py = np.int64(x) << SUBPIXEL_BITS, np.int64(y) << SUBPIXEL_BITS
+                    px, py = np.int64(x) << RASTER_SUBPIXEL_BITS, np.int64(y) << RASTER_SUBPIXEL_BITS
                     pa = down_a * (py - by) + step_a * (px - bx)
                     pb = down_b * (py - cy) + step_b * (px - cx)
                     pc = down_c * (py - ay) + step_c * (px - ax)

@@ -19,15 +19,15 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 
-SUBPIXEL_BITS = 8
+RASTER_SUBPIXEL_BITS = 8
 """Bits of a coordinate's fraction of a pixel."""
-SUBPIXEL_STEPS = 1 << SUBPIXEL_BITS
+SUBPIXEL_STEPS = 1 << RASTER_SUBPIXEL_BITS
 """Steps of a pixel to which vertices are snapped, as graphics hardware does."""
 
-MAX_NARROW_WIDTH = 6
+MAX_NARROW_WIDTH_PIXELS = 6
 """Pixels up to which a triangle's rows are walked from its box's left end."""
 
-MAX_COORDINATE = 2.0**21
+MAX_COORDINATE_PIXELS = 2.0**21
 """Pixels beyond which a vertex is too far out and its triangles are dropped: their edge functions could overflow."""
 
 OUT_OF_RANGE = -(1 << 31)
@@ -107,7 +107,7 @@ def snap_to_subpixels(points: np.ndarray) -> np.ndarray:
     places = np.empty((len(points), 2), np.int32)
     for v in range(len(points)):
         x, y = points[v, 0], points[v, 1]
-        if abs(x) < MAX_COORDINATE and abs(y) < MAX_COORDINATE:
+        if abs(x) < MAX_COORDINATE_PIXELS and abs(y) < MAX_COORDINATE_PIXELS:
             places[v, 0], places[v, 1] = _snap(x), _snap(y)
         else:
             places[v, 0], places[v, 1] = OUT_OF_RANGE, 0
@@ -157,10 +157,10 @@ def _draw(
     za, zb, zc = points[a, 2], points[b, 2], points[c, 2]
     if min(ax, bx, cx) == OUT_OF_RANGE or (perspective and not min(za, zb, zc) > 0):
         return
-    left = max((min(ax, bx, cx) + SUBPIXEL_STEPS - 1) >> SUBPIXEL_BITS, 0)
-    right = min(max(ax, bx, cx) >> SUBPIXEL_BITS, ids.shape[1] - 1)
-    top = max((min(ay, by, cy) + SUBPIXEL_STEPS - 1) >> SUBPIXEL_BITS, first)
-    bottom = min(max(ay, by, cy) >> SUBPIXEL_BITS, last)
+    left = max((min(ax, bx, cx) + SUBPIXEL_STEPS - 1) >> RASTER_SUBPIXEL_BITS, 0)
+    right = min(max(ax, bx, cx) >> RASTER_SUBPIXEL_BITS, ids.shape[1] - 1)
+    top = max((min(ay, by, cy) + SUBPIXEL_STEPS - 1) >> RASTER_SUBPIXEL_BITS, first)
+    bottom = min(max(ay, by, cy) >> RASTER_SUBPIXEL_BITS, last)
     if left > right or top > bottom:
         return
     area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
@@ -171,7 +171,7 @@ def _draw(
         area = -area
     if perspective:
         za, zb, zc = 1 / za, 1 / zb, 1 / zc
-    px, py = left << SUBPIXEL_BITS, top << SUBPIXEL_BITS
+    px, py = left << RASTER_SUBPIXEL_BITS, top << RASTER_SUBPIXEL_BITS
     row_a = (cx - bx) * (py - by) - (cy - by) * (px - bx)
     row_b = (ax - cx) * (py - cy) - (ay - cy) * (px - cx)
     row_c = (bx - ax) * (py - ay) - (by - ay) * (px - ax)
@@ -182,9 +182,13 @@ def _draw(
     row_a += edge_bias(cx - bx, cy - by)
     row_b += edge_bias(ax - cx, ay - cy)
     row_c += edge_bias(bx - ax, by - ay)
-    step_a, step_b, step_c = (by - cy) << SUBPIXEL_BITS, (cy - ay) << SUBPIXEL_BITS, (ay - by) << SUBPIXEL_BITS
+    step_a, step_b, step_c = (
+        (by - cy) << RASTER_SUBPIXEL_BITS,
+        (cy - ay) << RASTER_SUBPIXEL_BITS,
+        (ay - by) << RASTER_SUBPIXEL_BITS,
+    )
     # where a row begins is estimated for wide triangles, which are mostly slanted slivers, and then found exactly
-    wide = right - left > MAX_NARROW_WIDTH
+    wide = right - left > MAX_NARROW_WIDTH_PIXELS
     to_a = -1 / np.float64(step_a) if wide and step_a > 0 else np.float64(0)
     to_b = -1 / np.float64(step_b) if wide and step_b > 0 else np.float64(0)
     to_c = -1 / np.float64(step_c) if wide and step_c > 0 else np.float64(0)
@@ -203,9 +207,9 @@ def _draw(
                 depths[y, x] = z
                 ids[y, x] = t
             wa, wb, wc, x, w = wa + step_a, wb + step_b, wc + step_c, x + 1, w + right_z
-        row_a += (cx - bx) << SUBPIXEL_BITS
-        row_b += (ax - cx) << SUBPIXEL_BITS
-        row_c += (bx - ax) << SUBPIXEL_BITS
+        row_a += (cx - bx) << RASTER_SUBPIXEL_BITS
+        row_b += (ax - cx) << RASTER_SUBPIXEL_BITS
+        row_c += (bx - ax) << RASTER_SUBPIXEL_BITS
         row_z += down_z
 
 

@@ -13,7 +13,7 @@ from engine.geometry.texture_atlas import TextureAtlas
 from engine.render.rasteriser import Raster
 from engine.render.texture_bake import BakedTexture, texel_raster
 
-STRIP_ROWS = 256
+FILLED_STRIP_ROWS = 256
 """Rows of a texture that are worked on at once."""
 
 
@@ -42,8 +42,8 @@ def fill_over_surface(
         return
     faces = np.asarray(triangles, np.intp)
     smooth = _harmonic(*_vertex_means(texture, known & on, raster, faces, len(vertices)), vertices, faces)
-    for first in range(0, len(texture), STRIP_ROWS):
-        rows = slice(first, first + STRIP_ROWS)
+    for first in range(0, len(texture), FILLED_STRIP_ROWS):
+        rows = slice(first, first + FILLED_STRIP_ROWS)
         hole = np.nonzero((on & ~known)[rows])
         corners, shares = faces[raster.triangle[rows][hole]], raster.barycentrics[rows][hole]
         colours = np.einsum("nk,nkc->nc", shares, smooth[corners])
@@ -55,8 +55,8 @@ def _vertex_means(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Sums (V, 3) of the told texels that are nearest to each vertex, and how many these are (V,)."""
     sums, number = np.zeros((count, 3)), np.zeros(count)
-    for first in range(0, len(texture), STRIP_ROWS):
-        rows = slice(first, first + STRIP_ROWS)
+    for first in range(0, len(texture), FILLED_STRIP_ROWS):
+        rows = slice(first, first + FILLED_STRIP_ROWS)
         here = np.nonzero(told[rows])
         owner = faces[raster.triangle[rows][here], raster.barycentrics[rows][here].argmax(1)]
         colours = texture[rows][here].astype(np.float64)

@@ -16,7 +16,7 @@ from starlette.requests import HTTPConnection
 
 from service.auth import repository
 from service.auth.rate import take_one
-from service.auth.sessions import COOKIE, key_of_session
+from service.auth.sessions import SESSION_COOKIE, key_of_session
 from service.auth.wrong_keys import count_wrong_key
 from service.clock import now
 from service.context import Context
@@ -27,7 +27,7 @@ from service.request_context import InContext
 from service.tables.keys import LOCAL_KEY_ID, Key
 
 Scope = Literal["read", "submit", "admin"]
-SCOPES: dict[Scope, str] = {
+SCOPE_MEANINGS: dict[Scope, str] = {
     "read": "look at its own jobs, files, drivers and webhooks",
     "submit": "upload, submit, change and erase them",
     "admin": "manage keys, read the service's figures and let jobs come first",
@@ -46,11 +46,13 @@ class Caller:
         """Raise a 403 problem if the caller may not do this."""
         if scope not in self.scopes:
             raise Problem(
-                403, "scope_missing", f"The key lacks the scope “{scope}” (to {SCOPES[scope]}): use one that has it."
+                403,
+                "scope_missing",
+                f"The key lacks the scope “{scope}” (to {SCOPE_MEANINGS[scope]}): use one that has it.",
             )
 
 
-LOCAL_CALLER = Caller(LOCAL_KEY_ID, frozenset(SCOPES))
+LOCAL_CALLER = Caller(LOCAL_KEY_ID, frozenset(SCOPE_MEANINGS))
 """Whoever is on this machine, where no key is needed."""
 
 
@@ -65,7 +67,7 @@ def identify(request: Request, context: InContext) -> Caller:
 def caller_of(request: HTTPConnection, context: Context) -> Caller:
     """The caller of a request or of a WebSocket's handshake, counted against its rate. Raises 401 and 429 problems."""
     token = _bearer(request)
-    session = request.cookies.get(COOKIE)
+    session = request.cookies.get(SESSION_COOKIE)
     if token is None and session is None:
         if context.settings.keys_required:
             raise unknown_key_problem(

@@ -6,7 +6,7 @@ from sqlalchemy.orm import Session
 
 from service.auth import repository
 from service.problems import Problem
-from service.settings import MEGABYTE, Settings
+from service.settings import BYTES_PER_MEGABYTE, Settings
 from service.tables.keys import LOCAL_KEY_ID, Key
 
 RETRY_SECONDS = 5
@@ -40,7 +40,7 @@ def require_upload(session: Session, settings: Settings, owner: str) -> None:
 def require_room(session: Session, settings: Settings, owner: str, more_bytes: int) -> None:
     """Raise a 507 problem if a key may not store that many more bytes."""
     most = _limits(session, settings, owner).stored_mb
-    if most is not None and repository.stored_bytes(session, owner) + more_bytes > most * MEGABYTE:
+    if most is not None and repository.stored_bytes(session, owner) + more_bytes > most * BYTES_PER_MEGABYTE:
         raise Problem(
             507,
             "storage_quota",

@@ -14,7 +14,7 @@ from service.auth import repository
 from service.auth.tokens import signature, signed_by
 from service.tables.keys import Key
 
-COOKIE = "galatea_session"
+SESSION_COOKIE = "galatea_session"
 SESSION_SECONDS = 12 * 3600
 
 

@@ -85,7 +85,7 @@ class Database:
 
                 try:
                     steps.move(connection, "head", False, self._vault)
-                except steps.UNKNOWN as error:
+                except steps.UNKNOWN_VERSION_ERRORS as error:
                     raise UnknownVersion(str(error)) from error
         self._seal_anew()
 

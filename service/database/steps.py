@@ -12,7 +12,7 @@ from sqlalchemy.engine import Connection
 from engine.package_data import package_folder
 from service.vault import Vault
 
-UNKNOWN = (CommandError, RevisionError)
+UNKNOWN_VERSION_ERRORS = (CommandError, RevisionError)
 """What alembic raises where there is no such version, or none on the way."""
 
 

@@ -13,7 +13,7 @@ from service.keeping.endpoints import Endpoints, library_router
 from service.request_context import InContext
 
 router = library_router(
-    service.PRESENTED,
+    service.PRESENTED_DRIVERS,
     Endpoints(
         item=DriverOut,
         listed=DriverList,

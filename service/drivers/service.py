@@ -25,7 +25,7 @@ def _built_in() -> list[DriverOut]:
     return [DriverOut.built_in(performance) for performance in built_in.performances()]
 
 
-PRESENTED = Presentation(DRIVERS, Segments, _built_in, DriverOut.own)
+PRESENTED_DRIVERS = Presentation(DRIVERS, Segments, _built_in, DriverOut.own)
 
 
 def stored(context: Context, owner: str, name: str) -> tuple[Stored, Storage]:

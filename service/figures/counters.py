@@ -11,7 +11,7 @@ from sqlalchemy.orm import Session
 
 from service.tables.counters import Counter
 
-COUNTERS = {
+COUNTER_DESCRIPTIONS = {
     "galatea_uploaded_bytes": ("Bytes of the files that were uploaded.", ("media",)),
     "galatea_jobs_ended": ("Jobs that ended, with the code of their error.", ("kind", "status", "code")),
     "galatea_stage_seconds": ("Seconds that stages of jobs that succeeded took.", ("kind", "stage")),
@@ -32,8 +32,8 @@ BY_THE_DATABASE = {"synchronize_session": False}
 
 
 def add(session: Session, name: str, *labels: str, amount: float = 1.0) -> None:
-    """Let a counter of `COUNTERS` grow, for the values of its labels in their order."""
-    assert len(labels) == len(COUNTERS[name][1])
+    """Let a counter of `COUNTER_DESCRIPTIONS` grow, for the values of its labels in their order."""
+    assert len(labels) == len(COUNTER_DESCRIPTIONS[name][1])
     key = json.dumps(["".join(filter(str.isprintable, label))[:50] for label in labels], ensure_ascii=False)
     grown = {"its_name": name, "its_labels": key, "amount": amount}
     if session.execute(ADD_TO_COUNTER, grown, execution_options=BY_THE_DATABASE).rowcount:  # type: ignore[attr-defined]
@@ -48,5 +48,5 @@ def add(session: Session, name: str, *labels: str, amount: float = 1.0) -> None:
 def all_counters(session: Session) -> Iterator[tuple[str, list[str], float]]:
     """All counters: name, values of the labels, value."""
     for counter in session.scalars(select(Counter).order_by(Counter.name, Counter.labels)):
-        if counter.name in COUNTERS:
+        if counter.name in COUNTER_DESCRIPTIONS:
             yield counter.name, json.loads(counter.labels), counter.value

@@ -23,7 +23,7 @@ from service.http.bodies import FIELD_BYTES, announced_bytes
 from service.http.documents import require_text
 from service.ids import new_id
 from service.problems import Problem
-from service.settings import MEGABYTE, Settings
+from service.settings import BYTES_PER_MEGABYTE, Settings
 
 MAX_FIELDS = 100
 """The most parts that are not files."""
@@ -70,7 +70,7 @@ class Form:
         parts = Parts(self._request.headers.get("content-type", ""), self)
         length = announced_bytes(self._request)
         most = self._settings.video_mb * self._most_files + 2
-        if length > most * MEGABYTE:
+        if length > most * BYTES_PER_MEGABYTE:
             raise too_large("The request", most)
         require_space(self._settings, length)
         self._folder.mkdir(exist_ok=True)
@@ -93,7 +93,7 @@ class Form:
                 parts.write(chunk[start : start + SLICE_BYTES])
                 await checkpoint()
             unchecked += len(chunk)
-            if unchecked > 16 * MEGABYTE:
+            if unchecked > 16 * BYTES_PER_MEGABYTE:
                 require_space(self._settings)
                 unchecked = 0
             waiting += len(chunk)

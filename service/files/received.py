@@ -13,7 +13,7 @@ from typing import BinaryIO
 
 from service.files.admission import HEAD_BYTES, largest_mb, recognise, too_large
 from service.problems import Problem
-from service.settings import MEGABYTE, Settings
+from service.settings import BYTES_PER_MEGABYTE, Settings
 
 
 @dataclass
@@ -40,7 +40,7 @@ class Received:
                 return
             data = self._recognise()
         limit = largest_mb(settings, self.content_type)
-        if self.size > limit * MEGABYTE:
+        if self.size > limit * BYTES_PER_MEGABYTE:
             raise too_large(f"“{self.name}”", limit)
         if self._file is None:
             self._file = self.path.open("wb")

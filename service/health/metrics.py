@@ -14,9 +14,9 @@ from prometheus_client.registry import Collector
 from service.clock import now
 from service.context import Context
 from service.disk import free_mb
-from service.figures.counters import COUNTERS, all_counters
+from service.figures.counters import COUNTER_DESCRIPTIONS, all_counters
 from service.job_records import jobs as repository
-from service.settings import MEGABYTE
+from service.settings import BYTES_PER_MEGABYTE
 from service.tables.jobs import Status
 from service.webhooks import repository as webhooks
 
@@ -43,7 +43,7 @@ class ServiceCollector(Collector):
             since = waiting.get(kind)
             oldest.add_metric([kind], max(0.0, (now() - since).total_seconds()) if since else 0.0)
         yield oldest
-        for name, (description, labels) in COUNTERS.items():
+        for name, (description, labels) in COUNTER_DESCRIPTIONS.items():
             counter = CounterMetricFamily(name, description, labels=labels)
             for _, values, value in figures.get(name, ()):
                 counter.add_metric(values, value)
@@ -58,7 +58,7 @@ class ServiceCollector(Collector):
         yield messages
         yield from _webhooks(backlog)
         yield GaugeMetricFamily("galatea_redis_up", "Whether Redis answers.", value=up)
-        free = free_mb(self._context.settings) * MEGABYTE
+        free = free_mb(self._context.settings) * BYTES_PER_MEGABYTE
         yield GaugeMetricFamily("galatea_disk_free_bytes", "Free space where the data lie.", value=free)
 
 

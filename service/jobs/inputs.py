@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 from sqlalchemy.orm import Session
 
-from engine.kind import AUTO, Input, Kind
+from engine.kind import AUTO_CHOICE, Input, Kind
 from engine.media.sniff import ARCHIVE_TYPES, IMAGE_TYPES, MOTION_TYPES, VIDEO_TYPES
 from service.files import repository as files
 from service.ids import is_id
@@ -186,7 +186,7 @@ def _source(lookup: _Lookup, item: Input, value: Value) -> Any:
 def _one(lookup: _Lookup, item: Input, value: str) -> dict[str, Any]:
     session, owner = lookup.session, lookup.owner
     library = LIBRARIES[item.library] if item.library is not None else None
-    if library is not None and item.auto and value == AUTO:
+    if library is not None and item.auto and value == AUTO_CHOICE:
         return _candidates(lookup, library)
     if "://" in value:
         return _address(item, value, lookup.allowed)

@@ -6,7 +6,7 @@ import re
 
 from sqlalchemy.exc import IntegrityError
 
-from engine.kind import AUTO
+from engine.kind import AUTO_CHOICE
 from service.clock import now
 from service.context import Context
 from service.files import repository as files
@@ -22,7 +22,7 @@ from service.tables.kept import Kept
 
 NAME_PATTERN = re.compile(r"[a-z0-9][a-z0-9_-]{0,62}")
 
-RESERVED_NAMES = (AUTO,)
+RESERVED_NAMES = (AUTO_CHOICE,)
 """Names with a meaning of their own where something kept is named."""
 
 

@@ -7,7 +7,7 @@ from starlette.responses import Response
 
 from service.auth import repository
 from service.auth.caller import Admin, Reader, unknown_key_problem
-from service.auth.sessions import COOKIE, SESSION_SECONDS, new_session
+from service.auth.sessions import SESSION_COOKIE, SESSION_SECONDS, new_session
 from service.auth.wrong_keys import count_wrong_key
 from service.clock import now
 from service.http.json_bodies import RequestModelRoute
@@ -72,7 +72,7 @@ def open_session(requested: SessionIn, request: Request, response: Response, con
         count_wrong_key(context, request)
         raise unknown_key_problem("key_unknown", "There is no such key: it was revoked, has expired, or never was.")
     response.set_cookie(
-        COOKIE,
+        SESSION_COOKIE,
         new_session(key),
         max_age=SESSION_SECONDS,
         path="/",
@@ -85,7 +85,7 @@ def open_session(requested: SessionIn, request: Request, response: Response, con
 @router.delete("/session", status_code=204, operation_id="close_session")
 def close_session(response: Response) -> None:
     """Forget the key in this browser."""
-    response.delete_cookie(COOKIE, path="/", httponly=True, samesite="strict")
+    response.delete_cookie(SESSION_COOKIE, path="/", httponly=True, samesite="strict")
 
 
 def _there(key: Key | None) -> Key:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, BaseModel, Field
 
-from service.auth.caller import SCOPES, Scope
+from service.auth.caller import SCOPE_MEANINGS, Scope
 from service.auth.quotas import Limits
 from service.http.request_models import REQUEST_MODEL, WHOLE_NUMBER
 from service.settings import Settings
@@ -15,7 +15,7 @@ from service.tables.keys import Key
 
 
 def _each_once(scopes: list[Scope]) -> list[Scope]:
-    return [scope for scope in SCOPES if scope in scopes]
+    return [scope for scope in SCOPE_MEANINGS if scope in scopes]
 
 
 class KeyIn(BaseModel):

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
-FRAME, COMMAND, EVENT = b"F", b"C", b"E"
+FRAME_TAG, COMMAND_TAG, EVENT_TAG = b"F", b"C", b"E"
 """A frame: four bytes of its number (big-endian) and a picture. A command to the process, an event of it: JSON."""
 
 

@@ -10,15 +10,15 @@ from typing import Any
 import structlog
 
 from service.live.outlet import Outlet
-from service.live.process import COMMAND, EVENT, FRAME, LiveOrder, LiveProcess, StartLive
-from service.settings import MEGABYTE, Settings
+from service.live.process import COMMAND_TAG, EVENT_TAG, FRAME_TAG, LiveOrder, LiveProcess, StartLive
+from service.settings import BYTES_PER_MEGABYTE, Settings
 
 CONNECT_SECONDS = 60.0
 """How long a session waits for its camera."""
 LOOK_SECONDS = 0.5
 """How often is looked whether it is to end."""
 
-ENDS = {
+END_REASONS = {
     "live_idle": "No frame of the camera came for a while, or nobody looked: begin anew.",
     "live_time_limit": "The live portrait lasted as long as one may: begin anew.",
     "live_closed": "The camera's connection was closed.",
@@ -67,7 +67,7 @@ class LiveSession:
         if self.ended is not None:
             return
         self.status, self.ended_at = "ended", time.monotonic()
-        self.ended = {"event": "ended", "code": code, "detail": detail or ENDS[code]}
+        self.ended = {"event": "ended", "code": code, "detail": detail or END_REASONS[code]}
         for outlet in self._outlets:
             outlet.tell(self.ended)
         if self._process is not None:
@@ -76,12 +76,12 @@ class LiveSession:
     def feed(self, message: bytes) -> None:
         """Take in a message of the camera: four bytes of a number, and a picture."""
         self._fed_at = time.monotonic()
-        if len(message) > self._settings.live_frame_mb * MEGABYTE:
+        if len(message) > self._settings.live_frame_mb * BYTES_PER_MEGABYTE:
             self.end("live_frame_too_large")
         elif len(message) <= 4:
             self.end("live_frame_unreadable")
         elif self._process is not None:
-            self._process.send(FRAME, message)
+            self._process.send(FRAME_TAG, message)
 
     def command(self, text: str) -> None:
         """Pass on what the page asks for: `{"command": "recalibrate"}`."""
@@ -93,7 +93,7 @@ class LiveSession:
         if command != "recalibrate":
             self.end("live_message_unknown")
         elif self._process is not None:
-            self._process.send(COMMAND, json.dumps({"command": command}).encode())
+            self._process.send(COMMAND_TAG, json.dumps({"command": command}).encode())
 
     @property
     def viewers(self) -> int:
@@ -111,10 +111,10 @@ class LiveSession:
         self._outlets.discard(outlet)
 
     def _pass_on(self, kind: bytes, data: bytes) -> None:
-        if kind == FRAME:
+        if kind == FRAME_TAG:
             for outlet in self._outlets:
                 outlet.show(data)
-        elif kind == EVENT:
+        elif kind == EVENT_TAG:
             event = json.loads(data)
             if event["event"] == "failed":
                 self.end(str(event["code"]), event["detail"] or None)

@@ -13,7 +13,7 @@ from service.motions.schemas import MotionList, MotionOut
 from service.request_context import InContext
 
 router = library_router(
-    service.PRESENTED,
+    service.PRESENTED_MOTIONS,
     Endpoints(
         item=MotionOut,
         listed=MotionList,

@@ -17,7 +17,7 @@ def _built_in() -> list[MotionOut]:
     return [MotionOut.built_in(motion) for motion in CATALOGUE]
 
 
-PRESENTED = Presentation(MOTIONS, Check, _built_in, MotionOut.own)
+PRESENTED_MOTIONS = Presentation(MOTIONS, Check, _built_in, MotionOut.own)
 
 
 def stored(context: Context, owner: str, name: str) -> Stored:

@@ -32,7 +32,7 @@ class Crc32:
         return self._value.to_bytes(4, "big")
 
 
-ALGORITHMS: Mapping[str, Callable[[], Sum]] = {
+CHECKSUM_ALGORITHMS: Mapping[str, Callable[[], Sum]] = {
     "sha1": lambda: hashlib.sha1(usedforsecurity=False),
     "sha256": hashlib.sha256,
     "crc32": Crc32,
@@ -45,10 +45,10 @@ class Checksum:
     def __init__(self, header: str):
         """`header` is `ALGORITHM BASE64`. Raises a 400 problem."""
         name, _, expected = header.strip().partition(" ")
-        if name.lower() not in ALGORITHMS:
-            offered = ", ".join(ALGORITHMS)
+        if name.lower() not in CHECKSUM_ALGORITHMS:
+            offered = ", ".join(CHECKSUM_ALGORITHMS)
             raise Problem(400, "checksum_unsupported", f"Upload-Checksum names an unknown algorithm: use {offered}.")
-        self._sum = ALGORITHMS[name.lower()]()
+        self._sum = CHECKSUM_ALGORITHMS[name.lower()]()
         try:
             self._expected = base64.b64decode(expected.strip(), validate=True)
         except (binascii.Error, ValueError):

@@ -19,9 +19,9 @@ from service.auth.caller import InCaller
 from service.files.admission import largest_mb
 from service.problem_answers import invalid_request
 from service.problems import Problem, phrase
-from service.settings import MEGABYTE, Settings
+from service.settings import BYTES_PER_MEGABYTE, Settings
 from service.tables.uploads import Upload
-from service.uploads.checksum import ALGORITHMS
+from service.uploads.checksum import CHECKSUM_ALGORITHMS
 
 TUS_VERSION = "1.0.0"
 TUS_EXTENSIONS = ("creation", "creation-with-upload", "creation-defer-length", "checksum", "expiration", "termination")
@@ -43,8 +43,8 @@ UploadMetadata = Annotated[
 UploadChecksum = Annotated[
     str | None,
     Header(
-        description=f"The piece's checksum, `ALGORITHM BASE64`; one of {', '.join(ALGORITHMS)}.",
-        json_schema_extra={"pattern": f"^({'|'.join(ALGORITHMS)}) [A-Za-z0-9+/]+=*$"},
+        description=f"The piece's checksum, `ALGORITHM BASE64`; one of {', '.join(CHECKSUM_ALGORITHMS)}.",
+        json_schema_extra={"pattern": f"^({'|'.join(CHECKSUM_ALGORITHMS)}) [A-Za-z0-9+/]+=*$"},
     ),
 ]
 ContentType = Annotated[str | None, Header(include_in_schema=False)]  # the request body says it
@@ -99,8 +99,8 @@ def offered_headers(settings: Settings) -> dict[str, str]:
     return {
         "Tus-Version": TUS_VERSION,
         "Tus-Extension": ",".join(TUS_EXTENSIONS),
-        "Tus-Max-Size": str(int(largest_mb(settings) * MEGABYTE)),
-        "Tus-Checksum-Algorithm": ",".join(ALGORITHMS),
+        "Tus-Max-Size": str(int(largest_mb(settings) * BYTES_PER_MEGABYTE)),
+        "Tus-Checksum-Algorithm": ",".join(CHECKSUM_ALGORITHMS),
     }
 
 

@@ -18,14 +18,14 @@ from service.disk import require_space
 from service.files.admission import HEAD_BYTES, largest_mb, recognise, too_large
 from service.files.service import record
 from service.problems import Problem
-from service.settings import MEGABYTE
+from service.settings import BYTES_PER_MEGABYTE
 from service.tables.files import File
 from service.tables.uploads import Upload
 from service.uploads import repository, spool
 from service.uploads.checksum import Checksum
 from service.uploads.digest import RunningDigest
 
-RECORD_BYTES = 32 * MEGABYTE
+RECORD_BYTES = 32 * BYTES_PER_MEGABYTE
 RECORD_SECONDS = 2.0
 
 
@@ -84,7 +84,7 @@ class Reception:
                 f"The upload is {self.length} bytes long, and more was sent: begin again with the right Upload-Length.",
             )
         limit = largest_mb(self._settings)
-        if self._end > limit * MEGABYTE:
+        if self._end > limit * BYTES_PER_MEGABYTE:
             raise too_large(f"“{self.upload.name}”", limit)
         self._taken.append(data)
 
@@ -139,7 +139,7 @@ class Reception:
                 spool.head(self._path, min(HEAD_BYTES, self._written)), self.upload.name, self.upload.declared
             )
             limit = largest_mb(self._settings, self._content_type)
-            if max(self._written, self.length or 0) > limit * MEGABYTE:
+            if max(self._written, self.length or 0) > limit * BYTES_PER_MEGABYTE:
                 raise too_large(f"“{self.upload.name}”", limit)
         except Problem:
             spool.erase(self._context, self.upload.id)

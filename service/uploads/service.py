@@ -16,7 +16,7 @@ from service.files.admission import largest_mb, shown_name, too_large
 from service.files.service import erase_unused
 from service.ids import is_id, new_id
 from service.problems import Problem
-from service.settings import MEGABYTE
+from service.settings import BYTES_PER_MEGABYTE
 from service.tables.files import File
 from service.tables.uploads import Upload
 from service.uploads import metadata, repository, spool
@@ -78,7 +78,7 @@ def require_length(context: Context, upload: Upload, length: int | None) -> None
     if length == 0:
         raise Problem(422, "file_empty", f"“{upload.name}” is empty: it has 0 bytes.")
     limit = largest_mb(context.settings, upload.declared)
-    if length > limit * MEGABYTE:
+    if length > limit * BYTES_PER_MEGABYTE:
         raise too_large(f"“{upload.name}”", limit)
     if upload.length not in (None, length) or length < upload.received:
         raise Problem(

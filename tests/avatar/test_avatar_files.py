@@ -14,7 +14,7 @@ from engine.avatar.acting import Scene
 from engine.avatar.avatar import Avatar, assemble
 from engine.avatar.combined_targets import COMBINED_TARGETS
 from engine.avatar.mesh import surface_of
-from engine.avatar.options import TEMPLATE_TRIANGLES, AvatarOptions
+from engine.avatar.options import MAX_TEMPLATE_TRIANGLES, AvatarOptions
 from engine.avatar.worn import no_attachments
 from engine.avatar.writing import WrittenCameras, write_avatar, write_cameras
 from engine.body.face.visemes import VISEMES
@@ -55,7 +55,7 @@ def test_it_has_all_targets_by_name_fingers_jaw_and_eyes(folder: Path) -> None:
     assert glb.json["meshes"][0]["extras"]["targetNames"] == NAMES
     joints = {glb.nodes[node]["name"] for node in glb.json["skins"][0]["joints"]}
     assert {"LeftHandIndex3", "RightHandPinky3", "Jaw", "LeftEye", "RightEye"} <= joints
-    assert len(glb.triangles()) == TEMPLATE_TRIANGLES
+    assert len(glb.triangles()) == MAX_TEMPLATE_TRIANGLES
     names = [animation["name"] for animation in glb.json["animations"]]
     assert names[:2] == ["wave", "filmed"] and len(names) == len(set(names)) == 9
 

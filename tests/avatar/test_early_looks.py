@@ -11,7 +11,7 @@ from PIL import Image
 from template_avatar import fitted_template
 
 from engine.avatar.early_looks import write_fitted_shape, write_small_texture
-from engine.avatar.options import TEMPLATE_TRIANGLES
+from engine.avatar.options import MAX_TEMPLATE_TRIANGLES
 from engine.body.template import load_template
 
 
@@ -19,7 +19,7 @@ def test_the_shape_is_the_template_where_it_was_fitted(tmp_path: Path) -> None:
     template, fitted = load_template(), fitted_template()
     moved = replace(fitted, vertices=fitted.vertices + np.array([0.5, 0, 0]))
     shape = trimesh.load(write_fitted_shape(tmp_path, template, moved), process=False)
-    assert len(shape.faces) == TEMPLATE_TRIANGLES and shape.volume > 0
+    assert len(shape.faces) == MAX_TEMPLATE_TRIANGLES and shape.volume > 0
     body = moved.vertices[template.vertices_of("body")]
     assert np.abs(shape.bounds - [body.min(0), body.max(0)]).max() < 1e-5
     assert (tmp_path / "fitted.ply").stat().st_size < 700_000

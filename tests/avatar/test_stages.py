@@ -7,7 +7,7 @@ from engine.avatar.capture.cameras import ClipCameras
 from engine.avatar.capture.dense import DenseCloud
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.options import KnownLens
-from engine.avatar.stages import STEREO_SIDE, ClipScan, lens_of_frames, stereo_side
+from engine.avatar.stages import STEREO_SIDE_PIXELS, ClipScan, lens_of_frames, stereo_side
 from engine.geometry.camera import Camera
 from engine.geometry.point_cloud import PointCloud
 
@@ -45,4 +45,4 @@ def test_stereo_takes_no_finer_pictures_than_show_a_millimetre_of_the_person() -
     close_up = ClipCameras((near, None, near, far), (near, None, near, far), np.zeros(4, np.bool_), (), none)
     assert stereo_side(close_up) == 640  # a pixel of a frame is half a millimetre wide
     whole = ClipCameras((far, far), (far, far), np.zeros(2, np.bool_), (), none)
-    assert stereo_side(whole) == STEREO_SIDE
+    assert stereo_side(whole) == STEREO_SIDE_PIXELS

@@ -10,7 +10,7 @@ import numpy as np
 from engine.body import load_template
 from engine.body.body_space import load_body_space
 from engine.body.fitting.body_fitting import Fit, fit_body
-from engine.body.fitting.contour import SEARCH_INSIDE, Contour, match_contour, skin_points, trace_contour
+from engine.body.fitting.contour import SEARCH_INSIDE_SHARE, Contour, match_contour, skin_points, trace_contour
 from engine.body.fitting.first_guess import first_guess
 from engine.body.fitting.observation import DIRECTED_LIMBS, Observation
 from engine.body.fitting.posing import FITTED_JOINTS, SHAPE_COEFFICIENTS, forward, rotation_matrices
@@ -101,7 +101,7 @@ def test_an_outline_meets_what_faces_the_same_way_outermost() -> None:
     pixels = np.array([[46.0, 50.0], [48.0, 50.5], [51.0, 50.0], [49.0, 58.0]])
     right, left = [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]
     which, at = match_contour(
-        contour, pixels, np.array([right, right, left, right]), np.full(4, SEARCH_INSIDE), 100
+        contour, pixels, np.array([right, right, left, right]), np.full(4, SEARCH_INSIDE_SHARE), 100
     )  # the third faces back, the last is far
     assert which.tolist() == [0] and at.tolist() == [1]
 

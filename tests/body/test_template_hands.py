@@ -13,7 +13,7 @@ from engine.body.hands import HandModel, finger_landmarks, hand_model
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import FINGERS
+from engine.geometry.joint_names import FINGER_NAMES
 from engine.geometry.skinning import bone_transforms
 from engine.perception.hands import HAND_JOINTS
 
@@ -56,13 +56,13 @@ def refit(model: HandModel, arm: np.ndarray, marks: np.ndarray) -> HandFit:
 
 def test_fingers_lie_beside_each_other_and_end_in_their_tips(model: HandModel) -> None:
     sign = 1 if model.side == "Left" else -1
-    for finger in FINGERS:
+    for finger in FINGER_NAMES:
         out = sign * model.mean[finger_landmarks(finger), 0]
         assert (np.diff(out) > 0.01).all()
         assert (
             np.linalg.norm(np.diff(model.mean[finger_landmarks(finger)], axis=0), axis=1)[2] > 0.012
         )  # the tip is not the joint
-    knuckles = model.mean[[HAND_JOINTS.index(f"{finger}1") for finger in FINGERS[1:]], 2]
+    knuckles = model.mean[[HAND_JOINTS.index(f"{finger}1") for finger in FINGER_NAMES[1:]], 2]
     assert (np.diff(knuckles) < 0).all(), "from the index, in front, to the little finger"
 
 
@@ -78,12 +78,12 @@ def test_bent_fingers_make_a_fist(model: HandModel, space: BodySpace) -> None:
     """Tips come to the palm: below the hand, whose palm looks down in T-pose, and nearer to the wrist."""
     turns = {
         f"{finger}{k}": Rotation.from_rotvec(0.8 * axis)
-        for finger, axis in zip(FINGERS[1:], model.bend[1:], strict=True)
+        for finger, axis in zip(FINGER_NAMES[1:], model.bend[1:], strict=True)
         for k in (1, 2, 3)
     }
     flat, fist = bent(model, space, {}, np.eye(3)), bent(model, space, turns, np.eye(3))
-    tips = [finger_landmarks(finger)[3] for finger in FINGERS[1:]]
-    knuckles = [finger_landmarks(finger)[0] for finger in FINGERS[1:]]
+    tips = [finger_landmarks(finger)[3] for finger in FINGER_NAMES[1:]]
+    knuckles = [finger_landmarks(finger)[0] for finger in FINGER_NAMES[1:]]
     assert (fist[tips, 1] < fist[knuckles, 1] - 0.01).all()
     assert (np.linalg.norm(fist[tips], axis=1) < 0.75 * np.linalg.norm(flat[tips], axis=1)).all()
     thumb = finger_landmarks("Thumb")[3]
@@ -98,7 +98,7 @@ def test_known_turns_come_back(model: HandModel, space: BodySpace, seed: int) ->
     """Seen from the wrist: joints within five millimetres in the median, and none a centimetre away."""
     random = np.random.default_rng(seed)
     turns = {"": Rotation.from_rotvec(random.uniform(-0.4, 0.4, 3))}
-    for finger, axis in zip(FINGERS, model.bend, strict=True):
+    for finger, axis in zip(FINGER_NAMES, model.bend, strict=True):
         curl = random.uniform(0, 0.9)
         spread = Rotation.from_rotvec(random.uniform(-0.1, 0.1) * model.spread)
         turns[f"{finger}1"] = spread * Rotation.from_rotvec((0.2 if finger == "Thumb" else curl) * axis)
@@ -107,7 +107,7 @@ def test_known_turns_come_back(model: HandModel, space: BodySpace, seed: int) ->
     arm = Rotation.from_euler("xyz", [random.uniform(-0.6, 0.6), random.uniform(-0.5, 0.5), random.uniform(-1, 0.5)])
     truth = bent(model, space, turns, arm.as_matrix())
     fit = refit(model, arm.as_matrix(), seen(truth))
-    turned = [0, *(mark for finger in FINGERS for mark in finger_landmarks(finger)[:3])]
+    turned = [0, *(mark for finger in FINGER_NAMES for mark in finger_landmarks(finger)[:3])]
     found = {HAND_JOINTS[mark]: Rotation.from_matrix(r) for mark, r in zip(turned, fit.rotations, strict=True)}
     away = np.linalg.norm(bent(model, space, found, arm.as_matrix()) - truth, axis=1)
     assert np.median(away[1:]) < 0.005

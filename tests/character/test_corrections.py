@@ -28,7 +28,7 @@ from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.perception.body import BODY_LANDMARKS
-from engine.perception.people import MAX_PEOPLE, find_people, person_box
+from engine.perception.people import MAX_DETECTED_PEOPLE, find_people, person_box
 from engine.run import Run
 
 LIMITS = Limits()
@@ -157,7 +157,7 @@ def test_in_a_crowd_it_must_be_said_who_is_meant(tmp_path: Path) -> None:
     out there."""
     one = cv2.resize(sample_picture(), None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
     wide, high = one.shape[1], one.shape[0]
-    write_image(tmp_path / "crowd.png", np.concatenate([one] * (MAX_PEOPLE + 1), 1))
+    write_image(tmp_path / "crowd.png", np.concatenate([one] * (MAX_DETECTED_PEOPLE + 1), 1))
     with pytest.raises(InputError) as raised:
         found(tmp_path / "crowd.png", Choice())
     assert (raised.value.code, raised.value.correctable) == ("crowd", ("person_index", "person_box"))
@@ -165,7 +165,7 @@ def test_in_a_crowd_it_must_be_said_who_is_meant(tmp_path: Path) -> None:
     largest = found(tmp_path / "crowd.png", Choice(index=0))
     assert (largest.index, len(largest.people)) == (0, len(people))
     seen = {int((x + across / 2) // wide) for x, _, across, _ in people}
-    left = min(set(range(MAX_PEOPLE + 1)) - seen) * wide
+    left = min(set(range(MAX_DETECTED_PEOPLE + 1)) - seen) * wide
     figure = found(tmp_path / "crowd.png", Choice(box=(left, 0, wide, high)))
     assert len(figure.people) == len(people) + 1 and figure.index == len(people)
     columns = np.flatnonzero((outlined(figure).alpha > 0.5).any(0)) / figure.scale[0]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from template_character import still, template_character, walk
 
 from engine.export.glb import CharacterModel, write_glb
-from engine.export.meshopt_compression import EXTENSION, STEP_EXPONENTS
+from engine.export.meshopt_compression import MESHOPT_EXTENSION, STEP_EXPONENTS
 from engine.geometry.morph_target import morph_target
 from engine.meshopt.attribute_codec import encode_attributes
 from engine.meshopt.filters import encode_exponential
@@ -31,8 +31,13 @@ def through(tmp_path: Path, stream: bytes, count: int, stride: int, mode: str, f
         "mode": mode,
         "filter": filter_,
     }
-    view = {"buffer": 1, "byteLength": count * stride, "extensions": {EXTENSION: {**packed, "byteOffset": 0}}}
-    document = {"bufferViews": [view], "extensionsUsed": [EXTENSION], "extensionsRequired": [EXTENSION], "nodes": []}
+    view = {"buffer": 1, "byteLength": count * stride, "extensions": {MESHOPT_EXTENSION: {**packed, "byteOffset": 0}}}
+    document = {
+        "bufferViews": [view],
+        "extensionsUsed": [MESHOPT_EXTENSION],
+        "extensionsRequired": [MESHOPT_EXTENSION],
+        "nodes": [],
+    }
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     stream += bytes(-len(stream) % 4)
@@ -148,5 +153,5 @@ def test_the_extension_is_required_and_pays(files: tuple[Path, Path, Path]) -> N
     plain, small, _ = files
     assert small.stat().st_size < 0.6 * plain.stat().st_size
     glb = Glb(small)
-    assert EXTENSION in glb.json["extensionsRequired"] and EXTENSION in glb.json["extensionsUsed"]
+    assert MESHOPT_EXTENSION in glb.json["extensionsRequired"] and MESHOPT_EXTENSION in glb.json["extensionsUsed"]
     assert [issue for issue in validate(small)["messages"] if issue["severity"] == 0] == []

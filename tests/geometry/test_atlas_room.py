@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from engine.geometry.atlas_room import CELLS, cells_of, placed_between
+from engine.geometry.atlas_room import ATLAS_ROOM_CELLS, cells_of, placed_between
 from engine.geometry.texture_atlas import TextureAtlas
 
 
@@ -18,15 +18,15 @@ def squares(count: int, side: float) -> TextureAtlas:
 
 
 def halves_taken() -> np.ndarray:
-    taken = np.zeros((CELLS, CELLS), bool)
-    taken[:, : CELLS // 2] = True
+    taken = np.zeros((ATLAS_ROOM_CELLS, ATLAS_ROOM_CELLS), bool)
+    taken[:, : ATLAS_ROOM_CELLS // 2] = True
     return taken
 
 
 def test_charts_lie_in_the_free_half_and_not_on_each_other() -> None:
     atlas, taken = squares(9, 0.1), halves_taken()
     placed = placed_between(taken, atlas, 1.0)
-    cover = np.zeros((CELLS, CELLS), int)
+    cover = np.zeros((ATLAS_ROOM_CELLS, ATLAS_ROOM_CELLS), int)
     for chart in range(9):
         own = TextureAtlas(placed.uv, placed.corners[placed.charts == chart], np.zeros(2, np.int32))
         cover += cells_of(own)
@@ -53,4 +53,4 @@ def test_charts_that_do_not_fit_become_smaller() -> None:
 
 def test_a_full_texture_has_no_room() -> None:
     with pytest.raises(ValueError, match="no room"):
-        placed_between(np.ones((CELLS, CELLS), bool), squares(1, 0.5), 1.0)
+        placed_between(np.ones((ATLAS_ROOM_CELLS, ATLAS_ROOM_CELLS), bool), squares(1, 0.5), 1.0)

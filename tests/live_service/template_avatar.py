@@ -8,8 +8,8 @@ import numpy as np
 
 from engine.avatar.acting import Scene
 from engine.avatar.avatar import Avatar, assemble
-from engine.avatar.options import TEMPLATE_TRIANGLES, AvatarOptions
-from engine.avatar.registration.eyes.fitted_eyes import IRIS_RADIUS
+from engine.avatar.options import MAX_TEMPLATE_TRIANGLES, AvatarOptions
+from engine.avatar.registration.eyes.fitted_eyes import IRIS_RADIUS_METRES
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.texture.template_surface import template_surface
 from engine.avatar.texture.template_texture.placing import place_eyes, place_mouth
@@ -39,7 +39,7 @@ def fitted_template() -> FittedTemplate:
         joints=skeleton.heads.astype(np.float64),
         rotations=np.tile(np.eye(3), (len(rig.names), 1, 1)),
         expressions=units | viseme_displacements(units, len(rest)),
-        iris=IRIS_RADIUS,
+        iris=IRIS_RADIUS_METRES,
         head_to_body=None,
         coefficients=np.zeros(3),
         notices=(),
@@ -53,8 +53,8 @@ def template_avatar(texture_size: int = 256) -> Avatar:
     texture = np.full((texture_size, texture_size, 3), SKIN, np.uint8)
     raster = texel_raster(surface.atlas, texture_size)
     place_mouth(texture, surface, raster)
-    place_eyes(texture, surface, template.vertices, [], np.ones((0, 3)), IRIS_RADIUS, raster)
-    return assemble(template, rig, fitted_template(), no_attachments(), texture, TEMPLATE_TRIANGLES)
+    place_eyes(texture, surface, template.vertices, [], np.ones((0, 3)), IRIS_RADIUS_METRES, raster)
+    return assemble(template, rig, fitted_template(), no_attachments(), texture, MAX_TEMPLATE_TRIANGLES)
 
 
 def write_template_avatar(out: Path, options: AvatarOptions) -> None:

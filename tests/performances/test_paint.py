@@ -30,14 +30,17 @@ def figure() -> Figure:
 
 
 def at(field: np.ndarray, u: float, v: float) -> np.ndarray:
-    row, column = int((chart.TOP - v) * chart.TEXELS_PER_METRE), int((u - chart.LEFT) * chart.TEXELS_PER_METRE)
+    row, column = (
+        int((chart.CHART_TOP - v) * chart.TEXELS_PER_METRE),
+        int((u - chart.CHART_LEFT) * chart.TEXELS_PER_METRE),
+    )
     return field[row - 8 : row + 9, column - 8 : column + 9].mean((0, 1))
 
 
 def test_chart_coordinates_are_metres_along_the_cylinder() -> None:
     point = np.array([[0.1 * np.sin(0.3), 0.8, chart.AXIS_DEPTH + 0.1 * np.cos(0.3)]])
     np.testing.assert_allclose(chart.coordinates(point), [[0.03, 0.8]], atol=1e-6)
-    corners = np.array([[chart.LEFT, chart.TOP], [chart.RIGHT, chart.BOTTOM]])
+    corners = np.array([[chart.CHART_LEFT, chart.CHART_TOP], [chart.CHART_RIGHT, chart.CHART_BOTTOM]])
     np.testing.assert_allclose(chart.texture_coordinates(corners), [[0, 0], [1, 1]], atol=1e-6)
 
 
@@ -82,8 +85,8 @@ def test_units_press_in_their_own_furrows(
 ) -> None:
     relief = wrinkle_relief(wrinkles, units) - wrinkle_relief(wrinkles, {})
     row, column = (
-        int((chart.TOP - place[1]) * chart.TEXELS_PER_METRE),
-        int((place[0] - chart.LEFT) * chart.TEXELS_PER_METRE),
+        int((chart.CHART_TOP - place[1]) * chart.TEXELS_PER_METRE),
+        int((place[0] - chart.CHART_LEFT) * chart.TEXELS_PER_METRE),
     )
     assert relief[row - 3 : row + 4, column - 3 : column + 4].min() < -1.5e-4
     assert np.isfinite(relief).all()

@@ -19,7 +19,7 @@ from engine.media.video import probe_video, read_video
 from engine.perception.faces import FaceTracker
 from engine.perception.head_pose import head_pose
 from engine.performances import catalogue, names, performance, poster, video
-from engine.performances.catalogue import FPS, POSTER_SIDE
+from engine.performances.catalogue import FPS, POSTER_SIDE_PIXELS
 from engine.performances.scores.score import SCORES
 
 MEBIBYTE = 2**20
@@ -116,9 +116,9 @@ def test_the_videos_are_what_the_catalogue_says() -> None:
 @pytest.mark.parametrize("name", names())
 def test_the_poster_is_a_frame_of_the_video(name: str) -> None:
     frame = next(islice(read_video(video(name)), performance(name).poster_frame, None)).rgb
-    small = cv2.resize(frame, (POSTER_SIDE, POSTER_SIDE), interpolation=cv2.INTER_AREA)
+    small = cv2.resize(frame, (POSTER_SIDE_PIXELS, POSTER_SIDE_PIXELS), interpolation=cv2.INTER_AREA)
     picture = read_image(poster(name)).rgb
-    assert picture.shape == (POSTER_SIDE, POSTER_SIDE, 3)
+    assert picture.shape == (POSTER_SIDE_PIXELS, POSTER_SIDE_PIXELS, 3)
     assert np.abs(picture.astype(float) - small).mean() < 2.5  # JPEG
     assert poster(name).stat().st_size < 30_000
 

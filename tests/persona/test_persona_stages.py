@@ -13,7 +13,7 @@ from engine.errors import InputError
 from engine.media.image import write_image
 from engine.media.limits import Limits
 from engine.perception.identity.descriptor import IdentityDistances
-from engine.perception.identity.dlib_descriptor import DISTANCES
+from engine.perception.identity.dlib_descriptor import IDENTITY_DISTANCES
 from engine.persona.collection.photo_face import PhotoFace
 from engine.persona.collection.photos import Photos, read_photos
 from engine.persona.collection.sorting import Choice
@@ -64,7 +64,7 @@ def test_what_is_no_photograph_is_skipped_and_listed(collection: Collection, pho
 
 
 def test_the_stranger_is_told_and_the_person_is_kept(photos: Photos, found: PhotoFaces) -> None:
-    sorted_ = sort_faces(found, DISTANCES, Choice(), None)
+    sorted_ = sort_faces(found, IDENTITY_DISTANCES, Choice(), None)
     reasons = dict(zip((face.photo for face in sorted_.faces), sorted_.reasons, strict=True))
     assert reasons[12] == "somebody_else"
     assert len(sorted_.kept) >= MIN_PHOTOS
@@ -75,14 +75,14 @@ def test_the_stranger_is_told_and_the_person_is_kept(photos: Photos, found: Phot
 def test_an_example_chooses_whose_persona_it_is(found: PhotoFaces) -> None:
     stranger = [face.photo for face in found.faces].index(12)
     with pytest.raises(InputError) as error:
-        sort_faces(found, DISTANCES, Choice(), stranger)
+        sort_faces(found, IDENTITY_DISTANCES, Choice(), stranger)
     assert error.value.code == "no_common_person", "she is there once"
 
 
 def test_too_few_say_how_many_more_and_why(found: PhotoFaces) -> None:
     leave_out = set(range(len(found.faces) - 9))
     with pytest.raises(InputError) as error:
-        sort_faces(found, DISTANCES, Choice(leave_out=leave_out), None).require_enough()
+        sort_faces(found, IDENTITY_DISTANCES, Choice(leave_out=leave_out), None).require_enough()
     assert error.value.code == "too_few_photos"
     assert "were left out" in error.value.detail and "more" in error.value.detail
 
@@ -90,7 +90,7 @@ def test_too_few_say_how_many_more_and_why(found: PhotoFaces) -> None:
 def test_a_collection_in_profile_is_told_so(found: PhotoFaces) -> None:
     sides = [65.0 if number % 2 else -50.0 for number in range(len(found.faces))]
     turned = [replace(face, yaw=yaw) for face, yaw in zip(found.faces, sides, strict=True)]
-    chosen = sort_faces(PhotoFaces(tuple(turned)), DISTANCES, Choice(), None)
+    chosen = sort_faces(PhotoFaces(tuple(turned)), IDENTITY_DISTANCES, Choice(), None)
     assert not chosen.kept and chosen.left_out["turned"] >= MIN_PHOTOS
     with pytest.raises(InputError) as error:
         chosen.require_enough()
@@ -100,7 +100,7 @@ def test_a_collection_in_profile_is_told_so(found: PhotoFaces) -> None:
 
 
 def test_what_is_left_out_is_counted_by_its_reason(found: PhotoFaces) -> None:
-    chosen = sort_faces(found, DISTANCES, Choice(leave_out={0, 1}), None)
+    chosen = sort_faces(found, IDENTITY_DISTANCES, Choice(leave_out={0, 1}), None)
     assert chosen.left_out["left_out"] == 2 and chosen.left_out["somebody_else"] == 1
     assert sum(chosen.left_out.values()) + len(chosen.kept) == len(chosen.faces)
 
@@ -108,13 +108,13 @@ def test_what_is_left_out_is_counted_by_its_reason(found: PhotoFaces) -> None:
 def test_what_lacks_is_told(found: PhotoFaces) -> None:
     leave_out = set(range(len(found.faces) - 9))
     with pytest.raises(InputError, match=r"show little of: .*pursed lips \(none\)"):
-        sort_faces(found, DISTANCES, Choice(leave_out=leave_out), None).require_enough()
+        sort_faces(found, IDENTITY_DISTANCES, Choice(leave_out=leave_out), None).require_enough()
 
 
 def test_a_look_that_is_not_there_is_refused(found: PhotoFaces) -> None:
-    assert sort_faces(found, DISTANCES, Choice(look=0), None).reasons.count("other_look") == 0
+    assert sort_faces(found, IDENTITY_DISTANCES, Choice(look=0), None).reasons.count("other_look") == 0
     with pytest.raises(InputError) as error:
-        sort_faces(found, DISTANCES, Choice(look=1), None)
+        sort_faces(found, IDENTITY_DISTANCES, Choice(look=1), None)
     assert (error.value.code, error.value.correctable) == ("look_unknown", ("look",))
 
 
@@ -134,7 +134,7 @@ def test_of_two_looks_one_is_used(found: PhotoFaces) -> None:
 
 
 def test_faces_that_were_not_used_are_covered(found: PhotoFaces) -> None:
-    chosen = sort_faces(found, DISTANCES, Choice(), None)
+    chosen = sort_faces(found, IDENTITY_DISTANCES, Choice(), None)
     used = np.arange(len(chosen.kept)) != 2
     after = chosen.without_covered(used)
     assert after.kept == [face for face, one in zip(chosen.kept, used, strict=True) if one]
@@ -150,5 +150,5 @@ def test_photos_without_anybody_are_refused(tmp_path: Path) -> None:
     write_image(tmp_path / "sky.png", np.full((200, 300, 3), (90, 140, 220), np.uint8))
     nobody = find_faces_of_photos(read_photos([tmp_path / "sky.png"], Limits()), "dlib", lambda fraction: None)
     with pytest.raises(InputError) as error:
-        sort_faces(nobody, DISTANCES, Choice(), None)
+        sort_faces(nobody, IDENTITY_DISTANCES, Choice(), None)
     assert error.value.code == "no_common_person"

@@ -21,7 +21,7 @@ from engine.perception.faces import find_faces
 from engine.perception.landmarks import eye_distance, eye_opening, fiducials, mouth_opening
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import (
-    MAX_PICTURE_SIDE,
+    MAX_PICTURE_SIDE_PIXELS,
     MAX_TARGET_TURN_DEGREES,
     MIN_EYE_DISTANCE_PIXELS,
     TargetFace,
@@ -231,7 +231,7 @@ def test_a_large_picture_is_brought_to_the_default_limit_with_even_sides(woman: 
     picture = cv2.resize(read_image(woman).rgb, (2401, 2001), interpolation=cv2.INTER_LINEAR)
     write_image(tmp_path / "large.jpg", picture)
     target = find(tmp_path / "large.jpg")
-    assert target.rgb.shape == (1600, MAX_PICTURE_SIDE, 3)
+    assert target.rgb.shape == (1600, MAX_PICTURE_SIDE_PIXELS, 3)
 
 
 @pytest.mark.parametrize(("side", "even"), [((321, 301), (320, 300)), ((320, 299), (320, 300))])

@@ -23,7 +23,7 @@ from engine.render.character import (
     film_cast,
     prepare_character,
 )
-from engine.render.ground_shadow import CELL_METRES, GroundShadow, shadow_map
+from engine.render.ground_shadow import SHADOW_CELL_METRES, GroundShadow, shadow_map
 
 ONE = Skeleton(("Hips",), np.array([-1], np.int32), np.zeros((1, 3), np.float32))
 FLAT = Camera(eye=(0, 0, 2.0), focal=64, centre=(31.5, 31.5), size=(64, 64))
@@ -151,7 +151,7 @@ def test_the_shadow_is_dark_under_what_touches_the_ground_and_fades_with_height(
     densities = []
     for height in (0.0, 0.2, 1.0):
         density, corner = shadow_map(lying + np.array([0, height, 0], np.float32), faces, GroundShadow())
-        middle = ((0 - corner) / CELL_METRES).astype(int)
+        middle = ((0 - corner) / SHADOW_CELL_METRES).astype(int)
         densities.append(density[middle[1], middle[0]])
         assert density[0].max() < 0.02 and density[:, -1].max() < 0.02
     assert densities[0] > 0.95 and densities[0] > densities[1] > densities[2]
@@ -164,7 +164,10 @@ def test_a_slanted_light_throws_the_shadow_the_other_way() -> None:
     light = GroundShadow(reach=np.inf, light=(-1.0, 1.0, 0.0))
     density, corner = shadow_map(lying, faces, light)
     rows, columns = np.mgrid[: density.shape[0], : density.shape[1]]
-    place = [(density * index).sum() / density.sum() * CELL_METRES + CELL_METRES / 2 for index in (columns, rows)]
+    place = [
+        (density * index).sum() / density.sum() * SHADOW_CELL_METRES + SHADOW_CELL_METRES / 2
+        for index in (columns, rows)
+    ]
     np.testing.assert_allclose(corner + place, [1, 0], atol=0.01)
 
 

@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
-from engine.render.rasteriser import MAX_COORDINATE, SUBPIXEL_STEPS, depth_map, rasterise
+from engine.render.rasteriser import MAX_COORDINATE_PIXELS, SUBPIXEL_STEPS, depth_map, rasterise
 
 
 def reference(vertices: NDArray, triangles: NDArray, size: tuple[int, int], cull: bool = False):
@@ -103,7 +103,7 @@ def test_perspective_depth_is_that_of_the_plane() -> None:
 
 def test_triangles_behind_the_eye_or_out_of_reach_are_left_out() -> None:
     behind = np.array([[0, 0, -1], [9, 0, 2], [0, 9, 2]], np.float32)
-    far_out = np.array([[0, 0, 1], [MAX_COORDINATE * 2, 0, 1], [0, 9, 1]], np.float32)
+    far_out = np.array([[0, 0, 1], [MAX_COORDINATE_PIXELS * 2, 0, 1], [0, 9, 1]], np.float32)
     lost = np.array([[0, 0, 1], [np.nan, 0, 1], [0, 9, 1]], np.float32)
     face = np.array([[0, 1, 2]])
     assert (rasterise(behind, face, (8, 8), perspective=True).triangle == -1).all()

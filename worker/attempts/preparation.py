@@ -16,7 +16,7 @@ from service.files import analyses
 from service.files import repository as files
 from service.job_records import artifacts
 from service.jobs.leases import Lease
-from service.settings import MEGABYTE
+from service.settings import BYTES_PER_MEGABYTE
 from service.tables.jobs import Job
 from worker.job_files.fetch import FetchFailed
 from worker.job_files.mirror import Mirror
@@ -85,7 +85,7 @@ def prepare(
         "shared": str(shared),
         "mark_synthetic": context.settings.mark_synthetic,
         "limits": asdict(context.settings.limits),
-        "memory_bytes": int(allowance.memory_mb * MEGABYTE),
+        "memory_bytes": int(allowance.memory_mb * BYTES_PER_MEGABYTE),
         "cores": allowance.cores,
     }
 

@@ -17,8 +17,8 @@ from service.job_records import jobs as repository
 from service.jobs import leases
 from service.tables.jobs import Job, Status
 
-STAGE = "prepare_engine"
-MESSAGE = "The engine is getting ready: this happens once and takes a few minutes."
+PREPARING_STAGE = "prepare_engine"
+PREPARING_MESSAGE = "The engine is getting ready: this happens once and takes a few minutes."
 LOOK_SECONDS = 1.0
 """How often is looked for jobs that wait; a worker that is ready takes one sooner."""
 
@@ -55,7 +55,7 @@ def _announce(context: Context, kinds: Sequence[str]) -> None:
         counts = repository.count_by_kind_and_status(session)
         idle = [kind for kind in kinds if not counts.get((kind, Status.RUNNING))]
         untold = [job for kind in idle for job in repository.queued(session, kind, LOOK_SECONDS) if not _told(job)]
-    _note(context, untold, STAGE, MESSAGE)
+    _note(context, untold, PREPARING_STAGE, PREPARING_MESSAGE)
 
 
 def take_back(context: Context, kinds: Sequence[str]) -> None:
@@ -78,7 +78,7 @@ def _try(change: Callable[[Context, Sequence[str]], None], context: Context, kin
 
 
 def _told(job: Job) -> bool:
-    return job.progress.get("stage") == STAGE
+    return job.progress.get("stage") == PREPARING_STAGE
 
 
 def _note(context: Context, jobs: Sequence[Job], stage: str | None, message: str) -> None:

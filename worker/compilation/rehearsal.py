@@ -36,7 +36,7 @@ from worker.programs.interpreter import module_command, module_environment
 from worker.programs.niceness import lower_priority
 from worker.programs.parent_death import tied_command
 
-NAME = "rehearsed"
+REHEARSAL_MARK = "rehearsed"
 FORGOTTEN_SECONDS = 90 * 24 * 3600.0
 """Seconds after which what was compiled is thrown away; compiled again it is there again."""
 
@@ -89,7 +89,7 @@ def load_compiled(kinds: Iterable[str]) -> None:
 
 def _mark(kind: str, state: str) -> Path:
     """The file that says that it was done for a kind and this state of the engine on this machine."""
-    return _folder(Path(engine.__file__).parent) / f"{NAME}-{kind}-{state}"
+    return _folder(Path(engine.__file__).parent) / f"{REHEARSAL_MARK}-{kind}-{state}"
 
 
 def _state() -> str:
@@ -123,7 +123,7 @@ def main() -> None:
     draft = mark.with_suffix(f".{os.getpid()}")
     draft.write_bytes(pickle.dumps(_compiled()))
     draft.rename(mark)
-    for other in mark.parent.glob(f"{NAME}-*"):  # of an engine that is no more
+    for other in mark.parent.glob(f"{REHEARSAL_MARK}-*"):  # of an engine that is no more
         if other.stat().st_mtime < time.time() - FORGOTTEN_SECONDS:
             other.unlink(missing_ok=True)
 

@@ -22,7 +22,7 @@ from service.files.admission import HEAD_BYTES, largest_mb, recognise, shown_nam
 from service.outbound.address import AddressRefused, require_callable
 from service.outbound.client import client
 from service.problems import Problem
-from service.settings import MEGABYTE, Settings
+from service.settings import BYTES_PER_MEGABYTE, Settings
 
 MAX_REDIRECTS = 5
 CONNECT_SECONDS = 10.0
@@ -149,7 +149,7 @@ def _recognise(path: Path, flush: Callable[[], None], name: str) -> str:
 
 
 def _require_size(limit_mb: float, size: int) -> None:
-    if size > limit_mb * MEGABYTE:
+    if size > limit_mb * BYTES_PER_MEGABYTE:
         raise FetchFailed(
             "input_url_too_large",
             f"What lies at the address is larger than {limit_mb:g} MB, the most that is accepted.",

@@ -17,7 +17,7 @@ from service.jobs import leases
 from service.jobs.inputs import ValueRefused, require_media
 from service.jobs.leases import Lease
 from service.problems import Problem
-from service.settings import MEGABYTE
+from service.settings import BYTES_PER_MEGABYTE
 from service.tables.files import File
 from service.tables.jobs import Job, JobFile
 from worker.job_files.fetch import Fetched, FetchFailed, FetchStopped, fetch
@@ -75,8 +75,8 @@ class RunningFetch:
     def message(self) -> str:
         """How far it is, for people; the address itself may hold secrets, and stays out of it."""
         come, announced = self._come
-        of = f" of {announced / MEGABYTE:.1f}" if announced else ""
-        return f"{come / MEGABYTE:.1f}{of} MB from {urlsplit(self.url).hostname}"
+        of = f" of {announced / BYTES_PER_MEGABYTE:.1f}" if announced else ""
+        return f"{come / BYTES_PER_MEGABYTE:.1f}{of} MB from {urlsplit(self.url).hostname}"
 
 
 def keep(context: Context, job: Job, lease: Lease, url: str, fetched: Fetched) -> dict[str, Any] | None:

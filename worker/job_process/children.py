@@ -19,7 +19,7 @@ from typing import Any
 import structlog
 
 from engine.perception.models import MODEL_SETTINGS
-from service.settings import MEGABYTE, Settings
+from service.settings import BYTES_PER_MEGABYTE, Settings
 from worker.programs.interpreter import module_command, module_environment
 from worker.programs.niceness import lower_priority
 from worker.sandbox.confinement import Limits
@@ -134,7 +134,7 @@ class Child:
                 _, resident, shared = statm.read().split()[:3]
         except (OSError, ValueError):
             return 0.0
-        return (int(resident) - int(shared)) * PAGE_BYTES / MEGABYTE
+        return (int(resident) - int(shared)) * PAGE_BYTES / BYTES_PER_MEGABYTE
 
     def log_tail(self, size: int = 4000) -> str:
         """The last of what it printed, and forget it."""
@@ -274,8 +274,8 @@ def _state(process: int) -> str | None:
 def process_limits(settings: Settings, user: int | None) -> Limits:
     """What the settings bound of a job's process."""
     return Limits(
-        memory_bytes=int(settings.job_memory_mb * MEGABYTE),
-        file_bytes=int(settings.job_file_mb * MEGABYTE),
+        memory_bytes=int(settings.job_memory_mb * BYTES_PER_MEGABYTE),
+        file_bytes=int(settings.job_file_mb * BYTES_PER_MEGABYTE),
         cpu_seconds=int(settings.job_cpu_seconds),
         user=user,
     )

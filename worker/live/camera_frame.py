@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-FORMATS = ("JPEG", "WEBP")
-MIN_SIDE = 64
+FRAME_FORMATS = ("JPEG", "WEBP")
+MIN_CAMERA_SIDE_PIXELS = 64
 """Pixels: in less no face is followed."""
 
 
@@ -21,11 +21,11 @@ class UnreadableFrame(Exception):
 def read_frame(data: bytes, most_pixels: int) -> NDArray[np.uint8]:
     """The frame (H, W, 3), RGB. Raises `UnreadableFrame`."""
     try:
-        with Image.open(BytesIO(data), formats=FORMATS) as picture:
+        with Image.open(BytesIO(data), formats=FRAME_FORMATS) as picture:
             width, height = picture.size
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise UnreadableFrame("no picture") from error
-    if width * height > most_pixels or min(width, height) < MIN_SIDE:
+    if width * height > most_pixels or min(width, height) < MIN_CAMERA_SIDE_PIXELS:
         raise UnreadableFrame("no such size")
     bgr = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION)
     if bgr is None or bgr.shape[:2] != (height, width):

@@ -21,7 +21,7 @@ from engine.portrait import KIND
 from engine.portrait.live.live_portrait import LivePortrait, prepare_live
 from engine.portrait.live.options import LiveOptions
 from engine.run import Run
-from service.live.process import EVENT
+from service.live.process import EVENT_TAG
 from worker.compilation.rehearsal import compiled_folders, load_compiled
 from worker.job_process.child import compile_without_keeping
 from worker.live.stream import LiveStream
@@ -38,10 +38,10 @@ def perform(order: Mapping[str, Any], wire: Wire) -> None:
             target = prepare_live(Path(order["image"]), options, run)
     except InputError as error:
         failed = {"event": "failed", "code": error.code, "detail": error.detail}
-        wire.send(EVENT, json.dumps(failed).encode())
+        wire.send(EVENT_TAG, json.dumps(failed).encode())
         return
     with LivePortrait(target, options) as portrait:
-        wire.send(EVENT, json.dumps({"event": "calibrating", "fraction": 0.0, "obstacle": None}).encode())
+        wire.send(EVENT_TAG, json.dumps({"event": "calibrating", "fraction": 0.0, "obstacle": None}).encode())
         LiveStream(wire, portrait, order["frame_pixels"], order["mark_synthetic"]).run()
 
 

@@ -15,7 +15,7 @@ import cv2
 
 from engine.export.synthetic import marked_jpeg
 from engine.portrait.live.live_portrait import LivePortrait, Watched
-from service.live.process import COMMAND, EVENT, FRAME
+from service.live.process import COMMAND_TAG, EVENT_TAG, FRAME_TAG
 from worker.live.camera_frame import UnreadableFrame, read_frame
 from worker.live.newest import Newest
 from worker.live.wire import Wire
@@ -39,9 +39,9 @@ class LiveStream:
         threads = [self._thread(self._look), self._thread(self._draw)]
         while (message := self._wire.receive()) is not None:
             kind, data = message
-            if kind == FRAME:
+            if kind == FRAME_TAG:
                 self._frames.put((time.monotonic(), data))
-            elif kind == COMMAND:
+            elif kind == COMMAND_TAG:
                 self._again.set()
         self._frames.close()
         self._drawn.close()
@@ -62,7 +62,7 @@ class LiveStream:
         return thread
 
     def _fail(self, code: str) -> None:
-        self._wire.send(EVENT, json.dumps({"event": "failed", "code": code, "detail": ""}).encode())
+        self._wire.send(EVENT_TAG, json.dumps({"event": "failed", "code": code, "detail": ""}).encode())
 
     def _look(self) -> None:
         while (frame := self._frames.take()) is not None:
@@ -81,7 +81,7 @@ class LiveStream:
             done, jpeg = cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])
             assert done
             data = jpeg.tobytes()
-            self._wire.send(FRAME, number + (marked_jpeg(data) if self._mark else data))
+            self._wire.send(FRAME_TAG, number + (marked_jpeg(data) if self._mark else data))
 
     def _tell(self, watched: Watched) -> None:
         """Say what changed."""
@@ -90,4 +90,4 @@ class LiveStream:
             event |= {"fraction": round(watched.fraction, 1), "obstacle": watched.obstacle}
         if event != self._told:
             self._told = event
-            self._wire.send(EVENT, json.dumps(event).encode())
+            self._wire.send(EVENT_TAG, json.dumps(event).encode())

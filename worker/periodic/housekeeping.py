@@ -23,7 +23,7 @@ from service.jobs.service import delete
 from service.jobs.stages import STAGES_PREFIX
 from service.links import repository as links
 from service.problems import Problem
-from service.settings import MEGABYTE
+from service.settings import BYTES_PER_MEGABYTE
 from service.uploads import repository as uploads
 from service.uploads import spool
 from service.webhooks import repository as webhooks
@@ -46,7 +46,7 @@ def keep_house(context: Context) -> None:
     analyses.erase_unneeded(context, analyses.stored_analyses(context.settings))
     erase_expired_uploads(context)
     erase_orphans(context)
-    trim((context.settings.data_dir / "cache").glob("*/*"), context.settings.cache_mb * MEGABYTE)
+    trim((context.settings.data_dir / "cache").glob("*/*"), context.settings.cache_mb * BYTES_PER_MEGABYTE)
     context.database.tidy()
 
 

@@ -30,7 +30,7 @@ OF_THE_SYSTEM = (
     *("/usr", "/lib", "/lib64", "/etc/ld.so.cache", "/etc/localtime", "/etc/fonts", "/sys/devices/system/cpu"),
     *("/sys/devices/system/node", "/proc/self", "/proc/cpuinfo", "/proc/meminfo", "/proc/stat", "/proc/sys/vm"),
 )
-DEVICES = ("/dev/null", "/dev/zero", "/dev/urandom", "/dev/random")
+ALLOWED_DEVICES = ("/dev/null", "/dev/zero", "/dev/urandom", "/dev/random")
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def confine(parent: int, limits: Limits, readable: Iterable[Path], changeable: I
     files_kept = landlock.version() > 0
     if files_kept:
         system = [Path(path) for path in OF_THE_SYSTEM]
-        landlock.restrict([*system, *readable], [*map(Path, DEVICES), *changeable])
+        landlock.restrict([*system, *readable], [*map(Path, ALLOWED_DEVICES), *changeable])
     if os.geteuid() == 0:
         _step_down(limits.user if files_kept else None)
     die_with_parent(parent)  # a change of user would undo it

@@ -24,7 +24,7 @@ REMOVE_AND_MAKE_PLAIN = 1 << 4 | 1 << 5 | 1 << 7 | 1 << 8
 REFER = 1 << 13
 RIGHTS_SINCE = {1: (1 << 13) - 1, 2: REFER, 3: TRUNCATE, 5: IOCTL_DEV}
 TCP_SINCE, TCP = 4, 0b11
-SCOPES_SINCE, SCOPES = 6, 0b11
+SCOPES_SINCE, SCOPE_RULES = 6, 0b11
 """Abstract sockets and signals of processes outside."""
 
 READ = READ_FILE | READ_DIR
@@ -51,7 +51,7 @@ def restrict(readable: Iterable[Path], changeable: Iterable[Path]) -> None:
     `changeable`. Needs `no_new_privs`. What is not there is passed over. Raises OSError."""
     offered = version()
     handled = sum(rights for since, rights in RIGHTS_SINCE.items() if since <= offered)
-    rules = _Ruleset(handled, TCP if offered >= TCP_SINCE else 0, SCOPES if offered >= SCOPES_SINCE else 0)
+    rules = _Ruleset(handled, TCP if offered >= TCP_SINCE else 0, SCOPE_RULES if offered >= SCOPES_SINCE else 0)
     size = 24 if offered >= SCOPES_SINCE else 16 if offered >= TCP_SINCE else 8
     ruleset = _checked(_libc().syscall(CREATE_RULESET, ctypes.byref(rules), ctypes.c_size_t(size), 0))
     try:

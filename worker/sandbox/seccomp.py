@@ -25,7 +25,7 @@ LOAD, IF_EQUAL, IF_AT_LEAST, IF_ANY_BIT, RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
 NUMBER, ARCHITECTURE, FIRST_ARGUMENT = 0, 4, 16
 CLONE_THREAD = 0x10000
 
-REFUSED = {
+REFUSED_CALLS = {
     "socket": 41,
     "fork": 57, "vfork": 58, "execve": 59, "execveat": 322,
     "ptrace": 101, "process_vm_readv": 310, "process_vm_writev": 311, "pidfd_open": 434, "pidfd_getfd": 438,
@@ -73,7 +73,7 @@ def _program(process: int) -> Sequence[bytes]:
         _step(IF_AT_LEAST, X32, 0, 1),
         _step(RETURN, ERRNO | EPERM),
     ]
-    for number in REFUSED.values():
+    for number in REFUSED_CALLS.values():
         steps += refused_if(number)
     steps += refused_if(CLONE3, ENOSYS)  # its flags lie in memory; the C library then takes the older call
     steps += [

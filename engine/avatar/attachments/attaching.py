@@ -16,7 +16,7 @@ from engine.avatar.attachments.standing_off import pieces_standing_off
 from engine.avatar.attachments.thick_sheet import thick_sheet
 from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
-from engine.avatar.options import ATTACHED_TRIANGLES
+from engine.avatar.options import MAX_ATTACHED_TRIANGLES
 from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.template_skin.skin import grown
 from engine.avatar.worn import Attachments, no_attachments
@@ -27,11 +27,11 @@ from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
 
 MAX_PIECES = 6
 """Pieces, the largest first."""
-TRIANGLE_AREA = 3e-5
+MIN_TRIANGLE_SQUARE_METRES = 3e-5
 """Square metres of a triangle, where that makes no more of them."""
-UNWRAPPED_SIZE = 1024
+UNWRAPPED_SIZE_TEXELS = 1024
 """Texels of the texture for which pieces are unfolded, before they are placed."""
-ABOVE_BROWS = 0.015
+FREE_ABOVE_BROWS_METRES = 0.015
 """Metres above the brows up to which a face is free of what does not clearly stand off: hats sit higher."""
 OWN_RINGS = 8
 """Rings of vertices around hands and feet, which have models of their own, on which nothing is worn: wrists and ankles."""
@@ -43,7 +43,7 @@ def body_surface(human: HumanModels, vertices: NDArray[np.float64]) -> BodySurfa
     skin = human.skin
     own = vertices[skin.vertices]
     brows = own[skin.face_points[17:27], 1].max()
-    face = skin.regions["face"] & (own[:, 1] < brows + ABOVE_BROWS)
+    face = skin.regions["face"] & (own[:, 1] < brows + FREE_ABOVE_BROWS_METRES)
     modelled = grown(skin.regions["hands"] | skin.regions["feet"], skin.triangles, OWN_RINGS)
     return BodySurface(own, skin.triangles, modelled, face)
 
@@ -76,7 +76,7 @@ def attachments(human: HumanModels, vertices: NDArray[np.float64], seen: Sightin
     if not meshes:
         return no_attachments()
     areas = [seen_area(mesh, body) for mesh in meshes]
-    density = min(1 / TRIANGLE_AREA, ATTACHED_TRIANGLES / sum(areas))
+    density = min(1 / MIN_TRIANGLE_SQUARE_METRES, MAX_ATTACHED_TRIANGLES / sum(areas))
     meshes = [simplified(mesh, body, int(area * density)) for mesh, area in zip(meshes, areas, strict=True)]
     moved = [influences(*mesh, body, _joint_weights(human), _head(human)) for mesh in meshes]
     whole = _joined(meshes)
@@ -113,7 +113,7 @@ def _placed(human: HumanModels, vertices: NDArray[np.float64], mesh: Mesh) -> Te
     faces = template.faces(*AVATAR_PARTS)
     taken = atlas_from_uv(avatar_uv(template), triangulate(template.uv_quads[faces]))
     skin = template.faces("body")
-    own, _ = unwrap(*mesh, UNWRAPPED_SIZE)
+    own, _ = unwrap(*mesh, UNWRAPPED_SIZE_TEXELS)
     skin_uv = atlas_from_uv(avatar_uv(template), triangulate(template.uv_quads[skin]))
     fineness = _fineness(skin_uv, vertices, triangulate(template.quads[skin])) / _fineness(own, *mesh)
     return placed_between(cells_of(taken), own, fineness)

@@ -18,9 +18,9 @@ FAIRING_ROUNDS = 50
 """Rounds of fairing."""
 MIN_PIECE_SQUARE_METRES = 0.015
 """Square metres of a piece's surface, both its sides: less is no hat and no tail."""
-HIDDEN_DEPTH = 0.003
+HIDDEN_DEPTH_METRES = 0.003
 """Metres within the skin from which on nothing is seen of a piece."""
-HIDDEN_IMPORTANCE = 0.02
+HIDDEN_TRIANGLE_WEIGHT = 0.02
 """Of what is hidden there, against the rest, when triangles are taken."""
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.int32]]
@@ -54,8 +54,8 @@ def simplified(mesh: Mesh, body: BodySurface, triangles: int) -> Mesh:
         weights=np.tile(np.array([1, 0, 0, 0], np.float32), (count, 1)),
         texture=np.zeros((1, 1, 3), np.uint8),
     )
-    hidden = body.distances(vertices) < -HIDDEN_DEPTH
-    fewer = decimate(whole, triangles, np.where(hidden, HIDDEN_IMPORTANCE, 1.0)).mesh
+    hidden = body.distances(vertices) < -HIDDEN_DEPTH_METRES
+    fewer = decimate(whole, triangles, np.where(hidden, HIDDEN_TRIANGLE_WEIGHT, 1.0)).mesh
     left = fewer.vertices.astype(np.float64)
     found = _largest(left, fewer.triangles[_seen(left, fewer.triangles, body)])
     assert found is not None, "a piece that silhouettes confirm is seen"
@@ -64,7 +64,7 @@ def simplified(mesh: Mesh, body: BodySurface, triangles: int) -> Mesh:
 
 def _seen(vertices: NDArray[np.float64], triangles: NDArray[np.int32], body: BodySurface) -> NDArray[np.bool_]:
     """(T,) which triangles have their middle outside of the skin, or nearly so."""
-    return body.distances(vertices[triangles].mean(1)) > -HIDDEN_DEPTH
+    return body.distances(vertices[triangles].mean(1)) > -HIDDEN_DEPTH_METRES
 
 
 def _largest(vertices: NDArray[np.float64], triangles: NDArray[np.int32]) -> Mesh | None:

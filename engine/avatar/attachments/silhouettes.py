@@ -17,9 +17,9 @@ from engine.render.rasteriser import rasterise
 MAX_MISSED_SILHOUETTES_SHARE = 0.3
 """Share of the silhouettes beside the body that may leave out what is there: thin things are seen edge-on in some, and the person
 sways."""
-BESIDE_DISTANCE = 0.006
+BESIDE_BODY_METRES = 0.006
 """Metres from the body's outline at which something is beside it."""
-BESIDE_VIEWS, BESIDE_SHARE = 4, 0.7
+MIN_BESIDE_VIEWS, BESIDE_SHARE = 4, 0.7
 """Views that show a surface beside the body, at least, and the share of its pixels there that silhouettes have: depth alone is no
 proof."""
 RIM_PIXELS = 2
@@ -41,7 +41,7 @@ class Silhouettes:
         """(N,) metres by which `points` (N, 3) lie within the silhouettes of the views that have them beside the body, but for
         `MAX_MISSED_SILHOUETTES_SHARE` of these, negative outside; and (N,) how many views have them there: +inf where
         none has."""
-        beside = Beside(self.bare, BESIDE_DISTANCE)
+        beside = Beside(self.bare, BESIDE_BODY_METRES)
         return silhouette_depths(points, self.masks, self.cameras, MAX_MISSED_SILHOUETTES_SHARE, beside)
 
     def confirm(self, vertices: NDArray[np.floating], triangles: NDArray[np.int32]) -> bool:
@@ -55,7 +55,7 @@ class Silhouettes:
             views += int(more.sum() > MIN_ADDED_SHARE * own.sum())
             added += int(more.sum())
             within += int((more & mask).sum())
-        return views >= BESIDE_VIEWS and within >= BESIDE_SHARE * added
+        return views >= MIN_BESIDE_VIEWS and within >= BESIDE_SHARE * added
 
 
 def silhouettes_beside(body: BodySurface, masks: Sequence[NDArray[np.bool_]], cameras: Sequence[Camera]) -> Silhouettes:

@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree
 
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.avatar.attachments.silhouettes import Silhouettes
-from engine.avatar.attachments.standing_off import FACE_DISTANCE
+from engine.avatar.attachments.standing_off import MIN_FACE_DISTANCE_METRES
 from engine.geometry.iso_surface import iso_surface
 from engine.geometry.point_sheet import PointSheet, sheet_through
 
@@ -22,15 +22,15 @@ GRID_SPACING_METRES = 0.003
 """Metres between the grid's points."""
 SHEET_THICKNESS_METRES = 0.006
 """Metres, as of felt, which is two of them."""
-SHEET_RADIUS, SHEET_ROUNDS, SHEET_SPACING = 0.02, 4, 0.003
+SHEET_RADIUS_METRES, SHEET_ROUNDS, SHEET_SPACING_METRES = 0.02, 4, 0.003
 """Of the sheet through the points: metres about each that make it smooth, rounds, and metres from point to point."""
 SHEET_EXTENSION_METRES = 0.015
 """Metres by which the sheet goes on beyond its points, if silhouettes let it."""
-SILHOUETTE_TOLERANCE_METRES, EXTENT_DOUBT = 0.003, 0.5
+SILHOUETTE_TOLERANCE_METRES, TOLERANCE_LOSS_PER_METRE = 0.003, 0.5
 """Metres by which silhouettes may be too small, and how many of them less where no point is, for each metre from the points."""
 SKIN_COVER_METRES, SKIN_OVERLAP_METRES = 0.0025, 0.006
 """Metres that a piece reaches over the skin where it comes close, so that it is whole, and into it, so that no gap shows."""
-OUTLINE_BLUR, SHEET_BLUR_GRID_POINTS = 2.0, 0.7
+OUTLINE_BLUR_GRID_POINTS, SHEET_BLUR_GRID_POINTS = 2.0, 0.7
 """Grid points of the Gaussians over where the sheet ends, and over all."""
 MAX_FIELD_DISTANCE_METRES = 4 * GRID_SPACING_METRES
 """Metres: the field says no more than that a place is so far off."""
@@ -55,16 +55,16 @@ def thick_sheet(
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """The closed surface, vertices (V, 3) and triangles (T, 3), of what the `points` (N, 3) are of; both empty where they
     make no sheet. What lies between sheet and skin, if nothing leads there, is filled."""
-    sheet = sheet_through(points, SHEET_RADIUS, SHEET_ROUNDS, SHEET_SPACING)
+    sheet = sheet_through(points, SHEET_RADIUS_METRES, SHEET_ROUNDS, SHEET_SPACING_METRES)
     if not len(sheet.points):
         return np.zeros((0, 3)), np.zeros((0, 3), np.int32)
     grid, places = _around(sheet)
     across, along = sheet.distances(places)
     off = body.distances(places)
-    free = np.where(body.before_face(places), off - FACE_DISTANCE, np.inf)
-    room = silhouettes.depths(places)[0] + SILHOUETTE_TOLERANCE_METRES - EXTENT_DOUBT * along
+    free = np.where(body.before_face(places), off - MIN_FACE_DISTANCE_METRES, np.inf)
+    room = silhouettes.depths(places)[0] + SILHOUETTE_TOLERANCE_METRES - TOLERANCE_LOSS_PER_METRE * along
     ends = ndimage.gaussian_filter(
-        grid.spread(np.minimum(np.minimum(SHEET_EXTENSION_METRES - along, room), free)), OUTLINE_BLUR
+        grid.spread(np.minimum(np.minimum(SHEET_EXTENSION_METRES - along, room), free)), OUTLINE_BLUR_GRID_POINTS
     )
     field = np.minimum(grid.spread(np.maximum(SHEET_THICKNESS_METRES / 2 - across, SKIN_COVER_METRES - off)), ends)
     skin = grid.spread(-off) > 0

@@ -22,7 +22,7 @@ VOXEL_SIZE_METRES = 0.008
 KEPT_PIXELS = 1
 """About what the hull shows, which a mask may have beyond it: arms drift, and voxels are coarser than pixels."""
 
-MAX_LOST = 0.1
+MAX_CARVED_SHARE = 0.1
 """Share of a mask: what takes more of it away is a camera or a hull that is wrong, no gap."""
 
 
@@ -47,7 +47,7 @@ def within_hull(masks: Sequence[NDArray[np.bool_]], cameras: Sequence[Camera], t
     for mask, camera, without, own in zip(masks, cameras, straight, flat, strict=True):
         met = depth_range(hull, without, own)[..., 0] > 0
         kept = dilate_mask(_seen_by(met, without, camera), KEPT_PIXELS) | _above(camera, top)
-        lost = np.count_nonzero(mask & ~kept) > MAX_LOST * np.count_nonzero(mask)
+        lost = np.count_nonzero(mask & ~kept) > MAX_CARVED_SHARE * np.count_nonzero(mask)
         out.append(mask if lost else mask & kept)
     return out
 

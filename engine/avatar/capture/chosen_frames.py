@@ -18,15 +18,15 @@ from engine.media.frame_selection import equal_movement, measure_movement, read_
 from engine.media.limits import Limits
 from engine.media.video import Warn
 
-FRAME_QUALITY = 95
+FRAME_JPEG_QUALITY = 95
 """Of the JPEGs in which frames are kept: a third of a megabyte for one of 1080x1920."""
 MAX_MEGAPIXELS_PER_SECOND = 600.0
 """4K at 60 frames a second has 498: phones film so, and only small flows and a few frames are made of it."""
 MIN_CLIP_FRAMES = 12
 """Of a clip of which anything can be made."""
-JUDGED_SIDE = 640
+JUDGED_SIDE_PIXELS = 640
 """Pixels of the longer side at which frames are judged."""
-MIN_BRIGHTNESS = 40.0
+MIN_BRIGHTNESS_GREY_LEVELS = 40.0
 """Grey level that the brightest tenth of a frame's pixels reaches at least."""
 MAX_MEDIAN_FRAME_BLUR = 0.6
 """Of a film's frames, in the median: a sharp picture has 0.3 to 0.4, one of which nothing can be made out close to 1."""
@@ -106,7 +106,7 @@ def choose_frames(
         )
     indices, seconds, judged = [], [], []
     size = (0, 0)
-    with FilmStripWriter(FRAME_QUALITY) as strip:
+    with FilmStripWriter(FRAME_JPEG_QUALITY) as strip:
         selected = equal_movement(movement, count)
         for frame in read_selected(path, selected, wider, lambda fraction: tick(0.6 + 0.4 * fraction), warn):
             strip.write(frame.rgb)
@@ -128,12 +128,14 @@ def choose_frames(
 
 def _light_and_blur(rgb: NDArray[np.uint8]) -> tuple[float, float]:
     """The grey level that nine tenths of a frame's pixels do not pass, and how blurred it is."""
-    small = np.asarray(cv2.cvtColor(resized(rgb, size_within(rgb.shape, JUDGED_SIDE)), cv2.COLOR_RGB2GRAY), np.uint8)
+    small = np.asarray(
+        cv2.cvtColor(resized(rgb, size_within(rgb.shape, JUDGED_SIDE_PIXELS)), cv2.COLOR_RGB2GRAY), np.uint8
+    )
     return float(np.percentile(small, 90)), blur_effect(small)
 
 
 def _refuse_dark_or_blurred(light: float, blur: float, name: str) -> None:
-    if light < MIN_BRIGHTNESS:
+    if light < MIN_BRIGHTNESS_GREY_LEVELS:
         raise InputError(
             "too_dark", f"The clip of the {_spoken(name)} is too dark: film in daylight, or with more lamps.", (name,)
         )

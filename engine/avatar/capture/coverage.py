@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 
 from engine.geometry.point_cloud import PointCloud
 
-COVERED_WITHIN = 0.005
+COVERAGE_RADIUS_METRES = 0.005
 """Metres from a vertex within which a point shows it."""
 
 
@@ -18,7 +18,7 @@ def coverage(
     vertices: NDArray[np.floating],
     parts: Mapping[str, NDArray[np.bool_] | NDArray[np.integer]],
     cloud: PointCloud,
-    near: float = COVERED_WITHIN,
+    near: float = COVERAGE_RADIUS_METRES,
 ) -> dict[str, float]:
     """For each part, vertices chosen by a mask (V,) or by their numbers, the share that has a point of the cloud within `near`.
 

@@ -27,13 +27,13 @@ from engine.geometry.multiview.visual_hull import VisualHull, depth_range, visua
 from engine.geometry.point_cloud import PointCloud, joined, thinning
 from engine.geometry.registration.cloud_alignment import align_to_surface
 
-HULL_SPACING = 0.008
+HULL_SPACING_METRES = 0.008
 """Metres from voxel to voxel."""
-SILHOUETTE_ERROR = 1.5
+SILHOUETTE_ERROR_PIXELS = 1.5
 """Pixels by which segmentation errs, at the size at which stereo works."""
 SIGHT_SUBSAMPLING = 16
 """One of so many points of the hull's surface tells which views share sight."""
-SOURCE_VIEWS, ASKED_VIEWS = 4, 12
+SOURCE_VIEW_COUNT, ASKED_VIEW_COUNT = 4, 12
 """Views that a view is measured against, and those that are asked about its points."""
 ALIGNMENT_ROUNDS = 2
 """Rounds of laying views on the fused cloud."""
@@ -41,27 +41,27 @@ FUSED_STEP = 2
 """Of a view's rows and of its columns one in so many gives points of the cloud: others show the same places."""
 ALIGNMENT_STEP = 3
 """Of a view's rows and of its columns one in so many is fused to the cloud on which views are laid."""
-MAX_ALIGNED_POINTS = 1500
+MAX_ALIGNED_VIEW_POINTS = 1500
 """Points of a view, at most, that are laid on the cloud."""
 ALIGNMENT_GATE_METRES = 0.02
 """Metres within which the cloud's surface is looked for."""
-CLOUD_SPACING = 0.003
+CLOUD_SPACING_METRES = 0.003
 """Metres: of points in one cell so wide one stays."""
-ALIGNMENT_SPACING = 0.006
+ALIGNMENT_SPACING_METRES = 0.006
 """Metres between points of the surface on which views are laid."""
-SMOOTHING_RADIUS = 0.008
+POINT_SMOOTHING_RADIUS_METRES = 0.008
 """Metres about a point whose points smooth it."""
 ALIGNED_COST = 0.5
 """Greatest cost of the measurements by which a view is laid on the cloud."""
-CROP_BORDER = 8
+CROP_BORDER_PIXELS = 8
 """Pixels around the person that are kept."""
 STEREO_SHARE = 0.9
 """Share of the stage's time that stereo takes."""
-NEIGHBOUR_RADIUS_METRES, MIN_NEIGHBOURS = 0.012, 6
+SURFACE_NEIGHBOUR_METRES, MIN_SURFACE_NEIGHBOURS = 0.012, 6
 """Metres within which a point of the surface has so many others."""
-RIM_GAP = 0.015
+RIM_GAP_METRES = 0.015
 """Metres around a point of a silhouette's rim in which stereo found nothing."""
-RIM_RADIUS, RIM_CROWD = 0.01, 3
+RIM_RADIUS_METRES, MIN_RIM_CONFIRMATIONS = 0.01, 3
 """Metres within which so many others confirm it, and from one that is taken to the next."""
 PIECE_GAP_METRES, PIECE_SHARE = 0.02, 0.01
 """Metres that part pieces, and what a piece must have of the largest one's points."""
@@ -92,13 +92,13 @@ def dense_cloud(
     straight = _cropped([view.undistorted() for view in views])
     cameras = [view.camera for view in straight]
     try:
-        hull = visual_hull([view.figure for view in straight], cameras, HULL_SPACING, SILHOUETTE_ERROR)
+        hull = visual_hull([view.figure for view in straight], cameras, HULL_SPACING_METRES, SILHOUETTE_ERROR_PIXELS)
     except ValueError as error:
         raise _not_measured() from error
     shared = shared_sight(cameras, *(part[::SIGHT_SUBSAMPLING] for part in hull.surface()))
     centre = hull.box().mean(axis=0)
-    sources = chosen_sources(shared, cameras, centre, SOURCE_VIEWS)
-    asked = [[int(v) for v in np.argsort(-row)[:ASKED_VIEWS] if row[v] > 0] for row in shared]
+    sources = chosen_sources(shared, cameras, centre, SOURCE_VIEW_COUNT)
+    asked = [[int(v) for v in np.argsort(-row)[:ASKED_VIEW_COUNT] if row[v] > 0] for row in shared]
     maps = _measured(straight, hull, sources, told)
     images = [view.image for view in straight]
     for _ in range(ALIGNMENT_ROUNDS):
@@ -123,8 +123,8 @@ def _not_measured() -> InputError:
 def _cropped(views: Sequence[CapturedView]) -> list[CapturedView]:
     """The parts of the views that hold the person, all of one size: that is less to keep and to go through."""
     boxes = [cv2.boundingRect(view.figure.astype(np.uint8)) for view in views]
-    height = min(max(box[3] for box in boxes) + 2 * CROP_BORDER, *(view.camera.size[0] for view in views))
-    width = min(max(box[2] for box in boxes) + 2 * CROP_BORDER, *(view.camera.size[1] for view in views))
+    height = min(max(box[3] for box in boxes) + 2 * CROP_BORDER_PIXELS, *(view.camera.size[0] for view in views))
+    width = min(max(box[2] for box in boxes) + 2 * CROP_BORDER_PIXELS, *(view.camera.size[1] for view in views))
     parts = []
     for view, (left, top, wide, high) in zip(views, boxes, strict=True):
         x = min(max(left + (wide - width) // 2, 0), view.camera.size[1] - width)
@@ -152,12 +152,12 @@ def _measured(
 
 def _aligned(maps: Sequence[DepthMap], cameras: Sequence[Camera], fused: FusedPoints) -> list[Camera]:
     """The cameras, each moved with its view's depth as that lies best on what all views say."""
-    surface = fused.cloud[thinning(fused.cloud.points, ALIGNMENT_SPACING)]
+    surface = fused.cloud[thinning(fused.cloud.points, ALIGNMENT_SPACING_METRES)]
     tree = cKDTree(surface.points)
     moved = []
     for measured, camera in zip(maps, cameras, strict=True):
         y, x = np.nonzero((measured.depth > 0) & (measured.cost < ALIGNED_COST))
-        step = max(len(y) // MAX_ALIGNED_POINTS, 1)
+        step = max(len(y) // MAX_ALIGNED_VIEW_POINTS, 1)
         y, x = y[::step], x[::step]
         points = camera.unproject(np.stack([x, y], axis=-1).astype(np.float64), measured.depth[y, x])
         normals = measured.normals[y, x]
@@ -168,10 +168,10 @@ def _aligned(maps: Sequence[DepthMap], cameras: Sequence[Camera], fused: FusedPo
 
 def _cleaned(fused: FusedPoints) -> tuple[PointCloud, NDArray[np.uint8]]:
     """One point in each cell, without lone points and pieces that hang apart, smoothed; and its support."""
-    chosen = thinning(fused.cloud.points, CLOUD_SPACING)
-    chosen = chosen[crowded(fused.cloud[chosen], NEIGHBOUR_RADIUS_METRES, MIN_NEIGHBOURS)]
+    chosen = thinning(fused.cloud.points, CLOUD_SPACING_METRES)
+    chosen = chosen[crowded(fused.cloud[chosen], SURFACE_NEIGHBOUR_METRES, MIN_SURFACE_NEIGHBOURS)]
     chosen = chosen[in_large_pieces(fused.cloud[chosen], PIECE_GAP_METRES, PIECE_SHARE)]
-    return smoothed_along_normals(fused.cloud[chosen], SMOOTHING_RADIUS), fused.support[chosen]
+    return smoothed_along_normals(fused.cloud[chosen], POINT_SMOOTHING_RADIUS_METRES), fused.support[chosen]
 
 
 def _with_rims(
@@ -179,8 +179,8 @@ def _with_rims(
 ) -> tuple[PointCloud, NDArray[np.uint8]]:
     """The cloud and, where it has nothing, points of the silhouettes' rims on which several agree."""
     rims = joined([rim_points(view, hull) for view in views])
-    rims = rims[crowded(rims, RIM_RADIUS, RIM_CROWD)]
-    rims = rims[thinning(rims.points, RIM_RADIUS)]
-    distance = np.asarray(cKDTree(cloud.points).query(rims.points, distance_upper_bound=RIM_GAP)[0])
+    rims = rims[crowded(rims, RIM_RADIUS_METRES, MIN_RIM_CONFIRMATIONS)]
+    rims = rims[thinning(rims.points, RIM_RADIUS_METRES)]
+    distance = np.asarray(cKDTree(cloud.points).query(rims.points, distance_upper_bound=RIM_GAP_METRES)[0])
     rims = rims[~np.isfinite(distance)]
     return joined([cloud, rims]), np.concatenate([support, np.zeros(len(rims), np.uint8)])

@@ -19,14 +19,14 @@ from engine.render.sampling import bilinear
 
 MOSAIC_SPACING_METRES = 0.005
 """Metres between points of the mosaic."""
-MOSAIC_MARGIN = 0.5
+MOSAIC_MARGIN_METRES = 0.5
 """Metres that it reaches beyond the places that it is made around."""
 MIN_SHOWN_SHARE = 1 / 3
 """Of the frames that have a point in their picture, how many must show it free: beside a foot it is seen from half of all sides,
 beneath one from none, whatever a mask says of a few."""
 TRIED_HEIGHTS_METRES = np.arange(-5, 6) * 0.003
 """Metres about where the floor is thought to be, within which it is looked for."""
-MIN_FRAMES_SHOWING = 3
+MIN_FRAMES_SHOWING_FLOOR = 3
 """Frames that must, at least."""
 SEARCH_POINT_STEP = 4
 """Of the points along each side one in so many is asked where it is."""
@@ -106,8 +106,8 @@ def floor_mosaic(
 ) -> FloorMosaic | None:
     """The mosaic around places (N, 3) near the floor; at `height`, or where about zero frames agree most. None where they show
     hardly any of it."""
-    corner = around[:, [0, 2]].min(0) - MOSAIC_MARGIN
-    size = np.ceil((around[:, [0, 2]].max(0) + MOSAIC_MARGIN - corner) / MOSAIC_SPACING_METRES).astype(int) + 1
+    corner = around[:, [0, 2]].min(0) - MOSAIC_MARGIN_METRES
+    size = np.ceil((around[:, [0, 2]].max(0) + MOSAIC_MARGIN_METRES - corner) / MOSAIC_SPACING_METRES).astype(int) + 1
     columns, rows = np.meshgrid(np.arange(size[0]), np.arange(size[1]))
     places = np.stack(
         [
@@ -157,7 +157,7 @@ def _shown(views: Sequence[FloorView], places: NDArray[np.float64]) -> NDArray[n
         x, y = np.rint(pixels[inside, :2]).astype(np.intp).T
         free = np.flatnonzero(inside)[~view.covered[y, x]]
         shown[free, number] = bilinear(view.image, pixels[free])
-    seldom = np.isfinite(shown[..., 0]).sum(1) < np.maximum(MIN_SHOWN_SHARE * in_picture, MIN_FRAMES_SHOWING)
+    seldom = np.isfinite(shown[..., 0]).sum(1) < np.maximum(MIN_SHOWN_SHARE * in_picture, MIN_FRAMES_SHOWING_FLOOR)
     shown[seldom] = np.nan
     return shown
 

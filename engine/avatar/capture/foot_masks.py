@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from engine.avatar.capture.floor_mosaic import FloorMosaic, FloorView, cost_among_strange, floor_mosaic
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.imaging.masks.colour_segmentation import MIN_MIXTURE_PIXELS, ColourMixture, ContrastGraph
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, near_lines
 from engine.imaging.masks.mask_pieces import without_small_pieces
@@ -78,7 +78,7 @@ class _Near:
 def feet_of(landmarks: SpatialLandmarks) -> list[Foot]:
     """The feet whose corners are known."""
     found = []
-    for side in SIDES:
+    for side in SIDE_NAMES:
         known = [landmarks.body.get(f"{side}{corner}") for corner in FOOT_LANDMARKS]
         if any(one is None for one in known):
             continue

@@ -23,13 +23,13 @@ from engine.imaging.features import Features
 
 MATCHED_FRAMES = 3
 """Frames of the first film that each of the second is matched with."""
-COARSE_FEATURES = 300
+COARSE_FEATURE_COUNT = 300
 """Features by which partners are chosen."""
-MIN_SHARED = 20
+MIN_SHARED_POINTS = 20
 """Points in common by which two films are joined."""
-MIN_PERSON_SHARED = 12
+MIN_SHARED_PERSON_POINTS = 12
 """Points of the person in common by which they have the last word."""
-ROOM_TOLERANCE, PERSON_TOLERANCE = 0.03, 0.01
+ROOM_TOLERANCE_CAMERA_DISTANCES, PERSON_TOLERANCE_CAMERA_DISTANCES = 0.03, 0.01
 """Distances of the first film's cameras by which points in common may be apart: of the room, which is far, and of the person."""
 ADJUSTMENT_ROUNDS = 3
 """Times that both films are adjusted as one: each time more of what they share agrees."""
@@ -50,17 +50,17 @@ def join_scenes(first: ClipScene, second: ClipScene) -> JoinedScenes | None:
     one, other = first.reconstruction, second.reconstruction
     a, b = one.bundle.points[tracks[:, 0]], other.bundle.points[tracks[:, 1]]
     known = np.isfinite(a[:, 0]) & np.isfinite(b[:, 0])
-    if known.sum() < MIN_SHARED:
+    if known.sum() < MIN_SHARED_POINTS:
         return None
-    found = similarity_by_consensus(b[known], a[known], ROOM_TOLERANCE * focus_of(one).distance)
-    if found is None or found.agreed.sum() < MIN_SHARED:
+    found = similarity_by_consensus(b[known], a[known], ROOM_TOLERANCE_CAMERA_DISTANCES * focus_of(one).distance)
+    if found is None or found.agreed.sum() < MIN_SHARED_POINTS:
         return None
     tracks, change = tracks[known], found.transform
     shared = tracks
     for _ in range(ADJUSTMENT_ROUNDS):
         joined = join_by_pixels(one, other, tracks, change, first.length)
         shared = tracks[joined.agreed]
-        if len(shared) < MIN_SHARED:
+        if len(shared) < MIN_SHARED_POINTS:
             return None
         one, other = adjust_together(one, other, shared, joined.change)
         change = Similarity(np.eye(3), np.zeros(3))
@@ -71,7 +71,7 @@ def in_frame_of(joined: JoinedScenes, first: ClipScene) -> ClipScene:
     """The second film of a pair as it stands to the first one in another frame, in which that stood before both were adjusted."""
     before, after = first.reconstruction, joined.first.reconstruction
     both = before.solved & after.solved
-    sigma = PERSON_TOLERANCE * focus_of(before).distance
+    sigma = PERSON_TOLERANCE_CAMERA_DISTANCES * focus_of(before).distance
     change = fit_robustly(after.bundle.points[both], before.bundle.points[both], sigma).transform
     second = joined.second.reconstruction
     return with_reconstruction(joined.second, replace(second, bundle=second.bundle.moved(change)))
@@ -89,10 +89,12 @@ def moved_person(first: PersonLock, second: PersonLock, tracks: NDArray[np.integ
     own = tracks[first.person[tracks[:, 0]] & second.person[tracks[:, 1]]]
     a = first.scene.reconstruction.bundle.points[own[:, 0]]
     b = second.scene.reconstruction.bundle.points[own[:, 1]]
-    near = np.linalg.norm(a - b, axis=1) < 5 * PERSON_TOLERANCE * distance  # false where a point is not known
-    if near.sum() < MIN_PERSON_SHARED:
+    near = (
+        np.linalg.norm(a - b, axis=1) < 5 * PERSON_TOLERANCE_CAMERA_DISTANCES * distance
+    )  # false where a point is not known
+    if near.sum() < MIN_SHARED_PERSON_POINTS:
         return Similarity(np.eye(3), np.zeros(3))
-    return fit_robustly(b[near], a[near], PERSON_TOLERANCE * distance, fit_rigid).transform
+    return fit_robustly(b[near], a[near], PERSON_TOLERANCE_CAMERA_DISTANCES * distance, fit_rigid).transform
 
 
 def _shared_tracks(first: ClipScene, second: ClipScene) -> NDArray[np.intp]:
@@ -120,4 +122,4 @@ def _tracks_of_features(scene: ClipScene) -> list[NDArray[np.intp]]:
 
 
 def _largest(features: Features) -> Features:
-    return features[np.argsort(-features.sizes, kind="stable")[:COARSE_FEATURES]]
+    return features[np.argsort(-features.sizes, kind="stable")[:COARSE_FEATURE_COUNT]]

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.body.fitting.hand_fitting import HAND_BONES
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.imaging.masks.colour_segmentation import grab_cut
 from engine.imaging.masks.mask_distance import near_lines
 
@@ -55,7 +55,7 @@ class Limb:
 def limbs_of(landmarks: SpatialLandmarks) -> list[Limb]:
     """The person's arms, legs and hands, as far as they are known."""
     limbs = []
-    for k, side in enumerate(SIDES):
+    for k, side in enumerate(SIDE_NAMES):
         for ends in BONE_LANDMARKS:
             both = [landmarks.body.get(f"{side}{end}") for end in ends]
             if all(place is not None for place in both):

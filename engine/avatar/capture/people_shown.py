@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.imaging.resample import resized, size_within
 from engine.perception.body import BODY_LANDMARKS, Body
 from engine.perception.people import find_people
@@ -17,15 +17,15 @@ from engine.perception.solutions import kept_networks
 
 EXAMINED_FRAMES = 12
 """Frames of a clip in which people are looked for, spread over it."""
-POSE_SIDE = 640
+POSE_SIDE_PIXELS = 640
 """Pixels of the longer side at which they are looked for."""
 KNEE_CONFIDENCE = 0.5
 """Confidence from which a knee is in the picture."""
 CLOSE_UP_SHARE, WHOLE_SHARE = 0.1, 0.4
 """Of the frames that show somebody: fewer show knees where the head is filmed, and more where the body is."""
-SIMILAR_HEIGHT = 0.5
+SIMILAR_HEIGHT_SHARE = 0.5
 """Of the larger person's height in the picture, from which somebody else is filmed as well, not far in the background."""
-MAX_COMPANY = 0.15
+MAX_COMPANY_SHARE = 0.15
 """Share of the frames that may show somebody else: one may walk past. Who stands beside is whole in a third of the frames, and found
 in half of these."""
 
@@ -53,10 +53,10 @@ class PeopleShown:
         """Of all frames that were examined, how many show two people of similar height."""
         pairs = [found for found in self.people.values() if len(found) > 1]
         heights = [np.array([np.ptp(body.points[:, 1]) for body in found]) for found in pairs]
-        return sum(bool(height[1] > SIMILAR_HEIGHT * height[0]) for height in heights) / max(len(self.people), 1)
+        return sum(bool(height[1] > SIMILAR_HEIGHT_SHARE * height[0]) for height in heights) / max(len(self.people), 1)
 
     def _knee(self, body: Body) -> bool:
-        at = [BODY_LANDMARKS.index(f"{side}Knee") for side in SIDES]
+        at = [BODY_LANDMARKS.index(f"{side}Knee") for side in SIDE_NAMES]
         inside = (body.points[at] >= 0).all(1) & (body.points[at] < self.size[::-1]).all(1)
         return bool((inside & (body.confidence[at] > KNEE_CONFIDENCE)).any())
 
@@ -64,7 +64,7 @@ class PeopleShown:
 @kept_networks()
 def look_for_people(frames: Sequence[NDArray[np.uint8]]) -> PeopleShown:
     """The people, two at most, in a few of a clip's frames (H, W, 3) uint8, spread over it."""
-    width, height = size_within(frames[0].shape, POSE_SIDE)
+    width, height = size_within(frames[0].shape, POSE_SIDE_PIXELS)
     chosen = np.unique(np.linspace(0, len(frames) - 1, EXAMINED_FRAMES).round().astype(int)).tolist()
     return PeopleShown({k: find_people(resized(frames[k], (width, height)), 2) for k in chosen}, (height, width))
 
@@ -81,7 +81,7 @@ def refuse_wrong_clips(body: PeopleShown, head: PeopleShown | None) -> None:
         )
     if not any(body.people.values()):
         raise InputError("no_person", "The clip of the body shows nobody: film a person from head to foot.")
-    if body.share_with_company > MAX_COMPANY:
+    if body.share_with_company > MAX_COMPANY_SHARE:
         raise InputError(
             "two_people",
             "The clip of the body shows two people: film one alone, and let others step out of the picture.",

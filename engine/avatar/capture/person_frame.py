@@ -18,14 +18,14 @@ from engine.geometry.multiview.bundle import Bundle, undistorted
 from engine.geometry.registration.rigid import Similarity
 from engine.perception.body import Body
 
-USUAL_HEIGHT = 1.7
+USUAL_HEIGHT_METRES = 1.7
 """Metres that the person is taken to be tall: how tall they are is a matter of scale, which nothing that is measured tells."""
 FLOOR_REACH_CAMERA_DISTANCES = 0.6
 """Distances of the cameras around the person within which the floor is looked for."""
-FLOOR_THICKNESS = 0.015
+FLOOR_THICKNESS_CAMERA_DISTANCES = 0.015
 """Distances of the cameras: a slab that holds the points of the floor."""
 MIN_FLOOR_POINTS = 30
-SAME_FRONT = np.radians(40)
+SAME_FRONT_RADIANS = np.radians(40)
 """Bodies that are seen turned so far apart agree on where the front is."""
 
 
@@ -63,7 +63,7 @@ def person_frame(
     front = _front(bundle, scene.reconstruction.registered, bodies, up, middle)
     axes = np.stack([np.cross(up, front), up, front])
     origin = middle + (lowest - middle @ up) * up
-    linear = USUAL_HEIGHT / height * axes
+    linear = USUAL_HEIGHT_METRES / height * axes
     return PersonFrame(Similarity(linear, -linear @ origin), height, floor is not None)
 
 
@@ -85,7 +85,7 @@ def _floor(
     heights = np.sort(heights[(aside < FLOOR_REACH_CAMERA_DISTANCES * distance) & (heights < middle @ up)])
     if len(heights) < MIN_FLOOR_POINTS:
         return None
-    ends = np.searchsorted(heights, heights + FLOOR_THICKNESS * distance, side="right")
+    ends = np.searchsorted(heights, heights + FLOOR_THICKNESS_CAMERA_DISTANCES * distance, side="right")
     counts = ends - np.arange(len(heights))
     best = int(np.argmax(counts))
     return float(np.median(heights[best : ends[best]])) if counts[best] >= MIN_FLOOR_POINTS else None
@@ -144,6 +144,6 @@ def _front(
         level = first - (first @ up) * up
         return np.asarray(level / np.linalg.norm(level))
     fronts = np.array(seen)
-    agreeing = fronts @ fronts.T > np.cos(SAME_FRONT)
+    agreeing = fronts @ fronts.T > np.cos(SAME_FRONT_RADIANS)
     mean = fronts[agreeing[int(agreeing.sum(axis=1).argmax())]].sum(axis=0)
     return np.asarray(mean / np.linalg.norm(mean))

@@ -18,15 +18,15 @@ from engine.geometry.multiview.structure_from_motion.mapping import Reconstructi
 from engine.geometry.multiview.structure_from_motion.refinement import refine
 from engine.geometry.registration.rigid import fit_robustly
 
-PERSON_RADIUS = 0.6
+PERSON_RADIUS_CAMERA_DISTANCES = 0.6
 """Radius of what a person fills, in distances of the cameras from the middle of their view."""
-SWAY_TURN = 0.002
+SWAY_TURN_RADIANS = 0.002
 """Radians that a person who holds still turns in the mean."""
-SWAY_SHIFT = 0.0025
+SWAY_CAMERA_DISTANCES = 0.0025
 """How far they sway in the mean, in distances of the camera: 5 mm at two metres."""
-PIXEL_NOISE = 0.4
+FEATURE_NOISE_PIXELS = 0.4
 """Pixels by which features of cloth and skin are off in the mean."""
-MIN_INSIDE = 0.6
+MIN_INSIDE_SHARE = 0.6
 """Share of a track's observations that must lie on the person's masks."""
 
 
@@ -74,7 +74,7 @@ def person_tracks(scene: ClipScene, masks: Sequence[NDArray[np.bool_]] | None) -
     focus = focus_of(found)
     points = found.bundle.points
     with np.errstate(invalid="ignore"):
-        inside = np.linalg.norm(points - focus.middle, axis=1) < PERSON_RADIUS * focus.distance
+        inside = np.linalg.norm(points - focus.middle, axis=1) < PERSON_RADIUS_CAMERA_DISTANCES * focus.distance
     if masks is None:
         return inside
     on = np.zeros(len(found.seen))
@@ -86,7 +86,7 @@ def person_tracks(scene: ClipScene, masks: Sequence[NDArray[np.bool_]] | None) -
         on[mine] = mask[at[:, 1], at[:, 0]]
     counts = np.bincount(found.seen.point, minlength=len(points))
     share = np.bincount(found.seen.point, on, len(points)) / np.maximum(counts, 1)
-    return (inside | ~np.isfinite(points[:, 0])) & (share >= MIN_INSIDE)
+    return (inside | ~np.isfinite(points[:, 0])) & (share >= MIN_INSIDE_SHARE)
 
 
 def lock_to_person(scene: ClipScene, person: NDArray[np.bool_]) -> PersonLock:
@@ -98,7 +98,7 @@ def lock_to_person(scene: ClipScene, person: NDArray[np.bool_]) -> PersonLock:
     distance = focus_of(found).distance
     prior = PosePrior(
         *(found.bundle.rotations, found.bundle.translations),
-        *(SWAY_TURN / PIXEL_NOISE, SWAY_SHIFT * distance / PIXEL_NOISE),
+        *(SWAY_TURN_RADIANS / FEATURE_NOISE_PIXELS, SWAY_CAMERA_DISTANCES * distance / FEATURE_NOISE_PIXELS),
     )
     refined = refine(found, person, scene.length, prior)
     solved, moved = refined.reconstruction, refined.moved

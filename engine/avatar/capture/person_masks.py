@@ -16,13 +16,13 @@ from engine.imaging.resample import resized, size_within
 from engine.perception.segmentation import people_confidence
 from engine.perception.solutions import kept_networks
 
-MASK_SIDE = 480
+MASK_SIDE_PIXELS = 480
 """Pixels of the longer side."""
-SURE_BELIEF = 0.9
+MIN_SURE_PROBABILITY = 0.9
 """Belief of the networks from which they are trusted, and below one less which."""
 SPECK_SHARE = 0.002
 """Of a mask's pixels: smaller pieces are nobody's, and smaller holes are nothing between arm and body."""
-MARK_SIDES = 100
+SIDES_PER_MARK_RADIUS = 100
 """A point marks what is around it: a spot with a radius of this part of the longer side."""
 
 
@@ -30,7 +30,7 @@ MARK_SIDES = 100
 def believed_masks(frames: Sequence[NDArray[np.uint8]], whole: bool) -> list[NDArray[np.float32]]:
     """What networks believe to be the person, (h, w) in [0, 1] of each frame (H, W, 3); `whole`: they are seen from head to
     foot, or nearly."""
-    return [people_confidence(resized(frame, size_within(frame.shape, MASK_SIDE)), whole) for frame in frames]
+    return [people_confidence(resized(frame, size_within(frame.shape, MASK_SIDE_PIXELS)), whole) for frame in frames]
 
 
 def settled_masks(
@@ -50,7 +50,7 @@ def settled_masks(
     masks = []
     for index, (frame, belief) in enumerate(zip(frames, beliefs, strict=True)):
         small = resized(frame, (belief.shape[1], belief.shape[0]))
-        ours, others = belief > SURE_BELIEF, belief < 1 - SURE_BELIEF
+        ours, others = belief > MIN_SURE_PROBABILITY, belief < 1 - MIN_SURE_PROBABILITY
         rather = belief > 0.5
         if scene is not None and person is not None:
             mine, theirs = _marks(scene, person, index, belief.shape)
@@ -80,6 +80,6 @@ def _marks(
         drawn = np.zeros(shape, np.uint8)
         scale = shape[0] / scene.size[0]
         for x, y in np.rint((found.seen.pixels[here] + 0.5) * scale - 0.5).astype(int).tolist():
-            cv2.circle(drawn, (x, y), max(1, max(shape) // MARK_SIDES), (1,), -1)
+            cv2.circle(drawn, (x, y), max(1, max(shape) // SIDES_PER_MARK_RADIUS), (1,), -1)
         marks.append(drawn > 0)
     return marks[0], marks[1]

@@ -16,7 +16,7 @@ from engine.geometry.multiview.structure_from_motion.tracks import PairMatches
 from engine.imaging.feature_matching import overlaps, verified_matches
 from engine.imaging.features import Features, find_features
 
-FEATURES_PER_FRAME = 4096
+MAX_FEATURES_PER_FRAME = 4096
 """Features that are found in a frame, at most."""
 NEXT_FRAMES = 4
 """Frames after each that it is matched with."""
@@ -24,11 +24,11 @@ FAR_FRAMES = 4
 """Frames elsewhere in the film that each is matched with: of the other orbit, and where an orbit closes."""
 MIN_COMMON_FEATURES = 12
 """Large features in common with a frame elsewhere."""
-USUAL_FOCAL = 1.2
+USUAL_FOCAL_LENGTH_SIDES = 1.2
 """Focal length in longer sides of the picture, where nothing is known: adjusted as soon as there are cameras."""
-MIN_REGISTERED = 0.5
+MIN_REGISTERED_SHARE = 0.5
 """Share of the frames whose cameras must be found."""
-STILL_SHIFT = 0.02
+STILL_SHIFT_SIDES = 0.02
 """Longer sides by which what is seen of the room moves between frames far apart: below, the camera stood still."""
 
 Tick = Callable[[float], None]
@@ -76,7 +76,7 @@ def solve_scene(
     length = max(height, width)
     masks: Sequence[NDArray[np.bool_] | None] = favoured or [None] * len(frames)
     with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="features") as pool:
-        features = list(pool.map(lambda frame, mask: find_features(frame, FEATURES_PER_FRAME, mask), frames, masks))
+        features = list(pool.map(lambda frame, mask: find_features(frame, MAX_FEATURES_PER_FRAME, mask), frames, masks))
         tick(0.3)
         chosen = film_pairs(features)
         found = pool.map(lambda pair: verified_matches(features[pair[0]], features[pair[1]], length), chosen)
@@ -88,11 +88,11 @@ def solve_scene(
             "The camera does not go around the person in this clip: film while you walk a full circle around them.",
         )
     middle = np.array([(width - 1) / 2, (height - 1) / 2])
-    lens = lens or Lens(np.array([USUAL_FOCAL * length, 0.0, 0.0]), middle)
+    lens = lens or Lens(np.array([USUAL_FOCAL_LENGTH_SIDES * length, 0.0, 0.0]), middle)
     reconstruction = reconstruct(
         [one.pixels for one in features], pairs, lens, lambda fraction: tick(0.7 + 0.3 * fraction)
     )
-    if reconstruction is None or reconstruction.registered.sum() < max(3, MIN_REGISTERED * len(frames)):
+    if reconstruction is None or reconstruction.registered.sum() < max(3, MIN_REGISTERED_SHARE * len(frames)):
         count = 0 if reconstruction is None else int(reconstruction.registered.sum())
         raise InputError(
             "cameras_not_found",
@@ -121,7 +121,7 @@ def stands_still(features: Sequence[Features], length: int) -> bool:
     for i in range(0, len(features) - step, step):
         matches = verified_matches(features[i], features[i + step], length)
         shifts = features[i].pixels[matches[:, 0]] - features[i + step].pixels[matches[:, 1]]
-        votes.append(len(matches) > 0 and float(np.median(np.linalg.norm(shifts, axis=1))) < STILL_SHIFT * length)
+        votes.append(len(matches) > 0 and float(np.median(np.linalg.norm(shifts, axis=1))) < STILL_SHIFT_SIDES * length)
     return bool(votes) and all(votes)
 
 

@@ -15,11 +15,11 @@ from engine.avatar.capture.captured_view import CapturedView
 from engine.geometry.multiview.visual_hull import VisualHull, depth_range
 from engine.geometry.point_cloud import PointCloud
 
-LONGEST_CHORD = 0.25
+MAX_CHORD_METRES = 0.25
 """Metres within the hull up to which the middle is taken for where the line of sight touches the person."""
 NORMAL_BLUR_PIXELS = 1.5
 """Pixels of the Gaussian by which the outline is smoothed before it tells normals."""
-PICTURE_BORDER = 2
+PICTURE_BORDER_PIXELS = 2
 """Pixels at a picture's borders where an outline is that of the picture."""
 
 
@@ -29,9 +29,9 @@ def rim_points(view: CapturedView, hull: VisualHull) -> PointCloud:
     figure = view.figure.astype(np.uint8)
     rim = view.figure & (cv2.erode(figure, np.ones((3, 3), np.uint8)) == 0)
     inner = np.zeros_like(rim)
-    inner[PICTURE_BORDER:-PICTURE_BORDER, PICTURE_BORDER:-PICTURE_BORDER] = True
+    inner[PICTURE_BORDER_PIXELS:-PICTURE_BORDER_PIXELS, PICTURE_BORDER_PIXELS:-PICTURE_BORDER_PIXELS] = True
     reach = depth_range(hull, view.camera, rim & inner)
-    y, x = np.nonzero((reach[..., 0] > 0) & (reach[..., 1] - reach[..., 0] < LONGEST_CHORD))
+    y, x = np.nonzero((reach[..., 0] > 0) & (reach[..., 1] - reach[..., 0] < MAX_CHORD_METRES))
     pixels = np.stack([x, y], axis=-1).astype(np.float64)
     points = view.camera.unproject(pixels, reach[y, x].mean(axis=-1))
     normals = _outward(figure, view, pixels, x, y)

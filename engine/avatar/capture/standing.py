@@ -14,9 +14,9 @@ from engine.geometry.multiview.bundle import undistorted
 
 MIN_PERSON_AREA_SHARE = 0.003
 """Share of a frame that shows somebody."""
-MAX_ASIDE = 0.1
+MAX_OFFSET_CAMERA_DISTANCES = 0.1
 """Distances of the cameras by which the person may be seen beside their place: 20 cm at two metres."""
-MAX_ASTRAY = 0.25
+MAX_EMPTY_FRAMES_SHARE = 0.25
 """Share of the frames that may see nobody there."""
 REWEIGHTING_ROUNDS = 20
 """Rounds of least squares for the place that most frames agree on."""
@@ -31,7 +31,7 @@ def refuse_walking(scene: ClipScene, masks: Sequence[NDArray[np.bool_]]) -> None
 
     Raises `InputError`: `person_walks`.
     """
-    if share_astray(scene, masks) > MAX_ASTRAY:
+    if share_astray(scene, masks) > MAX_EMPTY_FRAMES_SHARE:
         raise InputError(
             "person_walks",
             "The person does not stay where they are: let them stand still, and walk around them with the camera.",
@@ -54,7 +54,7 @@ def share_astray(scene: ClipScene, masks: Sequence[NDArray[np.bool_]]) -> float:
     place = _nearest_to_lines(eyes, across)
     aside = np.abs(((place - eyes) * across).sum(1)) / np.median(np.linalg.norm(place - eyes, axis=1))
     before = ((place - eyes) * sight).sum(1) > 0
-    return 1 - float((before & (aside < MAX_ASIDE)).sum()) / len(registered)
+    return 1 - float((before & (aside < MAX_OFFSET_CAMERA_DISTANCES)).sum()) / len(registered)
 
 
 def _sight(scene: ClipScene, frame: int, mask: NDArray[np.bool_]) -> NDArray[np.float64]:

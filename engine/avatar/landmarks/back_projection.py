@@ -11,18 +11,18 @@ from scipy.spatial import cKDTree
 
 from engine.avatar.landmarks.in_frames import FrameLandmarks
 from engine.avatar.landmarks.spatial import FACE_LANDMARKS, SpatialLandmarks
-from engine.avatar.landmarks.view_choice import FROM_THE_FRONT, chosen_views, most_frontal
+from engine.avatar.landmarks.view_choice import FRONT_VIEW_LANDMARKS, chosen_views, most_frontal
 from engine.geometry.camera import Camera
 
-SIGHT_RADIUS = 0.005
+SIGHT_RADIUS_METRES = 0.005
 """Metres about a line of sight within which points of the cloud tell how far it goes."""
-SURFACE_DEPTH = 0.015
+SURFACE_DEPTH_METRES = 0.015
 """Metres behind the nearest of them within which others are of the same surface."""
 MIN_AGREEING_POINTS = 2
 """Points that must tell so."""
 MAX_LANDMARK_DISTANCE_METRES = 0.06
 """Metres from where many views have a landmark within which one view's is believed: lines of sight past a hand end on the trunk."""
-CLOUD_PLACED_LANDMARKS = (*FROM_THE_FRONT, "Index", "Pinky")
+CLOUD_PLACED_LANDMARKS = (*FRONT_VIEW_LANDMARKS, "Index", "Pinky")
 """Landmarks of the body, without a side, that one view and the cloud place better than many views do that see them aslant."""
 
 
@@ -68,11 +68,11 @@ def onto_cloud(camera: Camera, pixels: NDArray[np.floating], points: NDArray[np.
     out = np.full((len(pixels), 3), np.nan)
     if not len(before):
         return out
-    reach = SIGHT_RADIUS * camera.focal / float(np.median(projected[before, 2]))
+    reach = SIGHT_RADIUS_METRES * camera.focal / float(np.median(projected[before, 2]))
     near = cKDTree(projected[before, :2]).query_ball_point(np.asarray(pixels, np.float64), reach)
     for k, some in enumerate(near):
         depths = np.sort(projected[before[some], 2])
-        surface = depths[depths < depths[0] + SURFACE_DEPTH] if len(depths) else depths
+        surface = depths[depths < depths[0] + SURFACE_DEPTH_METRES] if len(depths) else depths
         if len(surface) >= MIN_AGREEING_POINTS:
             out[k] = camera.unproject(np.asarray(pixels[k : k + 1], np.float64), np.median(surface)[None])[0]
     return out

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.perception.body import BODY_LANDMARKS, Body, find_body
 from engine.perception.face_wear import FaceWear, face_wear
 from engine.perception.faces import find_faces
@@ -17,12 +17,12 @@ from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IR
 
 SKELETON_BONES = (
     *(("LeftShoulder", "RightShoulder"), ("LeftHip", "RightHip")),
-    *((f"{side}{a}", f"{side}{b}") for side in SIDES for a, b in (
+    *((f"{side}{a}", f"{side}{b}") for side in SIDE_NAMES for a, b in (
         ("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Shoulder", "Hip"), ("Hip", "Knee"), ("Knee", "Ankle")
     )),
 )  # fmt: skip
 """Bones by their landmarks at both ends."""
-MIN_BONES = 4
+MIN_SKELETON_BONES = 4
 """Bones with which a skeleton is one ..."""
 MIN_BEST_CONFIDENCE = 0.5
 """... and the confidence of its surest landmark."""
@@ -30,18 +30,18 @@ MIN_LANDMARK_CONFIDENCE = 0.3
 """Of a landmark that is used."""
 KNUCKLE_LANDMARKS = ("Index", "Pinky")
 """Landmarks of the body that a hand's own crop shows better: its first joints."""
-HEAD_REACH = 1.6
+HEAD_CROP_HALF_SIDE = 1.6
 """Half the side of the square in which a body's face is looked for, in distances between its shoulders' and eyes' middle."""
 
 
-EYE_POINTS = np.array([[*LEFT_EYE, *LEFT_IRIS], [*RIGHT_EYE, *RIGHT_IRIS]])
+EYE_MESH_VERTICES = np.array([[*LEFT_EYE, *LEFT_IRIS], [*RIGHT_EYE, *RIGHT_IRIS]])
 """Vertices of the face mesh that are an eye, of the left, then of the right: sixteen between the lids, five of the iris."""
 
 
 @dataclass(frozen=True)
 class FrameLandmarks:
     """What one frame shows: `body`, pixels (2,) and confidence by name; `face` (68, 2) pixels or None; `hands`, by side, (21, 2)
-    pixels and confidence; `eyes` (2, 21, 2) pixels, the left and the right one's `EYE_POINTS`, where there is a face; what it
+    pixels and confidence; `eyes` (2, 21, 2) pixels, the left and the right one's `EYE_MESH_VERTICES`, where there is a face; what it
     wears, `wear`."""
 
     body: Mapping[str, tuple[NDArray[np.float64], float]]
@@ -79,7 +79,7 @@ def frame_landmarks(rgb: NDArray[np.uint8]) -> FrameLandmarks:
     mesh = _face_mesh(rgb, body if named else None)
     if mesh is None:
         return FrameLandmarks(named, None, hands)
-    return FrameLandmarks(named, np.asarray(fiducials(mesh)), hands, mesh[EYE_POINTS], face_wear(rgb, mesh))
+    return FrameLandmarks(named, np.asarray(fiducials(mesh)), hands, mesh[EYE_MESH_VERTICES], face_wear(rgb, mesh))
 
 
 def _face_mesh(rgb: NDArray[np.uint8], body: Body | None) -> NDArray[np.float64] | None:
@@ -90,7 +90,7 @@ def _face_mesh(rgb: NDArray[np.uint8], body: Body | None) -> NDArray[np.float64]
             return None
         eyes = (body.landmark("LeftEye") + body.landmark("RightEye")) / 2
         shoulders = (body.landmark("LeftShoulder") + body.landmark("RightShoulder")) / 2
-        reach = HEAD_REACH * float(np.linalg.norm(eyes - shoulders))
+        reach = HEAD_CROP_HALF_SIDE * float(np.linalg.norm(eyes - shoulders))
         height, width = rgb.shape[:2]
         x0, y0 = (max(0, round(float(at - reach))) for at in eyes)
         x1, y1 = (min(limit, round(float(at + reach))) for at, limit in zip(eyes, (width, height), strict=True))
@@ -108,7 +108,7 @@ def reliable(body: Body) -> dict[str, tuple[NDArray[np.float64], float]]:
         name for name, value in zip(BODY_LANDMARKS, body.confidence, strict=True) if value >= MIN_LANDMARK_CONFIDENCE
     }
     bones = sum(a in sure and b in sure for a, b in SKELETON_BONES)
-    if bones < MIN_BONES or body.confidence.max() < MIN_BEST_CONFIDENCE:
+    if bones < MIN_SKELETON_BONES or body.confidence.max() < MIN_BEST_CONFIDENCE:
         return {}
     points = zip(BODY_LANDMARKS, body.points, body.confidence, strict=True)
     return {name: (at.astype(np.float64), float(value)) for name, at, value in points if name in sure}

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
 
-MAX_PAIRS = 60
+MAX_VIEW_PAIRS = 60
 """Pairs of views that propose a place."""
 MAX_PAIR_COSINE = 0.97
 """Between the lines of sight of a pair: nearly parallel ones do not say how far away a landmark is."""
@@ -79,5 +79,5 @@ def _pairs(sight: NDArray[np.float64]) -> list[tuple[int, int]]:
     """Pairs of views that look along different lines: all of them, or as many as are tried."""
     cosines = np.abs(sight @ sight.T)
     first, second = np.nonzero(np.triu(cosines < MAX_PAIR_COSINE, 1))
-    chosen = np.random.default_rng(0).permutation(len(first))[:MAX_PAIRS]
+    chosen = np.random.default_rng(0).permutation(len(first))[:MAX_VIEW_PAIRS]
     return [(int(first[k]), int(second[k])) for k in chosen]

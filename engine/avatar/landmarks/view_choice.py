@@ -11,17 +11,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.landmarks.in_frames import FrameLandmarks
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 
-FROM_THE_SIDE = ("Ear", "Index", "Pinky", "Thumb")
-FROM_BEHIND = ("Heel",)
-FROM_THE_FRONT = ("Nose", "EyeInner", "Eye", "EyeOuter", "MouthLeft", "MouthRight")
+SIDE_VIEW_LANDMARKS = ("Ear", "Index", "Pinky", "Thumb")
+BACK_VIEW_LANDMARKS = ("Heel",)
+FRONT_VIEW_LANDMARKS = ("Nose", "EyeInner", "Eye", "EyeOuter", "MouthLeft", "MouthRight")
 """Landmarks, but for their side, by where they are looked at from."""
-TELLING_THE_SIDE = ("Index", "Ear")
+SIDE_TELLING_LANDMARKS = ("Index", "Ear")
 """Landmarks whose confidence says which side of the person is seen."""
-UPPER_LIDS, LOWER_LIDS, CORNERS = ((37, 38), (43, 44)), ((41, 40), (47, 46)), ((36, 39), (42, 45))
+UPPER_LID_FACE_POINTS, LOWER_LID_FACE_POINTS, EYE_CORNER_FACE_POINTS = (
+    ((37, 38), (43, 44)),
+    ((41, 40), (47, 46)),
+    ((36, 39), (42, 45)),
+)
 """Of the 68 points of a face, of both eyes."""
-MIRRORED_LANDMARKS = tuple(
+MIRRORED_FACE_POINTS = tuple(
     zip(
         (*range(8), *range(17, 22), 31, 32, 36, 48),
         (*range(16, 8, -1), *range(26, 21, -1), 35, 34, 45, 54),
@@ -37,12 +41,12 @@ def chosen_views(seen: Sequence[FrameLandmarks]) -> Mapping[str, int]:
     """The number of the view from which each landmark of the body is projected back; landmarks that no view suits are left out."""
     found: dict[str, int] = {}
     frontal = most_frontal(seen)
-    for name in FROM_THE_FRONT:
-        for one in [name] if name in ("Nose", "MouthLeft", "MouthRight") else [f"{side}{name}" for side in SIDES]:
+    for name in FRONT_VIEW_LANDMARKS:
+        for one in [name] if name in ("Nose", "MouthLeft", "MouthRight") else [f"{side}{name}" for side in SIDE_NAMES]:
             if frontal is not None and one in seen[frontal].body:
                 found[one] = frontal
-    for side in SIDES:
-        for names, fault in ((FROM_THE_SIDE, _not_from_the_side), (FROM_BEHIND, _not_from_behind)):
+    for side in SIDE_NAMES:
+        for names, fault in ((SIDE_VIEW_LANDMARKS, _not_from_the_side), (BACK_VIEW_LANDMARKS, _not_from_behind)):
             for name in names:
                 faults = [fault(one.body, side) if f"{side}{name}" in one.body else np.inf for one in seen]
                 if faults and np.isfinite(min(faults)):
@@ -64,12 +68,14 @@ def frontality(face: NDArray[np.float64]) -> float:
         return -np.inf
     along = across / width
     middle = face[list(MIDLINE_LANDMARKS)].mean(0)
-    left, right = (face[list(points)] for points in zip(*MIRRORED_LANDMARKS, strict=True))
+    left, right = (face[list(points)] for points in zip(*MIRRORED_FACE_POINTS, strict=True))
     symmetry = 1 - float(np.abs((left - middle) @ along + (right - middle) @ along).mean()) / width
     heights = [
         np.linalg.norm(face[list(upper)].mean(0) - face[list(lower)].mean(0))
         / (np.linalg.norm(face[a] - face[b]) + 1e-9)
-        for upper, lower, (a, b) in zip(UPPER_LIDS, LOWER_LIDS, CORNERS, strict=True)
+        for upper, lower, (a, b) in zip(
+            UPPER_LID_FACE_POINTS, LOWER_LID_FACE_POINTS, EYE_CORNER_FACE_POINTS, strict=True
+        )
     ]
     return symmetry + float(np.mean(heights))
 
@@ -80,9 +86,10 @@ Found = Mapping[str, tuple[NDArray[np.float64], float]]
 def _not_from_the_side(body: Found, side: str) -> float:
     """How wide the shoulders are for the trunk, which is least where a body is seen from the side; infinite where it is the other
     side."""
-    other = SIDES[1 - SIDES.index(side)]
+    other = SIDE_NAMES[1 - SIDE_NAMES.index(side)]
     near, far = (
-        sum(body[f"{one}{name}"][1] for name in TELLING_THE_SIDE if f"{one}{name}" in body) for one in (side, other)
+        sum(body[f"{one}{name}"][1] for name in SIDE_TELLING_LANDMARKS if f"{one}{name}" in body)
+        for one in (side, other)
     )
     if near <= far or not {"LeftShoulder", "RightShoulder", f"{side}Hip"} <= body.keys():
         return np.inf
@@ -94,10 +101,10 @@ def _not_from_the_side(body: Found, side: str) -> float:
 def _not_from_behind(body: Found, side: str) -> float:
     """By how much of their distance one heel is higher than the other; infinite where feet are not seen from behind: the left one on
     the left, toes above heels."""
-    if not {f"{one}{name}" for one in SIDES for name in ("Heel", "FootIndex")} <= body.keys():
+    if not {f"{one}{name}" for one in SIDE_NAMES for name in ("Heel", "FootIndex")} <= body.keys():
         return np.inf
-    left, right = (body[f"{one}Heel"][0] for one in SIDES)
-    toes_above = all(body[f"{one}FootIndex"][0][1] < body[f"{one}Heel"][0][1] for one in SIDES)
+    left, right = (body[f"{one}Heel"][0] for one in SIDE_NAMES)
+    toes_above = all(body[f"{one}FootIndex"][0][1] < body[f"{one}Heel"][0][1] for one in SIDE_NAMES)
     if left[0] >= right[0] or not toes_above:
         return np.inf
     return float(abs(left[1] - right[1]) / (right[0] - left[0]))

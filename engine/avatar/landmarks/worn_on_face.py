@@ -9,11 +9,11 @@ import numpy as np
 from engine.avatar.landmarks.in_frames import FrameLandmarks
 from engine.errors import Notice
 
-MIN_FRAMES_TELLING = 3
+MIN_FACE_FRAMES = 3
 """Frames that must tell of a face."""
 MIN_BRIDGE_STRENGTH = 0.05
 """Of `engine.perception.face_wear.FaceWear.bridge`, in the median frame, from which glasses are worn."""
-LIP_DARKNESS = 1.1
+MIN_BEARD_LIP_DARKNESS = 1.1
 """Of `FaceWear.lip_darkness`, from which a beard is: a third of the cheek's light."""
 
 
@@ -28,7 +28,7 @@ def worn_on_face(seen: Sequence[FrameLandmarks]) -> tuple[Notice, ...]:
                 " paint. Film the head without them.",
             )
         )
-    if _median([one.wear.lip_darkness for one in seen]) > LIP_DARKNESS:
+    if _median([one.wear.lip_darkness for one in seen]) > MIN_BEARD_LIP_DARKNESS:
         notices.append(
             Notice(
                 "beard_as_skin",
@@ -41,4 +41,4 @@ def worn_on_face(seen: Sequence[FrameLandmarks]) -> tuple[Notice, ...]:
 
 def _median(values: Sequence[float]) -> float:
     known = np.array(values)[np.isfinite(values)]
-    return float(np.median(known)) if len(known) >= MIN_FRAMES_TELLING else -np.inf
+    return float(np.median(known)) if len(known) >= MIN_FACE_FRAMES else -np.inf

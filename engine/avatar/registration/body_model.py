@@ -13,9 +13,9 @@ from engine.body.landmarks import LandmarkModel
 from engine.compiled import njit
 from engine.geometry.skinning import skin as blend
 
-TURN_DIFFERENCE = 1e-4
+TURN_STEP = 1e-4
 """Of a place or a turn, from which the derivatives of the joints' transforms come ..."""
-SHAPE_DIFFERENCE = 0.5
+SHAPE_STEP = 0.5
 """... and of a coefficient, in which they are linear, and single precision."""
 
 
@@ -53,8 +53,8 @@ class BodyModel:
         """(C, 3, P) how the `chosen` (C,) vertices of the skin move with each parameter."""
         count = len(parameters)
         now = self.transforms(parameters[None])[0]
-        steps = np.full(count, TURN_DIFFERENCE)
-        steps[-self.coefficients :] = SHAPE_DIFFERENCE
+        steps = np.full(count, TURN_STEP)
+        steps[-self.coefficients :] = SHAPE_STEP
         ahead = self.transforms(parameters + np.diag(steps))
         slopes = np.ascontiguousarray(((ahead - now) / steps[:, None, None, None])[:, :, :3])
         rest = np.ascontiguousarray(self.rest(parameters)[chosen])

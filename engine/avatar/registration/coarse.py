@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.body_model import BodyModel
 from engine.body.fitting.least_squares import levenberg_marquardt
-from engine.body.fitting.pose_prior import ARMS_LOWERED, joint_limits, pose_prior
+from engine.body.fitting.pose_prior import LOWERED_ARMS_RADIANS, joint_limits, pose_prior
 from engine.body.fitting.posing import FITTED_JOINTS
 from engine.body.landmarks import LandmarkModel
 from engine.errors import InputError
@@ -44,7 +44,7 @@ ROUGH_SIGMA = 0.03
 """What is assumed of landmarks at first, at least."""
 LANDMARK_CUTOFF_SIGMAS = 6.0
 """Deviations at which a landmark's pull is at its strongest (Geman-McClure)."""
-MAX_LANDMARK_RESIDUAL = 0.12
+MAX_LANDMARK_RESIDUAL_METRES = 0.12
 """Metres from the fit beyond which a landmark is wrong: right ones come within 0.03, those of another limb are 0.4 off."""
 MAX_SIGMAS = 2.5
 """The same in deviations, where that is more."""
@@ -53,12 +53,12 @@ SOLE_SIGMA = 0.01
 """Metres that soles reach below the ground, usually: nothing says where feet are that the cloud lacks, except that."""
 POINT_SIGMA_METRES = 0.006
 """Metres by which points are off, usually, for clothes ..."""
-INDEPENDENT_POINTS = 500.0
+INDEPENDENT_CLOUD_POINTS = 500.0
 """... and as how many independent measurements all of them count: clothes are off alike, and sleeves slide arms along, against
 what landmarks say of hands."""
 TANGENTIAL_SHARE = 0.15
 """What an offset along the surface counts of one across it."""
-HAND_TRUST = 0.4
+HAND_LANDMARK_WEIGHT = 0.4
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ def fit_to_landmarks(model: BodyModel, carried: LandmarkModel, landmarks: Spatia
             parameters = levenberg_marquardt(partial(_residuals, model, carried, chosen, places, sigmas), parameters)
         at = model.poser(parameters[None]).carry(carried)[0]
         off = {name: float(np.linalg.norm(at[carried.names.index(name)] - landmarks.body[name])) for name in names}
-        most = np.maximum(MAX_LANDMARK_RESIDUAL, MAX_SIGMAS * _sigmas(kept))
+        most = np.maximum(MAX_LANDMARK_RESIDUAL_METRES, MAX_SIGMAS * _sigmas(kept))
         wrong = {name for name, limit in zip(kept, most, strict=True) if off[name] > limit}
         if not wrong:
             break
@@ -154,7 +154,7 @@ def _first_guess(
     """Arms half lowered, the whole body turned and placed as the landmarks are."""
     turns = np.zeros((len(FITTED_JOINTS), 3))
     for side, sign in (("Left", -1), ("Right", 1)):
-        turns[FITTED_JOINTS.index(f"{side}Arm"), 2] = sign * ARMS_LOWERED
+        turns[FITTED_JOINTS.index(f"{side}Arm"), 2] = sign * LOWERED_ARMS_RADIANS
     parameters = np.concatenate([np.zeros(3), turns.ravel(), np.zeros(model.coefficients)])
     at = model.poser(parameters[None]).carry(carried)[0, chosen]
     turn = Rotation.align_vectors(places - places.mean(0), at - at.mean(0))[0]
@@ -205,8 +205,8 @@ def _point_term(
     between = normals[used] + cloud.normals[used]
     between /= np.linalg.norm(between, axis=1, keepdims=True)
     weights = 1 / (1 + (nearest.distance[used] / turn.gate) ** 2)
-    weights *= np.where(skin.regions["hands"][corners].all(1), HAND_TRUST, 1.0)
-    scale = np.sqrt(weights * INDEPENDENT_POINTS / max(len(weights), 1)) / POINT_SIGMA_METRES
+    weights *= np.where(skin.regions["hands"][corners].all(1), HAND_LANDMARK_WEIGHT, 1.0)
+    scale = np.sqrt(weights * INDEPENDENT_CLOUD_POINTS / max(len(weights), 1)) / POINT_SIGMA_METRES
     across = np.hypot(1, TANGENTIAL_SHARE) - TANGENTIAL_SHARE
     metric = TANGENTIAL_SHARE * np.eye(3) + across * between[:, :, None] * between[:, None, :]
     metric *= scale[:, None, None]

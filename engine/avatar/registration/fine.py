@@ -32,18 +32,18 @@ LID_STIFFNESS = 10.0
 """... and of lids."""
 COARSE_FIT_WEIGHT = 0.003
 """What the coarse fit's place of the skin counts beside the points': nothing where there are some, all where there are none."""
-POINT_NOISE = 0.0015
+POINT_NOISE_METRES = 0.0015
 """Metres by which points scatter in a good cloud. In a bad one, of plain clothes in a small film, it is five times that: sleeves and
 trousers that followed it would be crumpled paper. A face is believed whatever it is: it is stiff, and filmed from near."""
 FIRST_INNER_FACE_POINT = 17
 """Face landmarks before it lie on the jaw's outline, at another place of it in every view."""
-LID_POINTS = (37, 38, 40, 41, 43, 44, 46, 47)
+LID_RIM_FACE_POINTS = (37, 38, 40, 41, 43, 44, 46, 47)
 """Face landmarks on the rims of upper and lower lids, between the corners of the eyes."""
 LID_LANDMARKS = 3000.0
 """What those count in the head's own fit, where nothing else tells how far eyes are open."""
 LANDMARK_SIGMA_METRES = 0.008
 """Metres from the fit before at which a landmark counts a quarter (Geman-McClure): a moustache moves those of the mouth."""
-MAX_FACE_DISTANCE = 0.03
+MAX_FACE_DISTANCE_METRES = 0.03
 """Metres from the coarse fit beyond which, in the median, face landmarks are of a visor or a mask and not used."""
 
 
@@ -83,14 +83,14 @@ def face_landmarks(
     known = known[known >= FIRST_INNER_FACE_POINT]
     at = skin.face_points[known]
     off = np.linalg.norm(vertices[at] - face[known], axis=1)
-    if len(known) < 10 or np.median(off) > MAX_FACE_DISTANCE:
+    if len(known) < 10 or np.median(off) > MAX_FACE_DISTANCE_METRES:
         return None
     rows = sp.csr_array((np.ones(len(at)), (np.arange(len(at)), at)), (len(at), len(vertices)))
     ahead = _straight_ahead(vertices[skin.face_points])
     places = face[known] + ((vertices[at] - face[known]) @ ahead)[:, None] * ahead
     off = np.linalg.norm(vertices[at] - places, axis=1)
     believed = 1 / (1 + (off / LANDMARK_SIGMA_METRES) ** 2) ** 2
-    weights = believed * np.where(np.isin(known, LID_POINTS), lids, 1.0)
+    weights = believed * np.where(np.isin(known, LID_RIM_FACE_POINTS), lids, 1.0)
     return SurfaceLandmarks(rows, np.asarray(places, np.float64), weights)
 
 
@@ -121,7 +121,7 @@ def _elastic(skin: Skin, rest: NDArray[np.float64], stiffness: NDArray[np.float6
         stiffness,
         _trust(skin),
         held=skin.regions["lower_feet"] | skin.regions["whole_hands"],
-        noise=np.where(skin.regions["face"], np.inf, POINT_NOISE),
+        noise=np.where(skin.regions["face"], np.inf, POINT_NOISE_METRES),
         anchor=COARSE_FIT_WEIGHT,
         contact=skin.lip_contact,
     )

@@ -18,17 +18,17 @@ from engine.body.garments.shoes import shod
 from engine.body.garments.toe_cap import ToeCap, toe_cap
 from engine.geometry.point_cloud import PointCloud
 
-FOOT_REACH = 0.02
+FOOT_REACH_METRES = 0.02
 """Metres from the coarse fit's feet within which points are of them."""
 FLOOR_REACH_METRES = 0.012
 """Metres above the lowest of them below which points may be the floor's."""
 NOSE_LANDMARKS = slice(27, 36)
 """Of the 68 face landmarks: about them there is skin, and no hair."""
-NOSE_REACH = 0.015
+NOSE_REACH_METRES = 0.015
 """Metres about them."""
 MIN_COLOUR_POINTS = 60
 """Points of feet, and of the face, with which colours are known."""
-MAX_HUE_OFF = 9.0
+MAX_FOOT_HUE_DISTANCE = 9.0
 """By how much, in the plane of CIELAB's a and b, the skin of feet differs from the face's, at most ..."""
 MIN_LIGHTNESS_RATIO, MAX_LIGHTNESS_RATIO = 0.6, 1.5
 """... and how light it is, in the face's lightness."""
@@ -66,18 +66,18 @@ def seen_barefoot(feet: Feet, coarse: NDArray[np.float64], cloud: PointCloud, fa
     """Whether the cloud's points about the feet of the `coarse` fit (S, 3) have the colours of those about the nose, of the landmarks
     `face` (68, 3), NaN where unknown. Where either are not seen, nobody was seen barefoot."""
     own = coarse[feet.masks[0] | feet.masks[1]]
-    near = _about(cloud, own, FOOT_REACH)
+    near = _about(cloud, own, FOOT_REACH_METRES)
     near = near[near.points[:, 1] > own[:, 1].min() + FLOOR_REACH_METRES]
     nose = face[NOSE_LANDMARKS]
     nose = nose[np.isfinite(nose).all(1)]
     if not len(nose):
         return False
-    skin = _about(cloud, nose, NOSE_REACH)
+    skin = _about(cloud, nose, NOSE_REACH_METRES)
     if min(len(near), len(skin)) < MIN_COLOUR_POINTS:
         return False
     face_lab = np.median(_lab(skin), axis=0)
     lab = _lab(near)
-    alike = np.linalg.norm(lab[:, 1:] - face_lab[1:], axis=1) < MAX_HUE_OFF
+    alike = np.linalg.norm(lab[:, 1:] - face_lab[1:], axis=1) < MAX_FOOT_HUE_DISTANCE
     alike &= (lab[:, 0] > MIN_LIGHTNESS_RATIO * face_lab[0]) & (lab[:, 0] < MAX_LIGHTNESS_RATIO * face_lab[0])
     return bool(alike.mean() > MIN_BARE_SHARE)
 

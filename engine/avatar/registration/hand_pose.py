@@ -12,7 +12,7 @@ from engine.avatar.registration.models import HumanModels
 from engine.body.fitting.articulated_hand import TURNED_LANDMARKS
 from engine.body.fitting.hand_in_space import fit_hand_in_space
 from engine.body.fitting.hand_on_points import HandSkin
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.point_cloud import PointCloud
 from engine.geometry.skinning import skin as blend
 
@@ -48,7 +48,7 @@ def with_hands(
     scales = np.ones(len(joints))
     coefficients = parameters[-models.body.coefficients :]
     found = []
-    for side, seen in zip(SIDES, landmarks.hands, strict=True):
+    for side, seen in zip(SIDE_NAMES, landmarks.hands, strict=True):
         wrist, forearm = (models.space.names.index(f"{side}{name}") for name in ("Hand", "ForeArm"))
         skin = None if cloud is None else _hand_skin(models, side, parameters, rest[wrist], cloud)
         fit = fit_hand_in_space(models.hands[side], coefficients, rotations[forearm], joints[wrist], seen, skin)

@@ -19,14 +19,14 @@ MIN_FACE_LANDMARKS = 20
 """Face landmarks without which a head's cloud has no place."""
 ALIGNMENT_ROUNDS = 12
 """Of closest points, rigid."""
-ALIGNMENT_REACH = 0.25
+ALIGNMENT_REACH_METRES = 0.25
 """Metres about the head's middle within which the two clouds are laid on each other: hair, neck and shoulders tell how a round
 head is turned."""
 ALIGNMENT_GATE_METRES = 0.03
 """Metres within which points of one cloud are of what the other shows there."""
 AGREEMENT_DISTANCE_METRES = 0.005
 """Metres within which a point agrees with the other cloud."""
-MAX_ALIGNED_POINTS = 20000
+MAX_ALIGNED_HEAD_POINTS = 20000
 """Points of the head's cloud that are laid on the body's, at most."""
 CLOUD_RINGS = 10
 """Rings of vertices below the head for which the head's cloud counts, too."""
@@ -58,13 +58,13 @@ def head_to_body(
     if sized:
         starts.append(Similarity(np.eye(3), np.zeros(3)))
     middle = fitted[skin.regions["head"]].mean(0)
-    around = body[np.linalg.norm(body.points - middle, axis=1) < ALIGNMENT_REACH + ALIGNMENT_GATE_METRES]
+    around = body[np.linalg.norm(body.points - middle, axis=1) < ALIGNMENT_REACH_METRES + ALIGNMENT_GATE_METRES]
     tree = cKDTree(around.points)
     best, most = starts[0], -1
     for start in starts:
         points = start(cloud.points)
-        points = points[np.linalg.norm(points - middle, axis=1) < ALIGNMENT_REACH]
-        points = points[:: max(len(points) // MAX_ALIGNED_POINTS, 1)]
+        points = points[np.linalg.norm(points - middle, axis=1) < ALIGNMENT_REACH_METRES]
+        points = points[:: max(len(points) // MAX_ALIGNED_HEAD_POINTS, 1)]
         turn = rigid_onto_cloud(points, around.points, around.normals, ALIGNMENT_GATE_METRES, ALIGNMENT_ROUNDS)
         agreed = int(
             np.count_nonzero(np.isfinite(tree.query(turn(points), distance_upper_bound=AGREEMENT_DISTANCE_METRES)[0]))

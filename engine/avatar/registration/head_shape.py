@@ -24,11 +24,11 @@ POINTS_PER_ROUND = 5000
 """Points of the cloud that are looked at in each round."""
 POINT_SIGMA_METRES = 0.002
 """Metres by which the head's points are off, usually ..."""
-INDEPENDENT_POINTS = 1000.0
+INDEPENDENT_HEAD_POINTS = 1000.0
 """... and as how many independent measurements all of them count."""
 LANDMARK_SIGMA_METRES = 0.004
 """Metres by which face landmarks are off, usually."""
-MIN_NORMAL_COSINE = 0.5
+MIN_HEAD_NORMAL_COSINE = 0.5
 """Between the normals of a point and of the surface there."""
 NECK_RINGS = 6
 """Rings of vertices at the edge of the head that go over into the neck."""
@@ -99,9 +99,9 @@ def _point_rows(
     vertices = head.vertices()
     nearest = closest_points(picked.points, vertices, corners)
     normals = face_normals(vertices, corners)[nearest.triangle]
-    used = (nearest.distance < gate) & ((normals * picked.normals).sum(1) > MIN_NORMAL_COSINE)
+    used = (nearest.distance < gate) & ((normals * picked.normals).sum(1) > MIN_HEAD_NORMAL_COSINE)
     at, shares, across = corners[nearest.triangle[used]], nearest.barycentrics[used], normals[used]
-    scale = np.sqrt(INDEPENDENT_POINTS / max(int(used.sum()), 1)) / POINT_SIGMA_METRES
+    scale = np.sqrt(INDEPENDENT_HEAD_POINTS / max(int(used.sum()), 1)) / POINT_SIGMA_METRES
     off = np.einsum("mk,mkc->mc", shares, vertices[at]) - picked.points[used]
     moved = np.einsum("mk,mkcp->mcp", shares, head.slopes()[at])
     return scale * np.einsum("mc,mcp->mp", across, moved), scale * (off * across).sum(1)

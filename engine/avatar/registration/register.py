@@ -27,15 +27,15 @@ from engine.avatar.registration.rigging import Pose, on_the_ground, rest_joints,
 from engine.body.face.visemes import viseme_displacements
 from engine.errors import InputError, Notice
 from engine.geometry.deformation.cage_coordinates import cage_coordinates
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.point_cloud import PointCloud, thinned
 from engine.geometry.registration.rigid import Similarity
 
-BODY_SPACING = 0.0035
+BODY_SPACING_METRES = 0.0035
 """Metres between points of the body's cloud that are used: twice the template's density, about 150,000 in all."""
-HEAD_SPACING = 0.0012
+HEAD_SPACING_METRES = 0.0012
 """The same of the head's."""
-MAX_COEFFICIENT = 5.0
+MAX_SHAPE_DEVIATIONS = 5.0
 """Standard deviations of the space of bodies beyond which proportions are unusual, and said to be."""
 MIN_CLOUD_POINTS = 2000
 """Of a cloud that says anything of a body."""
@@ -73,7 +73,7 @@ def register(
             "cloud_too_thin",
             "Too little of the person was reconstructed: film again in even light, slowly, with the whole body in view.",
         )
-    cloud = thinned(body.cloud, BODY_SPACING)
+    cloud = thinned(body.cloud, BODY_SPACING_METRES)
     by_landmarks = fit_to_landmarks(models.body, models.landmarks, body.landmarks)
     believed = body.landmarks.without(by_landmarks.dropped)
     check()
@@ -107,7 +107,7 @@ def _with_head(
     models: HumanModels, fitted: NDArray[np.float64], cloud: PointCloud, head: Scan, placed: Similarity
 ) -> NDArray[np.float64]:
     """The skin (S, 3) of the body's fit with the head laid on its own cloud."""
-    near = thinned(head.cloud.moved(placed), HEAD_SPACING)
+    near = thinned(head.cloud.moved(placed), HEAD_SPACING_METRES)
     face = placed(head.landmarks.face)
     both = one_cloud(models.skin, fitted, cloud, near)
     shaped = head_shape(models.skin, models.heads, fitted, near, face)
@@ -159,7 +159,7 @@ def _notices(
     coarse: CoarseFit, body: CoarseBody, coefficients: NDArray[np.float64], head_lost: bool
 ) -> tuple[Notice, ...]:
     found = []
-    if lost := [side.lower() for side in SIDES if side not in body.hands]:
+    if lost := [side.lower() for side in SIDE_NAMES if side not in body.hands]:
         found.append(
             Notice(
                 "hand_not_measured",
@@ -178,7 +178,7 @@ def _notices(
         found.append(
             Notice("landmarks_dropped", f"These landmarks contradicted the others and were not used: {names}.")
         )
-    if np.abs(coefficients).max() > MAX_COEFFICIENT:
+    if np.abs(coefficients).max() > MAX_SHAPE_DEVIATIONS:
         found.append(
             Notice(
                 "unusual_proportions", "The body's proportions are unlike those of people: look at the shape closely."

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.skeleton import Skeleton
 
-MIN_STRETCH, MAX_STRETCH = 0.5, 2.0
+MIN_BLEND_STRETCH_RATIO, MAX_BLEND_STRETCH_RATIO = 0.5, 2.0
 """Least and most by which what is blended of the joints' turns may shrink or stretch a place, in any direction, when it is undone:
 where very different turns meet, as under raised arms, the blend is nearly flat and its inverse explodes."""
 
@@ -45,7 +45,7 @@ def unposed(
     turns = np.einsum("vk,vkab->vab", weights, pose.rotations[bones])
     moved = np.einsum("vk,vka->va", weights, shifts[bones])
     left, spread, right = np.linalg.svd(turns)
-    spread = np.clip(spread, MIN_STRETCH, MAX_STRETCH)
+    spread = np.clip(spread, MIN_BLEND_STRETCH_RATIO, MAX_BLEND_STRETCH_RATIO)
     back = right.transpose(0, 2, 1) / spread[:, None, :] @ left.transpose(0, 2, 1)
     return np.asarray(np.einsum("vab,vb->va", back, vertices - moved))
 

@@ -42,7 +42,7 @@ BLUR_SIGMA_PIXELS = 1.2
 """Pixels: the deviation by which pictures are blurred, so that between pixels they change as their slopes say."""
 STEEPEST_DEGREES = 70.0
 """Between a normal and the way to the camera, from which on a frame has nothing to say about a point."""
-LARGEST_SHIFT = 1 / 30
+MAX_SHIFT_SIDES = 1 / 30
 """The most that a place is shifted, in shares of the longer side: an arm that drifts by 5 cm, seen from two metres."""
 OUTLIER_LEVELS = 20.0
 """Grey levels from which on a colour is thought to be that of something else (the scale of Cauchy's weights) ..."""
@@ -175,5 +175,5 @@ def _add_seen(
 def _stepped(sight: _Sight, shift: ImageShift, colours: NDArray[np.float32]) -> ImageShift:
     """The shift after one step of Gauss and Newton towards the colours (P, 4)."""
     step = lattice_step(shift, sight.layers, sight.places, colours[sight.points], sight.weights, LATE_OUTLIER_LEVELS)
-    limit = LARGEST_SHIFT * sight.side
+    limit = MAX_SHIFT_SIDES * sight.side
     return replace(shift, nodes=np.clip(shift.nodes + step, -limit, limit).astype(np.float32))

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.registration.eyes.fitted_eyes import IRIS_RADIUS
+from engine.avatar.registration.eyes.fitted_eyes import IRIS_RADIUS_METRES
 from engine.avatar.texture.labels import UNSEEN_LABEL, FaceLabels
-from engine.avatar.texture.stitching import TEXTURE_SIZE_TEXELS, stitch_texture
+from engine.avatar.texture.stitching import AVATAR_TEXTURE_SIZE_TEXELS, stitch_texture
 from engine.avatar.texture.template_surface import TemplateSurface
 from engine.avatar.texture.template_texture.placing import place_eyes, place_hands, place_lids, place_mouth
 from engine.avatar.texture.views import FrameView
@@ -38,8 +38,8 @@ def avatar_texture(
     rig: Rig,
     vertices: NDArray[np.floating],
     views: Sequence[FrameView],
-    size: int = TEXTURE_SIZE_TEXELS,
-    iris: float = IRIS_RADIUS,
+    size: int = AVATAR_TEXTURE_SIZE_TEXELS,
+    iris: float = IRIS_RADIUS_METRES,
 ) -> AvatarTexture:
     """The texture, `size` texels a side, of the person whose template vertices are (V, 3), metres, as the cameras of `views`
     have them, and whose irises have the radius `iris`, metres.

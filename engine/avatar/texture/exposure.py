@@ -13,7 +13,7 @@ from engine.avatar.texture.view_samples import ViewSamples
 
 MIN_GREY_LEVEL, MAX_GREY_LEVEL = 12.0, 245.0
 """Grey levels, means along an edge, beyond which nothing is learnt: noise, and what is blown out."""
-MAX_EDGES = 6000
+MAX_COMPARED_EDGES = 6000
 """Edges that are asked, evenly spread over all: each shows it in many frames."""
 REWEIGHTING_ROUNDS = 6
 """How often frames that disagree are weighted less and the gains found anew."""
@@ -27,7 +27,7 @@ def exposure_gains(samples: ViewSamples) -> NDArray[np.float32]:
     """(N, 3) what each frame's colours are multiplied by so that they agree; of mean 1 in logarithms. Frames that show no
     edge that another shows keep 1."""
     seen = samples.cosine > 0
-    asked = np.arange(0, len(samples.pairs), max(len(samples.pairs) // MAX_EDGES, 1))
+    asked = np.arange(0, len(samples.pairs), max(len(samples.pairs) // MAX_COMPARED_EDGES, 1))
     shown = seen[samples.pairs[asked]].all(1)
     gains = np.ones((shown.shape[1], 3), np.float32)
     for channel in range(3):

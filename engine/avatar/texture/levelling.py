@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from engine.avatar.texture.painting import PaintedTexture
 from engine.imaging.filling.poisson import membrane
 
-MAX_JUMP = 24.0
+MAX_JUMP_GREY_LEVELS = 24.0
 """Grey levels: a larger difference of two frames is something that they show at different places, no exposure, and counts so
 much."""
 V_CYCLES = 3
-STRIP_ROWS = 256
+LEVELLED_STRIP_ROWS = 256
 """Rows that are corrected at once."""
 
 
@@ -31,14 +31,14 @@ def level_seams(painted: PaintedTexture, charts: NDArray[np.int32]) -> None:
     inside = _inner(charts)
     size = len(charts)
     nothing = np.zeros((size, size, 1), np.float32)
-    limited = np.clip(painted.jumps, -MAX_JUMP, MAX_JUMP)
+    limited = np.clip(painted.jumps, -MAX_JUMP_GREY_LEVELS, MAX_JUMP_GREY_LEVELS)
     for channel in range(3):
         divergence = np.zeros(size * size, np.float32)
         np.subtract.at(divergence, painted.seams[:, 0], limited[:, channel])
         np.add.at(divergence, painted.seams[:, 1], limited[:, channel])
         correction = membrane(nothing, inside, V_CYCLES, divergence.reshape(size, size, 1))[..., 0]
-        for first in range(0, size, STRIP_ROWS):
-            rows = slice(first, first + STRIP_ROWS)
+        for first in range(0, size, LEVELLED_STRIP_ROWS):
+            rows = slice(first, first + LEVELLED_STRIP_ROWS)
             corrected = np.clip(np.rint(painted.colours[rows, :, channel] + correction[rows]), 0, 255)
             painted.colours[rows, :, channel] = np.where(painted.known[rows], corrected, 0)
 

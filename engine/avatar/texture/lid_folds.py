@@ -14,12 +14,12 @@ LID_FOLD_EYE_WIDTHS = 0.25
 """Widths of an eye from the rims of its lids within which skin may lie in a fold."""
 CAMERA_DISTANCE_METRES, PICTURE_WIDTH_PIXELS, PICTURE_WIDTH_METRES = 0.5, 480, 0.06
 """Metres from the eye to the camera that looks at it, and the pixels and the metres at the eye that its picture is wide."""
-MIN_VIEW_COSINE = 0.35
+MIN_LID_VIEW_COSINE = 0.35
 """To the way to that camera; skin that is seen more from the side is in the shade of lids and lashes, as what is in the fold is."""
 CLOSING_ROUNDS = 2
 """In which triangles of the upper lid that share two corners with what lies in the fold are counted with it: what shows of them at rest
 is narrower than lashes."""
-VISIBILITY_TOLERANCE_METRES = 5e-4
+LID_VISIBILITY_TOLERANCE_METRES = 5e-4
 """Metres behind the surface at which a triangle's middle is seen."""
 
 
@@ -53,9 +53,9 @@ def in_lid_fold(
     normals = np.cross(b - a, c - a)
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     seen = seen_points(
-        depth_buffer(camera, vertices, corners), camera.project(middles[near]), VISIBILITY_TOLERANCE_METRES
+        depth_buffer(camera, vertices, corners), camera.project(middles[near]), LID_VISIBILITY_TOLERANCE_METRES
     )
-    seen &= view_cosines(camera, middles[near], normals) > MIN_VIEW_COSINE
+    seen &= view_cosines(camera, middles[near], normals) > MIN_LID_VIEW_COSINE
     upper = _above_corners(camera.project(middles[near]), camera.project(loop))
     hidden = ~seen
     for _ in range(CLOSING_ROUNDS):

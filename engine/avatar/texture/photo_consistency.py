@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from engine.avatar.texture.view_samples import ViewSamples
 
-MIN_FRAMES_SHOWING = 4
+MIN_FRAMES_SHOWING_FACE = 4
 """That show a face, for most of them to be right."""
-MAX_DEVIATIONS = 3.0
+MAX_MEDIAN_DEVIATIONS = 3.0
 """Beyond which a frame contradicts the others, in their median distance from what they agree on ..."""
-MIN_DIFFERENCE = 28.0
+MIN_CONTRADICTION_GREY_LEVELS = 28.0
 """... and grey levels, all three channels together, that are no contradiction: shadows and highlights."""
 FACES_AT_ONCE = 4096
 """Faces that are looked at together: they are as many times frames numbers."""
@@ -43,10 +43,10 @@ def consistent(samples: ViewSamples, gains: NDArray[np.floating]) -> ViewSamples
 
 def _contradicted(colours: NDArray[np.float32], seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(T, N) where the colours (T, N, 3) of frames that have `seen` (T, N) a face are not those that most have."""
-    enough = seen.sum(1) >= MIN_FRAMES_SHOWING
+    enough = seen.sum(1) >= MIN_FRAMES_SHOWING_FACE
     out = np.zeros(seen.shape, np.bool_)
     shown = np.where(seen[enough, :, None], colours[enough], np.nan)
     away = np.linalg.norm(shown - np.nanmedian(shown, axis=1, keepdims=True), axis=2)
-    limit = np.maximum(MAX_DEVIATIONS * np.nanmedian(away, axis=1, keepdims=True), MIN_DIFFERENCE)
+    limit = np.maximum(MAX_MEDIAN_DEVIATIONS * np.nanmedian(away, axis=1, keepdims=True), MIN_CONTRADICTION_GREY_LEVELS)
     out[enough] = seen[enough] & (away > limit)
     return out

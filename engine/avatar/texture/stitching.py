@@ -21,7 +21,7 @@ from engine.render.rasteriser import Raster
 from engine.render.texture_bake import charts_of, texel_raster
 from engine.render.texture_fill import fill_over_surface
 
-TEXTURE_SIZE_TEXELS = 4096
+AVATAR_TEXTURE_SIZE_TEXELS = 4096
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class StitchedTexture:
 
 
 def stitch_texture(
-    surface: ChartedSurface, views: Sequence[FrameView], size: int = TEXTURE_SIZE_TEXELS
+    surface: ChartedSurface, views: Sequence[FrameView], size: int = AVATAR_TEXTURE_SIZE_TEXELS
 ) -> StitchedTexture:
     """The texture of `surface`, `size` texels along a side, from `views`, whose pictures are read twice.
 

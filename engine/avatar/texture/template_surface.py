@@ -19,13 +19,13 @@ from engine.avatar.texture.views import ChartedSurface
 from engine.avatar.worn import Attachments
 from engine.body.rig import Rig
 from engine.body.template import Template
-from engine.geometry.joint_names import SIDES, Side
+from engine.geometry.joint_names import SIDE_NAMES, Side
 from engine.geometry.surface import triangulate
 from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv
 
-HAND_DRIFT = 0.025
+HAND_DRIFT_METRES = 0.025
 """Metres from a hand within which frames may show it in place of what is there ..."""
-GROWN_TOGETHER = 0.12
+OWN_HAND_REACH_METRES = 0.12
 """... and within which, in the template, what is there is the hand itself, or its arm."""
 ATTACHED_PART = len(AVATAR_PARTS)
 """The part of triangles that stand off the body."""
@@ -39,7 +39,7 @@ class TemplateSurface:
     atlas : how they lie on the texture.
     part : (T,) int: which of `AVATAR_PARTS` each is of, or `ATTACHED_PART`.
     mouth : (T,) bool: the bag behind the lips.
-    hands : of each side in `SIDES`, (T,) bool.
+    hands : of each side in `SIDE_NAMES`, (T,) bool.
     rest : (V, 3) the template's vertices, in whose shape it is known where everything is.
     sockets : (T,) bool: the skin behind the lids.
     lid_rims : of each eyeball, the loop of vertices in which its lids end.
@@ -81,7 +81,7 @@ class TemplateSurface:
         hand = np.unique(self.triangles[np.any(list(self.hands.values()), axis=0)])
         posed, rest = (
             cKDTree(places[hand]).query(places[self.triangles].mean(1), distance_upper_bound=reach)[0]
-            for places, reach in ((vertices, HAND_DRIFT), (self.rest, GROWN_TOGETHER))
+            for places, reach in ((vertices, HAND_DRIFT_METRES), (self.rest, OWN_HAND_REACH_METRES))
         )
         return np.isfinite(posed) & ~np.isfinite(rest)
 
@@ -121,7 +121,7 @@ def template_surface(template: Template, rig: Rig) -> TemplateSurface:
     rest = template.vertices.astype(np.float64)
     body = part == AVATAR_PARTS.index("body")
     bones = np.array(rig.names)[rig.bones[:, 0]]
-    of_hand = {side: np.array([name.startswith(f"{side}Hand") for name in bones.tolist()]) for side in SIDES}
+    of_hand = {side: np.array([name.startswith(f"{side}Hand") for name in bones.tolist()]) for side in SIDE_NAMES}
     hands = {side: body & _charts(atlas, np.all(moved[triangles], axis=1), body) for side, moved in of_hand.items()}
     mouth = np.zeros(len(faces), np.bool_)
     mouth[: sizes[AVATAR_PARTS.index("body")]] = mouth_faces(template)

@@ -20,11 +20,11 @@ from engine.geometry.surface import vertex_normals
 from engine.render.sampling import bilinear
 from engine.render.visibility import depth_buffer, seen_points, view_cosines
 
-FACE_SAMPLES = np.array([[1, 1, 1], [1.8, 0.6, 0.6], [0.6, 1.8, 0.6], [0.6, 0.6, 1.8]]) / 3
+FACE_SAMPLE_COORDINATES = np.array([[1, 1, 1], [1.8, 0.6, 0.6], [0.6, 1.8, 0.6], [0.6, 0.6, 1.8]]) / 3
 """Barycentric coordinates of the points at which it is asked whether a face is seen."""
-EDGE_SAMPLES = 6
+SAMPLES_PER_SEAM_EDGE = 6
 """Points of an edge at which frames are compared."""
-NORMAL_SMOOTHINGS, NORMAL_SMOOTHING = 6, 0.5
+NORMAL_SMOOTHING_ROUNDS, NORMAL_SMOOTHING_SHARE = 6, 0.5
 """Rounds in which normals become half their neighbours': folds of cloth do not change who sees it best, and patches get fewer."""
 RIM_SHARE = 0.004
 """Of a frame's longer side, by which masks of the person err."""
@@ -38,7 +38,7 @@ class ViewSamples:
 
     `cosine` (T, N) float32: of the angle between each face's normal and the way to the camera; 0 where the face is not wholly
     seen, or at more than `STEEPEST_DEGREES`. `density` (T, N) float32: pixels per metre, of a face seen from the front.
-    `pairs` (E, 2) intp: the two faces of each edge. `lengths` (E,) metres. `colours` (E, N, `EDGE_SAMPLES`, 3) uint8: the
+    `pairs` (E, 2) intp: the two faces of each edge. `lengths` (E,) metres. `colours` (E, N, `SAMPLES_PER_SEAM_EDGE`, 3) uint8: the
     frames' pixels along each edge, whether they show it or not.
     """
 
@@ -55,15 +55,15 @@ def sample_views(surface: ChartedSurface, views: Sequence[FrameView]) -> ViewSam
     normals = _smooth_normals(points, faces)
     table = edge_table(faces, np.arange(len(points), dtype=np.int32))
     table = table[(table[:, 3] >= 0) & surface.stitched[table[:, 2:]].all(1)]
-    along = (np.arange(EDGE_SAMPLES) + 0.5) / EDGE_SAMPLES
+    along = (np.arange(SAMPLES_PER_SEAM_EDGE) + 0.5) / SAMPLES_PER_SEAM_EDGE
     start, end = points[table[:, 0]], points[table[:, 1]]
     on_edges = (start[:, None] + along[:, None] * (end - start)[:, None]).reshape(-1, 3)
-    on_faces = np.einsum("sk,tkd->tsd", FACE_SAMPLES, points[faces]).reshape(-1, 3)
+    on_faces = np.einsum("sk,tkd->tsd", FACE_SAMPLE_COORDINATES, points[faces]).reshape(-1, 3)
     facing_to = normals[faces].mean(1)
     facing_to /= np.maximum(np.linalg.norm(facing_to, axis=1, keepdims=True), 1e-12)
     cosine = np.zeros((len(faces), len(views)), np.float32)
     density = np.zeros_like(cosine)
-    colours = np.empty((len(table), len(views), EDGE_SAMPLES, 3), np.uint8)
+    colours = np.empty((len(table), len(views), SAMPLES_PER_SEAM_EDGE, 3), np.uint8)
     for n, view in enumerate(views):
         pixels = view.camera.project(on_faces)
         seen = seen_points(depth_buffer(view.camera, points, faces), pixels)
@@ -76,7 +76,7 @@ def sample_views(surface: ChartedSurface, views: Sequence[FrameView]) -> ViewSam
         cosine[:, n] = np.where(whole, towards, 0)
         density[:, n] = view.camera.focal / np.maximum(view.camera.depth(middles), 1e-6)
         found = bilinear(view.picture(), view.places(on_edges))
-        colours[:, n] = np.rint(found).astype(np.uint8).reshape(-1, EDGE_SAMPLES, 3)
+        colours[:, n] = np.rint(found).astype(np.uint8).reshape(-1, SAMPLES_PER_SEAM_EDGE, 3)
     lengths = np.linalg.norm(end - start, axis=1)
     return ViewSamples(cosine, density, table[:, 2:].astype(np.intp), lengths, colours)
 
@@ -86,8 +86,8 @@ def _smooth_normals(points: NDArray[np.float64], faces: NDArray[np.int32]) -> ND
     normals = vertex_normals(points, faces).astype(np.float64)
     around = neighbours(faces, len(points))
     number = np.maximum(np.asarray(around.sum(1)).reshape(-1, 1), 1)
-    for _ in range(NORMAL_SMOOTHINGS):
-        normals = (1 - NORMAL_SMOOTHING) * normals + NORMAL_SMOOTHING * (around @ normals) / number
+    for _ in range(NORMAL_SMOOTHING_ROUNDS):
+        normals = (1 - NORMAL_SMOOTHING_SHARE) * normals + NORMAL_SMOOTHING_SHARE * (around @ normals) / number
     return normals
 
 

@@ -22,7 +22,7 @@ from engine.body.face.face_mesh_points import FaceMeshPoints, face_mesh_points
 from engine.body.face.face_points import PICTURE_TO_TEMPLATE
 from engine.body.template import FACE_UNITS, Template
 from engine.compiled import njit
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS, RIGID_VERTICES, eye_distance
 
@@ -34,28 +34,28 @@ EYE_LANDMARK_VERTICES = {
     "Left": (LEFT_EYE[0], LEFT_EYE[8], LEFT_IRIS[0]),
 }
 """The outer and the inner corner of each eye, and its iris, as vertices of the tracked mesh."""
-MAX_GAZE_TRAVEL = {"In": 0.2, "Out": 0.2, "Up": 0.13, "Down": 0.17}
+MAX_GAZE_TRAVEL_EYE_WIDTHS = {"In": 0.2, "Out": 0.2, "Up": 0.13, "Down": 0.17}
 """Eye widths that an iris travels in the picture when a unit of gaze is whole: eyeballs turn by 30 degrees aside, 25 up, 30 down."""
 DEPTH_WEIGHT = 0.1
 """What a difference in depth counts against one across the picture: a single camera guesses at depth."""
 RIDGE_WEIGHT = 0.005
 """Weight of the squares of the weights, as a share of each unit's own sum of squares: all shrink alike by it."""
-SPARSITY = 0.01
+SPARSITY_WEIGHT = 0.01
 """Weight of the weights themselves, in eye distances by which all of a unit's points together have to move."""
 SUBTLE_UNITS = (
     *(
         f"{unit}{side}"
         for unit in ("mouthDimple", "mouthLowerDown", "mouthPress", "noseSneer", "cheekSquint", "mouthUpperUp")
-        for side in SIDES
+        for side in SIDE_NAMES
     ),
     *("cheekPuff", "jawForward", "mouthRollLower", "mouthRollUpper", "mouthShrugLower", "mouthShrugUpper"),
 )
 """Units that go with others, or move few points a little: taken for what a broad one would do but for the face's proportions."""
-SUBTLE_SPARSITY = 4.0
+SUBTLE_SPARSITY_FACTOR = 4.0
 """By how much more their weights cost."""
-BLINK_GAIN = 1.35
+BLINK_GAIN_FACTOR = 1.35
 """What a tracked mesh shows of lids that shut is three quarters of it: measured on the project's own performances."""
-SMOOTHNESS = 0.03
+TEMPORAL_SMOOTHNESS_WEIGHT = 0.03
 """Weight of the squares of changes from frame to frame, as a share of each unit's own sum of squares."""
 DESCENT_SWEEPS = 60
 """Rounds over all frames and units: the last changes weights by less than a thousandth."""
@@ -98,11 +98,11 @@ def capture_face_units(
     gram = basis @ basis.T
     pull = (moved * axes).reshape(len(moved), -1) @ basis.T
     weights = np.zeros((len(moved), len(basis)))
-    sparsity = SPARSITY * np.where(np.isin(CAPTURED_UNITS, SUBTLE_UNITS), SUBTLE_SPARSITY, 1.0)
-    _descend(gram, pull, sparsity, RIDGE_WEIGHT, SMOOTHNESS, weights)
+    sparsity = SPARSITY_WEIGHT * np.where(np.isin(CAPTURED_UNITS, SUBTLE_UNITS), SUBTLE_SPARSITY_FACTOR, 1.0)
+    _descend(gram, pull, sparsity, RIDGE_WEIGHT, TEMPORAL_SMOOTHNESS_WEIGHT, weights)
     for side in EYE_LANDMARK_VERTICES:
         blink = CAPTURED_UNITS.index(f"eyeBlink{side}")
-        weights[:, blink] = np.minimum(BLINK_GAIN * weights[:, blink], 1)
+        weights[:, blink] = np.minimum(BLINK_GAIN_FACTOR * weights[:, blink], 1)
         looks = [CAPTURED_UNITS.index(unit) for unit in GAZE_UNITS if unit.endswith(side)]
         weights[:, looks] = _gaze(meshes, rest, side) * (
             1 - weights[:, [blink]]
@@ -128,7 +128,7 @@ def _gaze(meshes: NDArray[np.floating], rest: NDArray[np.floating], side: str) -
     corners and across it."""
     inwards, down = (_iris(meshes, EYE_LANDMARK_VERTICES[side]) - _iris(rest[None], EYE_LANDMARK_VERTICES[side])).T
     travel = {"Down": down, "In": inwards, "Out": -inwards, "Up": -down}  # as they stand in the alphabet
-    return np.stack([np.clip(moved / MAX_GAZE_TRAVEL[unit], 0, 1) for unit, moved in travel.items()], axis=1)
+    return np.stack([np.clip(moved / MAX_GAZE_TRAVEL_EYE_WIDTHS[unit], 0, 1) for unit, moved in travel.items()], axis=1)
 
 
 def _iris(meshes: NDArray[np.floating], vertices: tuple[int, int, int]) -> NDArray[np.float64]:

@@ -28,19 +28,27 @@ from engine.perception.landmarks import (
     RIGHT_IRIS,
 )
 
-NOSE = (168, 6, 197, 195, 5, 4, 1, 2, 98, 327, 64, 294, 129, 358, 203, 423)
-CHEEKS = (50, 280, 205, 425, 187, 411, 36, 266, 101, 330, 118, 347, 192, 416)
-LIP_CORNERS = (61, 291, 78, 308)
-UPPER_LIP = (*LIPS_OUTER[1:10], *LIPS_INNER[1:10])
-LOWER_LIP = (*LIPS_OUTER[11:], *LIPS_INNER[11:])
-UPPER_LIDS = (*RIGHT_EYE[2:7], *LEFT_EYE[2:7])
-LOWER_LIDS = (*RIGHT_EYE[10:15], *LEFT_EYE[10:15])
-EYE_CORNERS = (*(RIGHT_EYE[k] for k in (0, 1, 7, 8, 9, 15)), *(LEFT_EYE[k] for k in (0, 1, 7, 8, 9, 15)))
-OTHERS = (*FACE_OVAL, *RIGHT_BROW, *LEFT_BROW, *NOSE, *CHEEKS, *LIP_CORNERS, *EYE_CORNERS)
+NOSE_VERTICES = (168, 6, 197, 195, 5, 4, 1, 2, 98, 327, 64, 294, 129, 358, 203, 423)
+CHEEK_VERTICES = (50, 280, 205, 425, 187, 411, 36, 266, 101, 330, 118, 347, 192, 416)
+LIP_CORNER_VERTICES = (61, 291, 78, 308)
+UPPER_LIP_VERTICES = (*LIPS_OUTER[1:10], *LIPS_INNER[1:10])
+LOWER_LIP_VERTICES = (*LIPS_OUTER[11:], *LIPS_INNER[11:])
+UPPER_LID_VERTICES = (*RIGHT_EYE[2:7], *LEFT_EYE[2:7])
+LOWER_LID_VERTICES = (*RIGHT_EYE[10:15], *LEFT_EYE[10:15])
+EYE_CORNER_REGION_VERTICES = (*(RIGHT_EYE[k] for k in (0, 1, 7, 8, 9, 15)), *(LEFT_EYE[k] for k in (0, 1, 7, 8, 9, 15)))
+OTHER_VERTICES = (
+    *FACE_OVAL,
+    *RIGHT_BROW,
+    *LEFT_BROW,
+    *NOSE_VERTICES,
+    *CHEEK_VERTICES,
+    *LIP_CORNER_VERTICES,
+    *EYE_CORNER_REGION_VERTICES,
+)
 
-LIP_SPLIT = 0.01
+LIP_PARTING_METRES = 0.01
 """Metres by which an open jaw moves the lower lip at least, and the upper one at most."""
-LID_SPLIT = 0.002
+LID_PARTING_METRES = 0.002
 """Metres by which a blink moves the upper lid at least, and the lower one at most."""
 
 
@@ -59,11 +67,11 @@ def face_mesh_points(template: Template, space: BodySpace) -> FaceMeshPoints:
     blink = _travel(template, "eyeBlinkLeft", "eyeBlinkRight")[face]
     skin = space.mean[face]
     groups = (
-        (OTHERS, np.ones(len(face), np.bool_)),
-        (UPPER_LIP, jaw < LIP_SPLIT),
-        (LOWER_LIP, jaw > LIP_SPLIT),
-        (UPPER_LIDS, blink > LID_SPLIT),
-        (LOWER_LIDS, blink < LID_SPLIT),
+        (OTHER_VERTICES, np.ones(len(face), np.bool_)),
+        (UPPER_LIP_VERTICES, jaw < LIP_PARTING_METRES),
+        (LOWER_LIP_VERTICES, jaw > LIP_PARTING_METRES),
+        (UPPER_LID_VERTICES, blink > LID_PARTING_METRES),
+        (LOWER_LID_VERTICES, blink < LID_PARTING_METRES),
     )
     mesh, found = [], []
     for vertices, allowed in groups:

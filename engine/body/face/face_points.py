@@ -16,8 +16,8 @@ PICTURE_TO_TEMPLATE = np.diag([1.0, -1.0, -1.0])
 """From the axes of pictures (y down, z away) to the template's."""
 CLOSEST_POINT_ROUNDS = 12
 """Rounds in which the canonical face is laid on the template's."""
-EYE_CORNERS = {"RightEyeOuter": 36, "RightEyeInner": 39, "LeftEyeInner": 42, "LeftEyeOuter": 45}
-MOUTH_CORNERS = {"MouthRight": 48, "MouthLeft": 54}
+EYE_CORNER_FACE_POINTS = {"RightEyeOuter": 36, "RightEyeInner": 39, "LeftEyeInner": 42, "LeftEyeOuter": 45}
+MOUTH_CORNER_FACE_POINTS = {"MouthRight": 48, "MouthLeft": 54}
 """Landmarks of the body that are face points, by their numbers."""
 
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from engine.body.fitting.pose_prior import JOINT_LIMIT_SIGMA
 from engine.body.fitting.posing import rotation_matrices
 from engine.body.hands import HandModel, finger_landmarks
-from engine.geometry.joint_names import FINGERS
+from engine.geometry.joint_names import FINGER_NAMES
 
 WRIST_SIGMA = (1.0, 0.5, 0.7)
 """Radians about x, y and z of the T-pose by which hands turn on their arms, usually: the forearm turns with them about x."""
@@ -20,9 +20,9 @@ CURL_RATIO = 0.6
 """How much the last joint of a finger bends for what the one before it does: one tendon bends both."""
 CURL_SIGMA = 0.3
 """Radians by which that joint usually does otherwise."""
-MIN_ANGLES = np.array([*(-0.8, -0.8, -0.8), *(-0.4, -0.5), *(4 * (-0.35, -0.6, -0.3, -0.4))])
+MIN_ANGLES_RADIANS = np.array([*(-0.8, -0.8, -0.8), *(-0.4, -0.5), *(4 * (-0.35, -0.6, -0.3, -0.4))])
 """Radians to which joints turn at least, from the hand at rest, in which fingers are bent a little."""
-MAX_ANGLES = np.array([*(0.8, 0.8, 0.8), *(1.0, 1.3), *(4 * (0.35, 1.6, 1.9, 1.4))])
+MAX_ANGLES_RADIANS = np.array([*(0.8, 0.8, 0.8), *(1.0, 1.3), *(4 * (0.35, 1.6, 1.9, 1.4))])
 """Radians to which joints turn at most, from the hand at rest."""
 
 STRONGEST_PULL_SIGMAS = 3.0
@@ -30,7 +30,7 @@ STRONGEST_PULL_SIGMAS = 3.0
 
 HAND_ANGLE_COUNT = 5 + 4 * 4
 """Angles of a hand: the thumb's root (3) and two bends, for each other finger spread and three bends."""
-TURNED_LANDMARKS = [0, *(landmark for finger in FINGERS for landmark in finger_landmarks(finger)[:3])]
+TURNED_LANDMARKS = [0, *(landmark for finger in FINGER_NAMES for landmark in finger_landmarks(finger)[:3])]
 """The landmarks that are joints which turn: the wrist, then those 1 to 3 of each finger."""
 
 
@@ -64,7 +64,7 @@ class ArticulatedHand:
         rotations = self.rotations(turns, angles)
         hand = self.forearm_axes @ rotations[:, 0]
         places = np.zeros((len(turns), 21, 3))
-        for k, finger in enumerate(FINGERS):
+        for k, finger in enumerate(FINGER_NAMES):
             axes, before = hand, 0
             for joint, landmark in enumerate(finger_landmarks(finger)):
                 step = self.rest[landmark] - self.rest[before]
@@ -84,7 +84,8 @@ def finger_priors(angles: NDArray[np.float64]) -> NDArray[np.float64]:
             angles[:, :5] / THUMB_SIGMA,
             (fingers[..., :3] / FINGER_SIGMA).reshape(count, -1),
             (fingers[..., 3] - CURL_RATIO * fingers[..., 2]) / CURL_SIGMA,
-            (np.maximum(angles - MAX_ANGLES, 0) + np.maximum(MIN_ANGLES - angles, 0)) / JOINT_LIMIT_SIGMA,
+            (np.maximum(angles - MAX_ANGLES_RADIANS, 0) + np.maximum(MIN_ANGLES_RADIANS - angles, 0))
+            / JOINT_LIMIT_SIGMA,
         ],
         axis=1,
     )

@@ -25,17 +25,17 @@ MIN_GAP_STEPS = 8.0
 """Steps of the contour around a gap in the mask, at least, for it to count: between arm and trunk, or both legs."""
 DIRECTION_SMOOTHING_STEPS = 2.0
 """Steps of the contour over which its direction is averaged."""
-MIN_NORMAL_COSINE = 0.6
+MIN_CONTOUR_NORMAL_COSINE = 0.6
 """The least cosine between the contour's normal and the body's in the picture, for the two to be matched."""
 MAX_NORMAL_DEPTH = 0.75
 """The most of the body's normal that may point at the viewer or away: where a contour runs, the body lies across the view."""
-SEARCH_HALF_WIDTH = 0.01
+SEARCH_HALF_WIDTH_SHARE = 0.01
 """Half the width of the strip in which a contour's point looks for the body, as a share of the person's height."""
-SEARCH_INSIDE = 0.06
+SEARCH_INSIDE_SHARE = 0.06
 """How far inside the contour the body may be to be matched, as a share of the person's height."""
-SEARCH_OUTSIDE = 0.03
+SEARCH_OUTSIDE_SHARE = 0.03
 """How far outside the contour the body may be to be matched, as a share of the person's height."""
-FEET, FEET_INSIDE = ("Foot", "Toe"), 0.1
+FOOT_JOINTS, FEET_SEARCH_INSIDE_SHARE = ("Foot", "Toe"), 0.1
 """Joints of feet, and the same of these, which perception has too high on long legs: a leg ends where its outline ends."""
 UNMATCHED_JOINTS = ("Head", "Neck", "Hand", "Thumb", "Index", "Middle", "Ring", "Pinky")
 """Joints whose surface is not matched: hair and fingers have contours of their own."""
@@ -82,7 +82,10 @@ def skin_points(template: Template, space: BodySpace, rig: Rig) -> SkinPoints:
     chosen = np.array(carried, np.intp)
     carrying = [rig.names[bone] for bone in rig.bones[chosen, 0]]
     at = np.array([space.names.index(name) for name in carrying])
-    inside = [FEET_INSIDE if any(leaf in name for leaf in FEET) else SEARCH_INSIDE for name in carrying]
+    inside = [
+        FEET_SEARCH_INSIDE_SHARE if any(leaf in name for leaf in FOOT_JOINTS) else SEARCH_INSIDE_SHARE
+        for name in carrying
+    ]
     return SkinPoints(at, space.mean[chosen], space.basis[:, chosen], normals[chosen], np.array(inside, np.float32))
 
 
@@ -136,9 +139,11 @@ def match_contour(
     along = away[..., 0] * contour.normals[:, None, 1] - away[..., 1] * contour.normals[:, None, 0]
     flat = normals[:, :2] / np.maximum(np.linalg.norm(normals[:, :2], axis=1, keepdims=True), 1e-9)
     meant = (
-        (np.abs(along) < SEARCH_HALF_WIDTH * height) & (across > -inside * height) & (across < SEARCH_OUTSIDE * height)
+        (np.abs(along) < SEARCH_HALF_WIDTH_SHARE * height)
+        & (across > -inside * height)
+        & (across < SEARCH_OUTSIDE_SHARE * height)
     )
-    meant &= (contour.normals @ flat.T > MIN_NORMAL_COSINE) & (np.abs(normals[:, 2]) < MAX_NORMAL_DEPTH)
+    meant &= (contour.normals @ flat.T > MIN_CONTOUR_NORMAL_COSINE) & (np.abs(normals[:, 2]) < MAX_NORMAL_DEPTH)
     outermost = np.where(meant, across, -np.inf).argmax(1)
     which = np.flatnonzero(meant.any(1))
     return which, outermost[which]

@@ -13,7 +13,7 @@ from engine.body.fitting.observation import DIRECTED_LIMBS, Observation
 from engine.body.fitting.posing import FITTED_JOINTS, SHAPE_COEFFICIENTS
 from engine.body.landmarks import LandmarkModel
 from engine.body.rest_pose import T_POSE_DIRECTIONS, shortest_rotation
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 
 
 def first_guess(
@@ -59,7 +59,7 @@ def _vector(matrix: NDArray[np.floating]) -> NDArray[np.float64]:
 def _place(space: BodySpace, landmarks: LandmarkModel, view: Observation) -> NDArray[np.float64]:
     """The root's place from how large shoulders, hips and ankles appear."""
     names = landmarks.names
-    trunk = [names.index(f"{side}{part}") for part in ("Shoulder", "Hip") for side in SIDES]
+    trunk = [names.index(f"{side}{part}") for part in ("Shoulder", "Hip") for side in SIDE_NAMES]
     shoulders, hips = view.points[trunk[:2]].mean(0), view.points[trunk[2:]].mean(0)
     model = landmarks.mean[trunk]
     length = float(np.linalg.norm(model[:2].mean(0) - model[2:].mean(0)))

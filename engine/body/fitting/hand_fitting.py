@@ -24,7 +24,7 @@ from engine.body.fitting.articulated_hand import (
 from engine.body.fitting.least_squares import levenberg_marquardt
 from engine.body.hands import HandModel, finger_landmarks
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import FINGERS
+from engine.geometry.joint_names import FINGER_NAMES
 
 LANDMARK_SIGMA_HAND_LENGTHS = 0.05
 """How far landmarks are off, usually, in lengths of the hand seen."""
@@ -39,7 +39,7 @@ PICTURE_TO_WORLD = np.array([1.0, -1.0, 1.0])
 """From pixels, y down, to the world's axes."""
 HAND_BONES = tuple(
     (a, b)
-    for finger in FINGERS
+    for finger in FINGER_NAMES
     for a, b in zip((0, *finger_landmarks(finger)[:3]), finger_landmarks(finger), strict=True)
 )
 """The bones of a hand as pairs of landmarks."""
@@ -124,7 +124,7 @@ def openness(seen: NDArray[np.floating]) -> float:
     """How far the most bent of the four fingers of a hand (21, 3) reaches across the view, as a share of its length: near one
     where all are stretched and seen whole."""
     reach = []
-    for finger in FINGERS[1:]:
+    for finger in FINGER_NAMES[1:]:
         joints = seen[finger_landmarks(finger)]
         length = np.linalg.norm(np.diff(joints, axis=0), axis=1).sum()
         reach.append(np.linalg.norm(joints[-1, :2] - joints[0, :2]) / max(float(length), 1e-6))
@@ -133,7 +133,7 @@ def openness(seen: NDArray[np.floating]) -> float:
 
 def fingers_apart(seen: NDArray[np.floating]) -> float:
     """The least distance of neighbouring fingertips of a hand (21, 2 or more) in the picture, in lengths of the hand."""
-    tips = seen[[finger_landmarks(finger)[3] for finger in FINGERS], :2]
+    tips = seen[[finger_landmarks(finger)[3] for finger in FINGER_NAMES], :2]
     return float(np.linalg.norm(np.diff(tips, axis=0), axis=1).min()) / hand_length(seen)
 
 
@@ -156,7 +156,7 @@ def _start(hand: _SeenHand, seen: NDArray[np.floating], turn: NDArray[np.floatin
 
 def _turn(hand: _SeenHand, seen: NDArray[np.floating]) -> NDArray[np.float64]:
     """The hand's turn by which its palm lies as the one seen in space."""
-    palm = [finger_landmarks(finger)[0] for finger in FINGERS[1:]]
+    palm = [finger_landmarks(finger)[0] for finger in FINGER_NAMES[1:]]
     turn, _ = Rotation.align_vectors(
         (seen[palm] - seen[0]) * PICTURE_TO_WORLD @ hand.anchor.forearm_axes, hand.articulated.rest[palm]
     )

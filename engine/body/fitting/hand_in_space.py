@@ -21,7 +21,7 @@ from engine.body.fitting.articulated_hand import (
 from engine.body.fitting.hand_on_points import MATCHING_GATES_METRES, HandSkin, PointsOfHand
 from engine.body.fitting.least_squares import levenberg_marquardt
 from engine.body.hands import HandModel, finger_landmarks
-from engine.geometry.joint_names import FINGERS
+from engine.geometry.joint_names import FINGER_NAMES
 
 LANDMARK_SIGMA_METRES = 0.006
 """Metres by which landmarks are off, usually."""
@@ -31,11 +31,11 @@ SCALE_SIGMA = 0.15
 """Share by which a hand is larger or smaller than one of that body, usually."""
 STEPS_OF_ROUND = 4
 """Steps of the search until other points of the cloud are the nearest."""
-MAX_MEDIAN_ERROR = 0.015
+MAX_MEDIAN_ERROR_METRES = 0.015
 """Metres by which landmarks are off in the median: beyond, they are not those of a hand."""
 MIN_HAND_LANDMARKS = 12
 """Landmarks with which a hand is known."""
-PALM_LANDMARKS = (0, *(finger_landmarks(finger)[0] for finger in FINGERS[1:]))
+PALM_LANDMARKS = (0, *(finger_landmarks(finger)[0] for finger in FINGER_NAMES[1:]))
 """Landmarks that do not move as fingers bend."""
 MIN_PALM = 4
 """Of those, how many have to be known."""
@@ -73,7 +73,7 @@ def fit_hand_in_space(
     hand = ArticulatedHand(model, coefficients, forearm_axes)
     seen = np.asarray(landmarks - wrist, np.float64)
     found, off = _by_landmarks(hand, seen)
-    if not off < MAX_MEDIAN_ERROR:
+    if not off < MAX_MEDIAN_ERROR_METRES:
         return None
     if skin is not None:
         found = _on_points(partial(skin.posed, hand, wrist), partial(_residuals, hand, seen), skin, found)

@@ -18,7 +18,7 @@ INDEPENDENT_POINTS = 60.0
 """... and as how many independent measurements all of them count: fingers drift while others are filmed, and drift as one."""
 MIN_HAND_POINTS = 50
 """Points that say something of a hand."""
-MIN_NORMAL_COSINE = 0.4
+MIN_HAND_NORMAL_COSINE = 0.4
 """The least cosine between the normals of a point and of the skin."""
 MATCHING_GATES_METRES = (0.015, 0.012, 0.010, 0.008)
 """Metres within which points are the hand's, one round after the other."""
@@ -84,7 +84,11 @@ class HandSkin:
         nearest = closest_points(cloud.points, vertices, nearby)
         corners = nearby[nearest.triangle]
         normals = face_normals(vertices, nearby)[nearest.triangle]
-        used = (nearest.distance < gate) & own[corners].all(1) & ((normals * cloud.normals).sum(1) > MIN_NORMAL_COSINE)
+        used = (
+            (nearest.distance < gate)
+            & own[corners].all(1)
+            & ((normals * cloud.normals).sum(1) > MIN_HAND_NORMAL_COSINE)
+        )
         if used.sum() < MIN_HAND_POINTS:
             return None
         number = np.full(len(vertices), -1)

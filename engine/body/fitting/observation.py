@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from engine.body.fitting.contour import Contour
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 
 DIRECTED_LIMBS = (
-    *((f"{side}{a}", f"{side}{b}") for side in SIDES for a, b in (("Arm", "ForeArm"), ("ForeArm", "Hand"))),
-    *((f"{side}{a}", f"{side}{b}") for side in SIDES for a, b in (("UpLeg", "Leg"), ("Leg", "Foot"))),
+    *((f"{side}{a}", f"{side}{b}") for side in SIDE_NAMES for a, b in (("Arm", "ForeArm"), ("ForeArm", "Hand"))),
+    *((f"{side}{a}", f"{side}{b}") for side in SIDE_NAMES for a, b in (("UpLeg", "Leg"), ("Leg", "Foot"))),
 )
 """Limbs whose direction in space is believed, as joints."""
 

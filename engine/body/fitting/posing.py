@@ -11,12 +11,12 @@ from scipy.spatial.transform import Rotation
 
 from engine.body.body_space import BodySpace
 from engine.body.landmarks import LandmarkModel
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 
 FITTED_JOINTS = (
     *("Hips", "Spine", "Spine1", "Spine2", "Neck", "Head"),
-    *(f"{side}{name}" for side in SIDES for name in ("Shoulder", "Arm", "ForeArm", "Hand")),
-    *(f"{side}{name}" for side in SIDES for name in ("UpLeg", "Leg", "Foot")),
+    *(f"{side}{name}" for side in SIDE_NAMES for name in ("Shoulder", "Arm", "ForeArm", "Hand")),
+    *(f"{side}{name}" for side in SIDE_NAMES for name in ("UpLeg", "Leg", "Foot")),
 )
 """The joints whose rotations are sought; the others stay as at rest."""
 

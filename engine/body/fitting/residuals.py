@@ -11,13 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.fitting.contour import CONTOUR_POINTS, SEARCH_INSIDE, SkinPoints
+from engine.body.fitting.contour import CONTOUR_POINTS, SEARCH_INSIDE_SHARE, SkinPoints
 from engine.body.fitting.observation import DIRECTED_LIMBS, Crossing, Observation
 from engine.body.fitting.pose_prior import joint_limits, pose_prior
 from engine.body.fitting.posing import BodyPoser, PosedBodies
 from engine.body.landmarks import LandmarkModel
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 
 LANDMARK_CUTOFF_SIGMAS = 4.0
 """Deviations at which a landmark's pull is at its strongest (Geman-McClure)."""
@@ -48,7 +48,7 @@ FEET_CUTOFF = 8.0
 """The same of feet: where their contour ends they end."""
 INDEPENDENT_CONTOUR_POINTS = 200.0
 """Independent measurements that all points of a contour count as together."""
-CROSSING_DEPTH = 0.09
+CROSSING_DEPTH_METRES = 0.09
 """Metres by which the middle of one forearm is before that of another that it crosses, at least."""
 CROSSING_SIGMA = 0.01
 """Metres by which it may fall short of that, usually."""
@@ -97,7 +97,7 @@ def _landmark_term(view: Observation, points: NDArray[np.float64], names: Sequen
     """(N, R) how far landmarks are from where a view has them. What those of a foot have in common is one error, and a large
     one at times: it counts once, and less."""
     off = (project(points, view.camera) - view.points) / (view.landmark_sigma * view.height)
-    for side in SIDES:
+    for side in SIDE_NAMES:
         foot = [names.index(f"{side}{name}") for name in FOOT_LANDMARKS]
         share = 1 / np.sqrt(1 + len(foot) * (FOOT_SIGMA / view.landmark_sigma) ** 2)
         off[:, foot] += (share - 1) * off[:, foot].mean(1, keepdims=True)
@@ -123,7 +123,7 @@ def _stance_terms(view: Observation, joints: NDArray[np.float64], names: Sequenc
     trunk = joints[:, names.index("Neck")] - joints[:, names.index("Hips")]
     lean = seen_from(view.camera, trunk)[:, 2] / np.linalg.norm(trunk, axis=-1) / TRUNK_LEAN_SIGMA
     nearness = -view.camera.depth(joints)
-    ankles = [names.index(f"{side}Foot") for side in SIDES]
+    ankles = [names.index(f"{side}Foot") for side in SIDE_NAMES]
     stance = (nearness[:, ankles].mean(1) - nearness[:, names.index("Hips")]) / BALANCE_SIGMA
     return [lean[:, None], stance[:, None], legs.mean(1) / LEGS_LEAN_SIGMA, apart]
 
@@ -149,14 +149,14 @@ def _crossing_term(crossing: Crossing, nearness: NDArray[np.float64], names: Seq
     gaps = [along(front, "ForeArm", crossing.front_at) - along(back, "ForeArm", crossing.back_at)]
     if crossing.tucked_at is not None:
         gaps.append(along(front, "Arm", crossing.tucked_at) - along(back, "ForeArm", 1.0))
-    return np.asarray(np.maximum(CROSSING_DEPTH - np.stack(gaps, 1), 0) / CROSSING_SIGMA)
+    return np.asarray(np.maximum(CROSSING_DEPTH_METRES - np.stack(gaps, 1), 0) / CROSSING_SIGMA)
 
 
 def _contour_term(matches: ContourMatches, posed: PosedBodies, view: Observation) -> NDArray[np.float64]:
     """(N, R) how far the skin is from the contour that it meets, in standard deviations: of clothes, or of skin."""
     across = ((project(posed.carry(matches.skin), view.camera) - matches.points) * matches.normals).sum(-1)
     off = across / (np.where(across > 0, SKIN_SIGMA, CLOTHED_SIGMA) * view.height)
-    cutoff = np.where(matches.skin.inside > SEARCH_INSIDE, FEET_CUTOFF, CONTOUR_CUTOFF)
+    cutoff = np.where(matches.skin.inside > SEARCH_INSIDE_SHARE, FEET_CUTOFF, CONTOUR_CUTOFF)
     return np.asarray(off * np.sqrt(INDEPENDENT_CONTOUR_POINTS / CONTOUR_POINTS / (1 + off**2 / cutoff**2)))
 
 

@@ -15,15 +15,15 @@ from numpy.typing import NDArray
 from engine.body.garments.toe_cap import ToeCap
 from engine.geometry.surface import vertex_normals
 
-LENGTH, WIDTH = 1.09, 1.15
+SHOE_LENGTH_RATIO, SHOE_WIDTH_RATIO = 1.09, 1.15
 """Of a shoe, in lengths and widths of the foot in it."""
 HEEL_ROOM = 0.3
 """Of what a shoe is longer than the foot, how much is behind the heel."""
-STATIONS = np.array([0.0, 0.15, 0.3, 0.45, 0.6, 0.72, 0.85, 1.0])
+STATION_SHARES = np.array([0.0, 0.15, 0.3, 0.45, 0.6, 0.72, 0.85, 1.0])
 """Where along a shoe, in its lengths from the heel, the curves of the last are given:"""
 HALF_WIDTHS = np.array([0.34, 0.34, 0.34, 0.37, 0.46, 0.5, 0.5, 0.47])
 """half its width, in its greatest width;"""
-HEIGHTS = np.array([0.36, 0.36, 0.34, 0.28, 0.22, 0.2, 0.19, 0.19])
+STATION_HEIGHTS = np.array([0.36, 0.36, 0.34, 0.28, 0.22, 0.2, 0.19, 0.19])
 """its height, in its length; at the back it reaches higher than the shoe's rim, where the ankle is."""
 HEEL_ROUND, TOE_ROUND = (0.14, 2.4), (0.36, 2.2)
 """How far from its ends, in its length, it is rounded, and the exponents of the superellipses by which it is."""
@@ -33,11 +33,11 @@ SOLE_EXPONENT, UPPER_EXPONENT = 3.5, 2.3
 """Of the superellipses of its cross-sections below and above half their height."""
 TOE_SPRING = 0.03
 """By how much of its length the sole's tip is above the ground, from the ball on."""
-AXIS = np.array([[0.0, 0.12, 0.16], [0.0, 0.055, 0.8]])
+SHOE_AXIS = np.array([[0.0, 0.12, 0.16], [0.0, 0.055, 0.8]])
 """Both ends of the axis within it: aside, above the ground and along it, in its length."""
-COLLAR = (0.16, 0.27)
+SHOE_COLLAR_FOOT_LENGTHS = (0.16, 0.27)
 """Above the ground, in lengths of the foot: up to the first all is shoe, from the second on none is ..."""
-SOCK = 0.004
+SOCK_METRES = 0.004
 """... but cloth, metres thick."""
 
 
@@ -63,16 +63,16 @@ def _shoe(
     local = (vertices - origin) @ axes.T
     least, most = local[foot].min(0), local[foot].max(0)
     foot_length, foot_width = most[2] - least[2], most[0] - least[0]
-    length, width = LENGTH * foot_length, WIDTH * foot_width
+    length, width = SHOE_LENGTH_RATIO * foot_length, SHOE_WIDTH_RATIO * foot_width
     back = np.array([(least[0] + most[0]) / 2, 0.0, least[2] - HEEL_ROOM * (length - foot_length)])
     local = (local - back) / length
     starts, ways = _rays(local, cap)
     reached = starts + _reach(starts, ways, width / length)[:, None] * ways
     shoe = (reached * length + back) @ axes + origin
-    low, high = COLLAR
+    low, high = SHOE_COLLAR_FOOT_LENGTHS
     share = np.clip((local[:, 1] * length / foot_length - low) / (high - low), 0, 1)
     share = (share * share * (3 - 2 * share))[:, None]
-    return np.asarray(shoe + share * (vertices + SOCK * normals - shoe))
+    return np.asarray(shoe + share * (vertices + SOCK_METRES * normals - shoe))
 
 
 def _foot_axes(
@@ -92,7 +92,7 @@ def _foot_axes(
 def _rays(local: NDArray[np.float64], cap: ToeCap) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(S, 3) points of the axis and (S, 3) unit ways from there through the foot's vertices; those of toes fan out before the
     axis' end, as they lie on the cap's disk."""
-    heel, tip = AXIS
+    heel, tip = SHOE_AXIS
     along = tip - heel
     rim = local[cap.rim]
     last = np.clip(((rim - heel) @ along).max() / (along @ along), 0, 1)
@@ -130,9 +130,9 @@ def _within_last(places: NDArray[np.float64], width: float) -> NDArray[np.bool_]
     x, y, z = places.T
     inside = (z > 0) & (z < 1)
     z = np.clip(z, 0, 1)
-    aside = np.interp(z, STATIONS, HALF_WIDTHS) * width * _rounded(z, *HEEL_ROUND) * _rounded(1 - z, *TOE_ROUND)
+    aside = np.interp(z, STATION_SHARES, HALF_WIDTHS) * width * _rounded(z, *HEEL_ROUND) * _rounded(1 - z, *TOE_ROUND)
     spring = TOE_SPRING * np.clip((z - 0.75) / 0.25, 0, 1) ** 2
-    high = np.interp(z, STATIONS, HEIGHTS) * _rounded(1 - z, *TOE_BOX)
+    high = np.interp(z, STATION_SHARES, STATION_HEIGHTS) * _rounded(1 - z, *TOE_BOX)
     across = np.abs(x) / np.maximum(aside, 1e-9)
     rise = (y - spring) / np.maximum(high / 2, 1e-9) - 1
     exponent = np.where(rise < 0, SOLE_EXPONENT, UPPER_EXPONENT)

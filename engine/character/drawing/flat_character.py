@@ -19,7 +19,7 @@ from engine.character.parts.label_map import Labels
 from engine.character.rig.rigging import Character, at_rest
 from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheets import ClosedMesh, Layer, close
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.skinning import bone_transforms
@@ -43,7 +43,7 @@ DRAWING_JOINTS = (
     "Spine2",
     "Neck",
     "Head",
-    *(f"{side}{joint}" for side in SIDES for joint in LIMB_JOINTS),
+    *(f"{side}{joint}" for side in SIDE_NAMES for joint in LIMB_JOINTS),
 )
 """The joints whose bones move a drawing: it has no fingers, and no toes."""
 
@@ -113,7 +113,7 @@ def _bones(figure: Figure, silhouette: Silhouette) -> list[NDArray[np.float64]]:
     to shoulder."""
     pose, rig = flat_pose(figure), load_human().rig
     ends = dict(zip(rig.names, pose.places, strict=True))
-    for side in SIDES:
+    for side in SIDE_NAMES:
         ends |= {f"{side}Tip": figure.point(f"{side}Index"), f"{side}Toe": figure.point(f"{side}FootIndex")}
     chains: dict[str, tuple[str, ...]] = {
         "Hips": ("LeftUpLeg", "Hips", "RightUpLeg"),
@@ -122,7 +122,7 @@ def _bones(figure: Figure, silhouette: Silhouette) -> list[NDArray[np.float64]]:
         "Spine2": ("LeftShoulder", "Spine2", "Neck", "Spine2", "RightShoulder"),
         "Neck": ("Neck", "Head"),
     }
-    for side in SIDES:
+    for side in SIDE_NAMES:
         arm, leg = (
             (f"{side}Arm", f"{side}ForeArm", f"{side}Hand", f"{side}Tip"),
             (f"{side}UpLeg", f"{side}Leg", f"{side}Foot", f"{side}Toe"),

@@ -17,7 +17,7 @@ from engine.body.rest_pose import T_POSE_DIRECTIONS
 from engine.character.figure.figure import Figure
 from engine.character.fit.template_fit import FIGURE_FOCAL_LENGTH_SIDES, FittedBody, load_human
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import FINGERS, SIDES
+from engine.geometry.joint_names import FINGER_NAMES, SIDE_NAMES
 from engine.geometry.skeleton import Skeleton
 from engine.imaging.masks.mask_pieces import bounding_box
 
@@ -74,7 +74,7 @@ def flat_pose(figure: Figure) -> FlatPose:
     places = {"Hips": hips, "Neck": neck, "Head": neck + HEAD_JOINT_SHARE * (at["Nose"] - neck)}
     places |= {name: hips + share * (chest - hips) for name, share in SPINE_JOINT_SHARES.items()}
     turns = dict.fromkeys(("Hips", *SPINE_JOINT_SHARES), upright) | {"Neck": nod, "Head": nod}
-    for side in SIDES:
+    for side in SIDE_NAMES:
         places[f"{side}Shoulder"], turns[f"{side}Shoulder"] = (
             chest + COLLARBONE_JOINT_SHARE * (at[f"{side}Shoulder"] - chest),
             upright,
@@ -86,7 +86,7 @@ def flat_pose(figure: Figure) -> FlatPose:
             turns[f"{side}{joint}"] = 0.0 if straight is None else _turn(end - begin, straight[:2])
         places[f"{side}ToeBase"], turns[f"{side}ToeBase"] = at[f"{side}Ankle"], 0.0
         wrist, tip = at[f"{side}Wrist"], at[f"{side}Index"]
-        for finger in FINGERS:
+        for finger in FINGER_NAMES:
             for number, share in enumerate(FINGER_JOINTS, 1):
                 places[f"{side}Hand{finger}{number}"] = wrist + share * (tip - wrist)
                 turns[f"{side}Hand{finger}{number}"] = turns[f"{side}Hand"]
@@ -123,7 +123,7 @@ def flat_skeleton(pose: FlatPose, fitted: FittedBody, ground: float) -> Skeleton
     the ground, metres, as the picture's camera has it."""
     rig, camera = load_human().rig, fitted.picture_camera()
     seen = camera.to_metres(np.column_stack([pose.places, np.zeros(len(pose.places))]))
-    for side in SIDES:
+    for side in SIDE_NAMES:
         ankle = seen[rig.index(f"{side}Foot")]
         seen[rig.index(f"{side}ToeBase")] = [
             ankle[0],
@@ -146,4 +146,4 @@ def _turn(way: NDArray[np.float64], straight: tuple[float, ...]) -> float:
 
 def _landmarks() -> list[str]:
     marks = {"Ear", *DRAWING_JOINT_LANDMARKS.values(), *BONE_END_LANDMARKS.values()}
-    return ["Nose", *(f"{side}{mark}" for side in SIDES for mark in sorted(marks))]
+    return ["Nose", *(f"{side}{mark}" for side in SIDE_NAMES for mark in sorted(marks))]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.body.fitting.observation import Crossing
 from engine.character.figure.figure import MIN_JOINT_CONFIDENCE, Figure
-from engine.geometry.joint_names import SIDES, Side
+from engine.geometry.joint_names import SIDE_NAMES, Side
 from engine.imaging.masks.colour_segmentation import ColourMixture
 from engine.perception.body import BODY_LANDMARKS
 from engine.perception.landmarks import FACE_OVAL
@@ -43,24 +43,30 @@ class CrossedArms:
     @property
     def behind(self) -> Side:
         """The side, as in the names of joints, of the arm that is behind the other."""
-        return SIDES[1 - self.crossing.front]
+        return SIDE_NAMES[1 - self.crossing.front]
 
 
 def crossed_arms(figure: Figure, mask: NDArray[np.bool_]) -> CrossedArms | None:
     """The figure's arms, if they are crossed; None else. That arm is before the other whose hand is seen; where both are or
     none is, that which perception has nearer. `mask` (H, W): the person."""
-    at = {f"{side}{name}": figure.point(f"{side}{name}") for side in SIDES for name in ("Shoulder", "Elbow", "Wrist")}
+    at = {
+        f"{side}{name}": figure.point(f"{side}{name}") for side in SIDE_NAMES for name in ("Shoulder", "Elbow", "Wrist")
+    }
     if not figure.spatial or not _are_seen(figure) or not _are_crossed(at):
         return None
     skin = _skin(figure, mask, at)
-    shows = [0.0, 0.0] if skin is None else [_shown(figure, skin, side) for side in SIDES]
-    before = shows if abs(shows[0] - shows[1]) > MIN_VISIBILITY_MARGIN else [_depth(figure, side) for side in SIDES]
+    shows = [0.0, 0.0] if skin is None else [_shown(figure, skin, side) for side in SIDE_NAMES]
+    before = (
+        shows if abs(shows[0] - shows[1]) > MIN_VISIBILITY_MARGIN else [_depth(figure, side) for side in SIDE_NAMES]
+    )
     front = int(before[1] > before[0])
-    middle = np.mean([at[f"{side}{name}"] for side in SIDES for name in ("Elbow", "Wrist")], axis=0)
-    along = [_share(middle, at[f"{side}Elbow"], at[f"{side}Wrist"]) for side in SIDES]
+    middle = np.mean([at[f"{side}{name}"] for side in SIDE_NAMES for name in ("Elbow", "Wrist")], axis=0)
+    along = [_share(middle, at[f"{side}Elbow"], at[f"{side}Wrist"]) for side in SIDE_NAMES]
     tucked = None
     if skin is not None and shows[1 - front] < MIN_VISIBILITY_MARGIN:
-        tucked = _share(at[f"{SIDES[1 - front]}Wrist"], at[f"{SIDES[front]}Shoulder"], at[f"{SIDES[front]}Elbow"])
+        tucked = _share(
+            at[f"{SIDE_NAMES[1 - front]}Wrist"], at[f"{SIDE_NAMES[front]}Shoulder"], at[f"{SIDE_NAMES[front]}Elbow"]
+        )
     return CrossedArms(Crossing(front, along[front], along[1 - front], tucked), skin)
 
 
@@ -68,7 +74,9 @@ def _are_seen(figure: Figure) -> bool:
     """Whether elbows and a wrist are, of somebody who faces the viewer: wrists that are tucked away or cut off are made up."""
 
     def sure(name: str) -> list[bool]:
-        return [bool(figure.confidence[BODY_LANDMARKS.index(f"{side}{name}")] > MIN_JOINT_CONFIDENCE) for side in SIDES]
+        return [
+            bool(figure.confidence[BODY_LANDMARKS.index(f"{side}{name}")] > MIN_JOINT_CONFIDENCE) for side in SIDE_NAMES
+        ]
 
     faces = figure.point("LeftShoulder")[0] > figure.point("RightShoulder")[0]
     return bool(faces) and all(sure("Elbow")) and any(sure("Wrist"))
@@ -82,7 +90,7 @@ def _are_crossed(at: dict[str, NDArray[np.float32]]) -> bool:
 
     return all(
         apart(f"{own}Wrist", f"{other}Elbow") < apart(f"{own}Wrist", f"{own}Elbow")
-        for own, other in (SIDES, SIDES[::-1])
+        for own, other in (SIDE_NAMES, SIDE_NAMES[::-1])
     )
 
 
@@ -96,7 +104,7 @@ def _skin(figure: Figure, mask: NDArray[np.bool_], at: dict[str, NDArray[np.floa
     person = cv2.resize(mask.astype(np.uint8), size, interpolation=cv2.INTER_NEAREST_EXACT) > 0
     face, sleeves = np.zeros(person.shape, np.uint8), np.zeros(person.shape, np.uint8)
     cv2.fillConvexPoly(face, cv2.convexHull(np.rint(factor * figure.face[FACE_OVAL, :2]).astype(np.int32)), (1,))
-    for side in SIDES:
+    for side in SIDE_NAMES:
         ends = [factor * at[f"{side}{name}"] for name in ("Shoulder", "Elbow")]
         wide = max(1, round(2 * SLEEVE_HALF_WIDTH_ARMS * float(np.linalg.norm(ends[1] - ends[0]))))
         start, end = (np.rint(end).astype(int).tolist() for end in ends)

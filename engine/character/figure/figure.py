@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from engine.character.figure.placed_joints import REQUIRED_PLACED_JOINTS, check_places, check_skeleton, in_words
 from engine.character.figure.posture import check_posture
 from engine.errors import InputError
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.imaging.resample import resized, size_within
 from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits
@@ -135,7 +135,7 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
     if joints:
         check_skeleton(points, warn)
     hands = (None, None) if body is None else _hands(shown, replace(body, points=points))
-    for side, hand in zip(SIDES, hands, strict=True):
+    for side, hand in zip(SIDE_NAMES, hands, strict=True):
         for mark, joint in HAND_LANDMARK_JOINTS.items():
             if hand is not None and f"{side}{mark}" not in joints:
                 points[BODY_LANDMARKS.index(f"{side}{mark}")] = hand[HAND_JOINTS.index(joint), :2]
@@ -261,7 +261,7 @@ def _face(rgb: NDArray[np.uint8], points: NDArray[np.float32]) -> NDArray[np.flo
 def _hands(rgb: NDArray[np.uint8], body: Body) -> tuple[NDArray[np.float32] | None, NDArray[np.float32] | None]:
     """The hands (21, 3) at a body's wrists, looked at closely."""
     seen = {hand.side: np.column_stack([hand.points, hand.depth]) for hand in find_hands(rgb, body)}
-    return seen.get(SIDES[0]), seen.get(SIDES[1])
+    return seen.get(SIDE_NAMES[0]), seen.get(SIDE_NAMES[1])
 
 
 def _same(one: Body, other: Body | None) -> bool:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.imaging.masks.colour_segmentation import (
     MIN_MIXTURE_PIXELS,
-    UNSEEDED,
+    UNSEEDED_MARK,
     ColourMixture,
     ContrastGraph,
     log_likelihood_ratio,
@@ -205,7 +205,7 @@ def _cut(
         MAX_LOG_LIKELIHOOD_RATIO_AT_EDGES,
     )
     costs = np.stack([np.maximum(likelier, 0), np.maximum(-likelier, 0)], 1)
-    seeds = np.where(core, 1, np.where(asked | gap, UNSEEDED, 0))[zone]
+    seeds = np.where(core, 1, np.where(asked | gap, UNSEEDED_MARK, 0))[zone]
     out = np.zeros_like(gap)
     out[zone] = ContrastGraph.of(lab, zone).cut(costs, gap[zone].astype(np.intp), seeds) > 0
     return out

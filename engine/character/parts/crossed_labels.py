@@ -19,7 +19,7 @@ from engine.body.rig import Rig
 from engine.character.figure.crossed_arms import CrossedArms
 from engine.character.figure.figure import Figure
 from engine.character.fit.posed_template import PosedTemplate
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
 from engine.imaging.masks.mask_pieces import largest_piece
 
@@ -71,8 +71,8 @@ def label_crossed(
     skin = mask
     if arms.skin is not None:
         skin = np.asarray(cv2.warpAffine(arms.skin.astype(np.float32), to_grid, size, flags=cv2.INTER_AREA)) > 0.5
-    front, back = SIDES[arms.crossing.front], arms.behind
-    own = {side: _Arm.of(side, figure, template, rig, to_grid, mask) for side in SIDES}
+    front, back = SIDE_NAMES[arms.crossing.front], arms.behind
+    own = {side: _Arm.of(side, figure, template, rig, to_grid, mask) for side in SIDE_NAMES}
     covers = {
         side: arm.sleeve(mask.shape, SLEEVE_SAG_SHARE if side == back else 0.0) & mask for side, arm in own.items()
     }

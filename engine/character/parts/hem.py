@@ -23,7 +23,7 @@ from engine.character.parts.regions import Region, find_regions
 from engine.character.parts.unseen_limbs import not_seen
 from engine.imaging.masks.colour_segmentation import (
     MIN_MIXTURE_PIXELS,
-    UNSEEDED,
+    UNSEEDED_MARK,
     ColourMixture,
     ContrastGraph,
     colour_costs,
@@ -127,7 +127,7 @@ def _parted(
     off = FAR_LABEL_COST * (rows - end) / wide
     costs += np.stack([np.maximum(off, 0), np.maximum(-off, 0)], 1)
     labels = before.astype(np.intp)
-    cut = ContrastGraph.of(colours, near).cut(costs, labels, np.where(inner, UNSEEDED, labels))
+    cut = ContrastGraph.of(colours, near).cut(costs, labels, np.where(inner, UNSEEDED_MARK, labels))
     found = np.zeros_like(near)
     found[near] = cut > 0
     return found

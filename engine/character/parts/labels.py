@@ -10,7 +10,7 @@ from engine.body.parts import BODY_PARTS
 from engine.geometry.graph_cut import alpha_expansion, grid_edges
 from engine.imaging.masks.colour_segmentation import (
     MIN_MIXTURE_PIXELS,
-    UNSEEDED,
+    UNSEEDED_MARK,
     ColourMixture,
     ContrastGraph,
     colour_costs,
@@ -174,7 +174,7 @@ def _refine(
     astray = STRAY_PIXEL_COST * np.stack([_distance_to(template == label)[near] for label in meeting], 1)
     astray[template[near] < 0] = 0
     index = {label: k for k, label in enumerate(meeting)}
-    seeds = np.where(inner, UNSEEDED, [index.get(int(label), len(meeting)) for label in first])
+    seeds = np.where(inner, UNSEEDED_MARK, [index.get(int(label), len(meeting)) for label in first])
     current = first
     for _ in range(LABELLING_ROUNDS):
         shown = [pixels[current == label] for label in meeting]

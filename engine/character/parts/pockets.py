@@ -18,7 +18,7 @@ from engine.body.rig import Rig
 from engine.character.fit.template_maps import side_maps
 from engine.character.parts.labels import ARM_LABELS, complete_labels
 from engine.character.parts.unfound_hands import SEEN_FINGER_CONFIDENCE, UnfoundHand, unit
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.imaging.masks.colour_segmentation import MIN_MIXTURE_PIXELS, ColourMixture, smoothed_map
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.imaging.masks.mask_pieces import pieces_touching
@@ -62,7 +62,7 @@ def template_hand(
     vertices: NDArray[np.floating], triangles: NDArray[np.integer], rig: Rig, arm: int, shape: tuple[int, int]
 ) -> NDArray[np.bool_]:
     """The pixels (h, w) of the template's hand, without what is before it. `vertices` (V, 3) in picture space."""
-    side = SIDES[ARM_LABELS.index(arm)]
+    side = SIDE_NAMES[ARM_LABELS.index(arm)]
     own = np.array([name.startswith(f"{side}Hand") for name in rig.names])[rig.bones[:, 0]]
     return side_maps(vertices, triangles[own[triangles].all(1)], shape, "front").mask
 

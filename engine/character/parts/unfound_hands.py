@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.character.figure.figure import Figure
 from engine.character.parts.labels import ARM_LABELS
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.perception.body import BODY_LANDMARKS
 
 HIP_DEPTH_TRUNK_SHARE, WRIST_HIP_WIDTH_RATIO, MAX_HIP_DISTANCE_TRUNK_LENGTHS = 0.7, 1.5, 0.5
@@ -56,7 +56,7 @@ def unfound_hands(figure: Figure, rgb: NDArray[np.uint8], to_grid: NDArray[np.fl
         skin = _skin(rgb, figure.face[:, :2] @ to_grid[:, :2].T + to_grid[:, 2])
     apart = float(np.linalg.norm(at("LeftWrist") - at("RightWrist"))) > MIN_WRIST_DISTANCE_TRUNK_LENGTHS * trunk
     found = []
-    for arm, side, hand in zip(ARM_LABELS, SIDES, figure.hands, strict=True):
+    for arm, side, hand in zip(ARM_LABELS, SIDE_NAMES, figure.hands, strict=True):
         wrist, hip = at(f"{side}Wrist"), at(f"{side}Hip")
         half = float(np.linalg.norm(hip - hips))
         aside = float((wrist - hips) @ unit(hip - hips)) > WRIST_HIP_WIDTH_RATIO * max(

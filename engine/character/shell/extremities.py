@@ -22,7 +22,7 @@ from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human
 from engine.character.parts.label_map import Labels
 from engine.character.shell.template_mesh import TemplateMesh, template_mesh
-from engine.geometry.joint_names import FINGERS
+from engine.geometry.joint_names import FINGER_NAMES
 from engine.perception.landmarks import fiducials
 
 FINGER_CURL_DEGREES = (12.0, 20.0, 24.0, 28.0, 32.0)
@@ -48,7 +48,9 @@ def with_relaxed_hands(fitted: FittedBody) -> FittedBody:
     human = load_human()
     rotations, kept = fitted.fit.rotations.copy(), fitted.kept.copy()
     for model in human.hands:
-        joints = np.array([[human.rig.index(f"{model.side}Hand{finger}{k}") for k in (1, 2, 3)] for finger in FINGERS])
+        joints = np.array(
+            [[human.rig.index(f"{model.side}Hand{finger}{k}") for k in (1, 2, 3)] for finger in FINGER_NAMES]
+        )
         if not np.allclose(rotations[joints], np.eye(3), atol=1e-4):
             continue
         for finger, axis, degrees in zip(joints, model.bend, FINGER_CURL_DEGREES, strict=True):

@@ -8,9 +8,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-NEXT, LAST = [1, 2, 0], [2, 0, 1]
+NEXT_CORNER, LAST_CORNER = [1, 2, 0], [2, 0, 1]
 """For each corner of a triangle the other two."""
-COINCIDENT = 1e-9
+COINCIDENCE_TOLERANCE = 1e-9
 """Radians, and shares of a length, below which a point lies on the surface, or in a triangle's plane."""
 
 
@@ -33,25 +33,30 @@ def _weights(away: NDArray[np.float64], triangles: NDArray[np.integer]) -> NDArr
     length = np.linalg.norm(away, axis=1)
     at = int(np.argmin(length))
     weights = np.zeros(len(away))
-    if length[at] < COINCIDENT:
+    if length[at] < COINCIDENCE_TOLERANCE:
         weights[at] = 1
         return weights
     units = (away / length[:, None])[triangles]
-    chord = np.linalg.norm(units[:, NEXT] - units[:, LAST], axis=2)
+    chord = np.linalg.norm(units[:, NEXT_CORNER] - units[:, LAST_CORNER], axis=2)
     angle = 2 * np.arcsin(np.minimum(chord / 2, 1))
     half = angle.sum(1) / 2
-    around = np.flatnonzero(np.pi - half < COINCIDENT)
+    around = np.flatnonzero(np.pi - half < COINCIDENCE_TOLERANCE)
     if len(around):  # the point lies in this triangle
         corners = triangles[around[0]]
-        weights[corners] = np.sin(angle[around[0]]) * length[corners[NEXT]] * length[corners[LAST]]
+        weights[corners] = np.sin(angle[around[0]]) * length[corners[NEXT_CORNER]] * length[corners[LAST_CORNER]]
         return weights / weights.sum()
     volume = np.einsum("tc,tc->t", units[:, 0], np.cross(units[:, 1], units[:, 2]))
     sine = np.sin(angle)
     with np.errstate(divide="ignore", invalid="ignore"):
-        cosine = 2 * (np.sin(half)[:, None] * np.sin(half[:, None] - angle)) / (sine[:, NEXT] * sine[:, LAST]) - 1
+        cosine = (
+            2 * (np.sin(half)[:, None] * np.sin(half[:, None] - angle)) / (sine[:, NEXT_CORNER] * sine[:, LAST_CORNER])
+            - 1
+        )
         steep = np.where(volume > 0, 1, -1)[:, None] * np.sqrt(np.maximum(1 - cosine**2, 0))
-        added = angle - cosine[:, NEXT] * angle[:, LAST] - cosine[:, LAST] * angle[:, NEXT]
-        added = added / (length[triangles] * sine[:, NEXT] * steep[:, LAST])
-    counted = (np.abs(steep) >= COINCIDENT).all(1)  # of others the point lies in the plane, outside of the triangle
+        added = angle - cosine[:, NEXT_CORNER] * angle[:, LAST_CORNER] - cosine[:, LAST_CORNER] * angle[:, NEXT_CORNER]
+        added = added / (length[triangles] * sine[:, NEXT_CORNER] * steep[:, LAST_CORNER])
+    counted = (np.abs(steep) >= COINCIDENCE_TOLERANCE).all(
+        1
+    )  # of others the point lies in the plane, outside of the triangle
     np.add.at(weights, triangles[counted], added[counted])
     return np.asarray(weights / weights.sum())

@@ -21,7 +21,7 @@ from engine.geometry.surface import vertex_areas
 
 MAX_ROUNDS = 100
 """Rounds of an as-rigid-as-possible deformation, at most."""
-MIN_ENERGY_DECREASE = 1e-5
+MIN_ENERGY_DECREASE_SHARE = 1e-5
 """Share of the energy by which a round has to lessen it for another round to follow."""
 
 
@@ -136,7 +136,7 @@ class AsRigidAsPossible:
             moved = self._system.solve(self._spread @ _apply(turned, self._at_rest), hard, soft, self._system.rest)
             rotations = self._rotations(moved)
             now = self._energy(moved, rotations, soft)
-            if before - now <= MIN_ENERGY_DECREASE * now:
+            if before - now <= MIN_ENERGY_DECREASE_SHARE * now:
                 break
             before = now
         return moved

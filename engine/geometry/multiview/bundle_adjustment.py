@@ -19,13 +19,13 @@ from scipy.spatial.transform import Rotation
 from engine.geometry.multiview.bundle import Bundle, Observations, reprojection_errors
 from engine.geometry.multiview.schur_complement import back_substitute, eliminate_points
 
-LOSS_SCALE = 1.0
+LOSS_SCALE_PIXELS = 1.0
 """Pixels of error from which on an observation is doubted."""
-FIRST_DAMPING = 1e-4
+FIRST_DAMPING_SHARE = 1e-4
 """Share of the system's diagonal that is added to it in the beginning."""
-MIN_DAMPING = 1e-10
+MIN_DAMPING_SHARE = 1e-10
 """Share of the diagonal that is added, at least."""
-MAX_DAMPING = 1e8
+MAX_DAMPING_SHARE = 1e8
 """Share of the diagonal with which the search is given up."""
 CAMERA_PARAMETERS, LENS_PARAMETERS = 6, 3
 
@@ -74,7 +74,7 @@ def adjust(
     bundle: Bundle,
     seen: Observations,
     freedom: Freedom,
-    loss_scale: float = LOSS_SCALE,
+    loss_scale: float = LOSS_SCALE_PIXELS,
     most_steps: int = 50,
     converged: float = 1e-6,
 ) -> Adjustment:
@@ -93,8 +93,8 @@ def adjust(
         raise ValueError("nothing was observed")
     seen = seen[np.argsort(seen.point, kind="stable")]
     cost = _cost(bundle, seen, freedom, loss_scale)
-    damping, steps = FIRST_DAMPING, 0
-    while steps < most_steps and damping < MAX_DAMPING:
+    damping, steps = FIRST_DAMPING_SHARE, 0
+    while steps < most_steps and damping < MAX_DAMPING_SHARE:
         candidate = _step(bundle, seen, freedom, loss_scale, damping)
         there = np.inf if candidate is None else _cost(candidate, seen, freedom, loss_scale)
         if candidate is None or not there <= cost:
@@ -102,7 +102,7 @@ def adjust(
             continue
         steps += 1
         settled = cost - there <= converged * cost
-        bundle, cost, damping = candidate, there, max(damping / 5, MIN_DAMPING)
+        bundle, cost, damping = candidate, there, max(damping / 5, MIN_DAMPING_SHARE)
         if settled:
             break
     return Adjustment(bundle, cost, steps)

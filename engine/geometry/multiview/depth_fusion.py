@@ -21,7 +21,7 @@ from engine.geometry.point_cloud import PointCloud
 
 FUSION_ROUNDS = 2
 """How often the views are asked about a point: the second time where the first has moved it."""
-NORMALS_AGREE = 0.5
+MIN_AGREEING_NORMAL_COSINE = 0.5
 """Least cosine between normals that agree: 60 degrees."""
 
 
@@ -166,7 +166,10 @@ def _height(
     if further > limits[1]:
         return -1, 0.0
     other = normals[v, u]
-    if further < -limits[1] or normal[0] * other[0] + normal[1] * other[1] + normal[2] * other[2] < NORMALS_AGREE:
+    if (
+        further < -limits[1]
+        or normal[0] * other[0] + normal[1] * other[1] + normal[2] * other[2] < MIN_AGREEING_NORMAL_COSINE
+    ):
         return 0, 0.0
     # the surface is so much further off along the view's line of sight; along the normal it is less
     return 1, further * (normal[0] * p[2, 0] + normal[1] * p[2, 1] + normal[2] * p[2, 2])

@@ -18,19 +18,19 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.geometry.camera import Camera
-from engine.geometry.multiview.window_matching import SAMPLES, WINDOW_MEMORY, Plane, Ray, fill_window, plane_cost
+from engine.geometry.multiview.window_matching import SAMPLE_COUNT, WINDOW_MEMORY, Plane, Ray, fill_window, plane_cost
 
 FIRST_ROUNDS, FINER_ROUNDS = 3, 2
 """Rounds over all pixels in the coarsest pictures and in each finer one. By trial on films: what a round changes far enough is worth
 more than further rounds."""
-PROPAGATION_STEPS = (1, 3, 5)
+PROPAGATION_PIXELS = (1, 3, 5)
 """Pixels away in which a plane is fetched, in each of four directions: odd, so that they are of the other colour."""
 REDRAWN_SHARE = 0.35
 """Share of the depth's range at which depths are drawn anew in the first round; it halves from round to round. The next finer pictures
 begin with a quarter of it, and those after with half as much."""
 RANDOM_NUMBERS = 1 << 16
 """Random numbers drawn for one run; pixels take theirs in turn."""
-LIMIT_OF_TILT = 0.17
+MIN_TILT_COSINE = 0.17
 """Least cosine between a plane's normal and the line of sight: 80 degrees."""
 
 
@@ -174,7 +174,7 @@ def _visit(
     height, width = grey.shape
     for row in prange(height):
         y = np.int64(row)  # not the unsigned one of `prange`, for which all that is called would be compiled once more
-        window, places = np.empty(WINDOW_MEMORY, np.float32), np.empty(SAMPLES, np.int32)
+        window, places = np.empty(WINDOW_MEMORY, np.float32), np.empty(SAMPLE_COUNT, np.int32)
         for x in range((y + visit) % 2, width, 2):
             if not measured[y, x]:
                 continue
@@ -213,7 +213,7 @@ def _fetched(
     """The best plane in one of four directions, as the ray of pixel (x, y) meets it; depth 0 where there is none."""
     step_x, step_y = (direction == 0) - (direction == 1), (direction == 2) - (direction == 3)
     from_x, from_y, lowest = -1, -1, np.float32(np.inf)
-    for reach in PROPAGATION_STEPS:
+    for reach in PROPAGATION_PIXELS:
         px, py = x + step_x * reach, y + step_y * reach
         if 0 <= px < cost.shape[1] and 0 <= py < cost.shape[0] and measured[py, px] and cost[py, px] < lowest:
             from_x, from_y, lowest = px, py, cost[py, px]
@@ -243,4 +243,4 @@ def _changed(plane: Plane, row: np.ndarray, spread: np.float32, span: np.float32
 def _turned_away(a: np.float32, b: np.float32, c: np.float32, ray: Ray) -> bool:
     """Whether a plane with normal (a, b, c) is seen too flatly."""
     length = np.sqrt(ray[0] * ray[0] + ray[1] * ray[1] + np.float32(1))
-    return a * ray[0] + b * ray[1] + c > -np.float32(LIMIT_OF_TILT) * length
+    return a * ray[0] + b * ray[1] + c > -np.float32(MIN_TILT_COSINE) * length

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
 
-BEST_ANGLE = 25.0
+BEST_ANGLE_DEGREES = 25.0
 """Degrees between two lines of sight at which stereo is most exact for what still looks alike: by trial on films, where 10 erred by a fifth more."""
 LOWER_ANGLE_SPREAD_DEGREES, UPPER_ANGLE_SPREAD_DEGREES = 6.0, 12.0
 """Degrees of the angle's spread below and above the best."""
@@ -38,8 +38,8 @@ def shared_sight(
     for first in range(len(cameras)):
         of = seen[first]
         angles = np.degrees(np.arccos(np.clip((sight[first, of] * sight[:, of]).sum(axis=-1), -1, 1)))
-        width = np.where(angles < BEST_ANGLE, LOWER_ANGLE_SPREAD_DEGREES, UPPER_ANGLE_SPREAD_DEGREES)
-        value = np.exp(-((angles - BEST_ANGLE) ** 2) / (2 * width**2)) * seen[:, of]
+        width = np.where(angles < BEST_ANGLE_DEGREES, LOWER_ANGLE_SPREAD_DEGREES, UPPER_ANGLE_SPREAD_DEGREES)
+        value = np.exp(-((angles - BEST_ANGLE_DEGREES) ** 2) / (2 * width**2)) * seen[:, of]
         score[first] = value.sum(axis=1) / max(int(of.sum()), 1)
         score[first, first] = 0
     return score

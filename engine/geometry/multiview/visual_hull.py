@@ -20,15 +20,15 @@ from engine.geometry.camera import Camera
 
 COARSE_CELLS = 40
 """Cells along the longest side of the grid in which the body is looked for first."""
-CUBE_SIDE = 1.6
+CUBE_SIDE_CAMERA_DISTANCES = 1.6
 """Side of the cube in which a body is looked for, in mean distances of the cameras from where they look."""
 MAX_MISSED_SILHOUETTES_SHARE = 0.08
 """Share of the silhouettes that see a voxel and may leave it out: segmentation errs in single frames."""
-MIN_SIGHTINGS = 0.15
+MIN_SIGHTINGS_SHARE = 0.15
 """Share of the views that must have a voxel in their picture: what fewer see is not known to be there."""
 NORMAL_BLUR_VOXELS = 1.5
 """Voxels of the Gaussian by which occupancy is blurred before it tells normals."""
-RAY_STEP = 0.5
+RAY_STEP_VOXELS = 0.5
 """Steps along a line of sight, in voxels."""
 
 
@@ -80,7 +80,7 @@ def visual_hull(
     outside = [_distance(silhouette) for silhouette in silhouettes]
     eyes = np.array([camera.eye for camera in cameras])
     centre = _meeting_point(eyes, np.array([camera.axes[2] for camera in cameras]))
-    half = CUBE_SIDE / 2 * float(np.linalg.norm(eyes - centre, axis=1).mean())
+    half = CUBE_SIDE_CAMERA_DISTANCES / 2 * float(np.linalg.norm(eyes - centre, axis=1).mean())
     box = np.stack([centre - half, centre + half])
     for _ in range(2):  # the second time in the box of what the first has found
         coarse = float((box[1] - box[0]).max()) / COARSE_CELLS
@@ -131,7 +131,7 @@ def _carved(
         reach = np.sqrt(0.75) * spacing * camera.focal  # a voxel's corner is as far from its centre
         _vote(origin, spacing, camera.projection, distance, margin, reach, may_miss, seen, missed)
     return VisualHull(
-        (seen >= MIN_SIGHTINGS * len(cameras)) & (missed <= MAX_MISSED_SILHOUETTES_SHARE * seen), origin, spacing
+        (seen >= MIN_SIGHTINGS_SHARE * len(cameras)) & (missed <= MAX_MISSED_SILHOUETTES_SHARE * seen), origin, spacing
     )
 
 
@@ -197,7 +197,7 @@ def _march(
                     first, last = max(first, min(enter, leave)), min(last, max(enter, leave))
                 elif not -0.5 <= at[k] <= occupied.shape[k] - 0.5:
                     last = -1.0
-            step = RAY_STEP / np.sqrt(along[0] ** 2 + along[1] ** 2 + along[2] ** 2)
+            step = RAY_STEP_VOXELS / np.sqrt(along[0] ** 2 + along[1] ** 2 + along[2] ** 2)
             away = first
             while away <= last:
                 i = int(np.floor(at[0] + away * along[0] + 0.5))

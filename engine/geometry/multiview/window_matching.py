@@ -14,19 +14,32 @@ Plane = tuple[np.float32, np.float32, np.float32, np.float32]
 """Of a pixel: metres along the view axis to it, and its unit normal, x right, y down, z forwards."""
 Ray = tuple[np.float32, np.float32]
 """Where a pixel's line of sight meets the plane at distance 1: x right, y down."""
-WINDOW_STEPS = (-4, -2, 0, 2, 4)
+WINDOW_SAMPLE_PIXELS = (-4, -2, 0, 2, 4)
 """Pixels from the middle of a window to its samples, in x and in y."""
-WINDOW_RADIUS = max(WINDOW_STEPS)
+WINDOW_RADIUS_PIXELS = max(WINDOW_SAMPLE_PIXELS)
 """Pixels from the middle of a window to its sides."""
-WINDOW_OFFSETS = np.array([(x, y) for y in WINDOW_STEPS for x in WINDOW_STEPS if (x, y) != (0, 0)], np.float32)
+WINDOW_OFFSETS = np.array(
+    [(x, y) for y in WINDOW_SAMPLE_PIXELS for x in WINDOW_SAMPLE_PIXELS if (x, y) != (0, 0)], np.float32
+)
 """(n, 2) x and y of the samples. Without the middle they are three times eight, and a processor does eight at once."""
-SAMPLES = len(WINDOW_OFFSETS)
-RIGHT, DOWN, GREY, COUNTED, PART_X, PART_Y, ABOVE, ABOVE_RIGHT, BELOW, BELOW_RIGHT = range(0, 10 * SAMPLES, SAMPLES)
+SAMPLE_COUNT = len(WINDOW_OFFSETS)
+(
+    RIGHT_START,
+    DOWN_START,
+    GREY_START,
+    COUNTED_START,
+    PART_X_START,
+    PART_Y_START,
+    ABOVE_START,
+    ABOVE_RIGHT_START,
+    BELOW_START,
+    BELOW_RIGHT_START,
+) = range(0, 10 * SAMPLE_COUNT, SAMPLE_COUNT)
 """Where in the memory of a window its samples' values begin: offsets, grey levels less their mean, and 1 for those of the body, 0
 for others; and, of the picture that the window is compared with, the places between four pixels, and these."""
-WINDOW_MEMORY = 10 * SAMPLES
+WINDOW_MEMORY = 10 * SAMPLE_COUNT
 """Values in the memory of a window: one array, so that a compiler knows what lies apart in it."""
-BEST_SOURCES = 2
+BEST_SOURCE_COUNT = 2
 """Sources that count of those given: those that agree best; from the others the place may be hidden."""
 NOISE_GREY_LEVELS = 1.0
 """Grey levels by which windows without texture differ: keeps those from matching anything."""
@@ -38,20 +51,20 @@ UNSEEN_COST = 2.0
 def fill_window(grey: np.ndarray, figure: np.ndarray, x: int, y: int, window: np.ndarray) -> tuple[int, np.float32]:
     """Fill a window's memory (`WINDOW_MEMORY`,) with the body's samples about a pixel. Their number, and their variance."""
     count, mean = 0, np.float32(0)
-    for k in range(SAMPLES):
+    for k in range(SAMPLE_COUNT):
         right, down = WINDOW_OFFSETS[k, 0], WINDOW_OFFSETS[k, 1]
         px, py = x + int(right), y + int(down)
         counted = 0 <= px < grey.shape[1] and 0 <= py < grey.shape[0] and figure[py, px]
-        window[RIGHT + k], window[DOWN + k], window[COUNTED + k] = right, down, counted
-        window[GREY + k] = grey[py, px] if counted else np.float32(0)
-        mean += window[GREY + k]
+        window[RIGHT_START + k], window[DOWN_START + k], window[COUNTED_START + k] = right, down, counted
+        window[GREY_START + k] = grey[py, px] if counted else np.float32(0)
+        mean += window[GREY_START + k]
         count += counted
     count = max(count, 1)
     mean /= np.float32(count)
     variance = np.float32(0)
-    for k in range(SAMPLES):
-        window[GREY + k] = window[COUNTED + k] * (window[GREY + k] - mean)
-        variance += window[GREY + k] * window[GREY + k]
+    for k in range(SAMPLE_COUNT):
+        window[GREY_START + k] = window[COUNTED_START + k] * (window[GREY_START + k] - mean)
+        variance += window[GREY_START + k] * window[GREY_START + k]
     return count, variance / np.float32(count)
 
 
@@ -70,10 +83,10 @@ def plane_cost(
 ) -> np.float32:
     """Mean over the best sources of one less the correlation of the window with what the plane sees there.
 
-    `greys` are the sources' pictures in one row; `places` (`SAMPLES`,) int32 is overwritten. Across a window the homography of the
+    `greys` are the sources' pictures in one row; `places` (`SAMPLE_COUNT`,) int32 is overwritten. Across a window the homography of the
     plane is taken as affine.
     """
-    half, reach = np.float32(0.5), np.float32(WINDOW_RADIUS)
+    half, reach = np.float32(0.5), np.float32(WINDOW_RADIUS_PIXELS)
     first, second = np.float32(UNSEEN_COST), np.float32(UNSEEN_COST)
     sources, height, width = figures.shape
     offset = plane[0] * (plane[1] * ray[0] + plane[2] * ray[1] + plane[3])
@@ -102,7 +115,7 @@ def plane_cost(
             first, second = value, first
         elif value < second:
             second = value
-    return (first + second) / np.float32(BEST_SOURCES)
+    return (first + second) / np.float32(BEST_SOURCE_COUNT)
 
 
 @njit(boundscheck=False, error_model="numpy", fastmath=True)
@@ -122,27 +135,27 @@ def _unlikeness(
 
     In three loops: only the one between, which fetches, is not done for eight samples at once.
     """
-    for k in range(SAMPLES):
-        right, down = window[RIGHT + k], window[DOWN + k]
+    for k in range(SAMPLE_COUNT):
+        right, down = window[RIGHT_START + k], window[DOWN_START + k]
         u, v = across[0] + right * across[1] + down * across[2], along[0] + right * along[1] + down * along[2]
         i, j = np.int32(u), np.int32(v)
-        window[PART_X + k], window[PART_Y + k] = u - np.float32(i), v - np.float32(j)
+        window[PART_X_START + k], window[PART_Y_START + k] = u - np.float32(i), v - np.float32(j)
         places[k] = begin + j * width + i
-    for k in range(SAMPLES):
+    for k in range(SAMPLE_COUNT):
         at = np.uint32(places[k])
         below = np.uint32(at + np.uint32(width))
-        window[ABOVE + k], window[ABOVE_RIGHT + k] = greys[at], greys[at + np.uint32(1)]
-        window[BELOW + k], window[BELOW_RIGHT + k] = greys[below], greys[below + np.uint32(1)]
+        window[ABOVE_START + k], window[ABOVE_RIGHT_START + k] = greys[at], greys[at + np.uint32(1)]
+        window[BELOW_START + k], window[BELOW_RIGHT_START + k] = greys[below], greys[below + np.uint32(1)]
     total, squares, product = np.float32(0), np.float32(0), np.float32(0)
-    for k in range(SAMPLES):
-        part = window[PART_X + k]
-        upper = window[ABOVE + k] + part * (window[ABOVE_RIGHT + k] - window[ABOVE + k])
-        lower = window[BELOW + k] + part * (window[BELOW_RIGHT + k] - window[BELOW + k])
-        seen = upper + window[PART_Y + k] * (lower - upper)
-        counted = window[COUNTED + k] * seen
+    for k in range(SAMPLE_COUNT):
+        part = window[PART_X_START + k]
+        upper = window[ABOVE_START + k] + part * (window[ABOVE_RIGHT_START + k] - window[ABOVE_START + k])
+        lower = window[BELOW_START + k] + part * (window[BELOW_RIGHT_START + k] - window[BELOW_START + k])
+        seen = upper + window[PART_Y_START + k] * (lower - upper)
+        counted = window[COUNTED_START + k] * seen
         total += counted
         squares += counted * seen
-        product += window[GREY + k] * seen
+        product += window[GREY_START + k] * seen
     samples, floor = np.float32(count), np.float32(NOISE_GREY_LEVELS * NOISE_GREY_LEVELS)
     mean = total / samples
     spread = max(squares / samples - mean * mean, np.float32(0))

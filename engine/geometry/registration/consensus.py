@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from engine.geometry.registration.rigid import Similarity, fit_similarity
 
-SAMPLE_SIZE = 3
+PAIRS_PER_SAMPLE = 3
 """Pairs that make a similarity of space."""
 CONSENSUS_SAMPLES = 1000
 """Samples: with a third of the pairs right, one of all right ones is missed once in 10 to the 16."""
-REFINEMENTS = 5
+REFINEMENT_ROUNDS = 5
 """Fits to all pairs that agree, one after the other."""
 
 
@@ -38,19 +38,19 @@ def similarity_by_consensus(
     tolerance : by which pairs that agree may be apart, in the destination's unit; in the source's it is as much smaller or
         larger as the source's points are spread less or more.
     """
-    if len(source) < SAMPLE_SIZE:
+    if len(source) < PAIRS_PER_SAMPLE:
         return None
     a, b = np.asarray(source, np.float64), np.asarray(destination, np.float64)
     within = tolerance, tolerance * _spread(a) / max(_spread(b), 1e-300)
     random = np.random.default_rng(seed)
     best: Consensus | None = None
     for _ in range(CONSENSUS_SAMPLES):
-        chosen = random.choice(len(a), SAMPLE_SIZE, replace=False)
+        chosen = random.choice(len(a), PAIRS_PER_SAMPLE, replace=False)
         found = _judged(a, b, chosen, within)
         if found is not None and (best is None or found.agreed.sum() > best.agreed.sum()):
             best = found
-    for _ in range(REFINEMENTS):
-        if best is None or best.agreed.sum() < SAMPLE_SIZE:
+    for _ in range(REFINEMENT_ROUNDS):
+        if best is None or best.agreed.sum() < PAIRS_PER_SAMPLE:
             return None
         refined = _judged(a, b, np.flatnonzero(best.agreed), within)
         if refined is None or refined.agreed.sum() < best.agreed.sum():

@@ -15,7 +15,7 @@ from engine.geometry.closest_points import closest_points
 from engine.geometry.registration.rigid import Similarity
 from engine.geometry.surface import face_normals
 
-DAMPING = 1e-9
+MOTION_DAMPING = 1e-9
 """What keeps a motion along which the surface is the same, such as a ball's turn, at none."""
 
 
@@ -74,7 +74,7 @@ def _onto_planes(
     rows = np.concatenate([np.cross(at - middle, across), across], 1)
     off = ((there - at) * across).sum(1)
     hessian = rows.T @ rows
-    step = np.linalg.solve(hessian + DAMPING * np.trace(hessian) * np.eye(6), rows.T @ off)
+    step = np.linalg.solve(hessian + MOTION_DAMPING * np.trace(hessian) * np.eye(6), rows.T @ off)
     turn = Rotation.from_rotvec(step[:3]).as_matrix()
     shift = middle + step[3:] - turn @ middle
     return Similarity(turn @ found.linear, turn @ found.shift + shift)

@@ -23,9 +23,9 @@ from engine.geometry.deformation.hinge_laplacian import HingeLaplacian
 from engine.geometry.registration.point_noise import point_noise
 from engine.geometry.surface import vertex_areas, vertex_normals
 
-MIN_NORMAL_COSINE = 0.2
+MIN_MATCH_NORMAL_COSINE = 0.2
 """Between the normals of a point and of the surface there: what faces another way is another side of the body."""
-ITERATIONS = 3
+ROUNDS_PER_STEP = 3
 """Of each step: new closest points, new turns, new places."""
 WEIGHED_STEPS = 2
 """The last steps, in which points count by how much those around them scatter; before, the surface is too stiff to tell."""
@@ -81,7 +81,7 @@ class SurfaceLandmarks:
 
 @dataclass(frozen=True)
 class Step:
-    """Weights of equation 1 while so many `ITERATIONS` last, in metres: `regularisation` grows with the fourth power of the
+    """Weights of equation 1 while so many `ROUNDS_PER_STEP` last, in metres: `regularisation` grows with the fourth power of the
     unit of length. `gate`: metres from which on points pull no more (J. Tukey's weight)."""
 
     regularisation: float
@@ -125,9 +125,9 @@ def lay_on_points(
     for number, step in enumerate(steps):
         if np.isfinite(surface.noise).any() and number >= len(steps) - WEIGHED_STEPS:
             matched = np.asarray(surface.triangles)[surface.matched]
-            scatter = point_noise(vertices, matched, points, normals, MIN_NORMAL_COSINE)
+            scatter = point_noise(vertices, matched, points, normals, MIN_MATCH_NORMAL_COSINE)
             trust = surface.trust / (1 + (scatter / surface.noise) ** 2)
-        for _ in range(ITERATIONS):
+        for _ in range(ROUNDS_PER_STEP):
             matrix, right = _matched_points(surface, trust, vertices, points, normals, step.gate)
             if landmarks is not None:
                 drawn, towards = landmarks.pulls()
@@ -156,7 +156,7 @@ def _matched_points(
     nearest = closest_points(points, vertices, candidates)
     corners = candidates[nearest.triangle]
     own = vertex_normals(vertices, surface.triangles)[corners]
-    facing = np.einsum("nk,nkc,nc->n", nearest.barycentrics, own, normals) > MIN_NORMAL_COSINE
+    facing = np.einsum("nk,nkc,nc->n", nearest.barycentrics, own, normals) > MIN_MATCH_NORMAL_COSINE
     weights = facing * np.maximum(1 - (nearest.distance / gate) ** 2, 0) ** 2
     total = (weights * np.einsum("nk,nk->n", nearest.barycentrics, surface.trust[corners])).sum()
     weights *= np.einsum("nk,nk->n", nearest.barycentrics, trust[corners])

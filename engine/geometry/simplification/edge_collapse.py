@@ -14,10 +14,10 @@ from engine.geometry.simplification.heap import sift_down, sift_up
 from engine.geometry.simplification.one_ring import corner_successors, one_ring
 from engine.geometry.simplification.quadrics import cheapest_collapses, collapse_cost, surface_quadrics, texture_seams
 
-MAX_NEIGHBOURS = 64
+MAX_COLLAPSED_VALENCE = 64
 """The most neighbours of a point that is collapsed; one that has more stays."""
 
-PRICE_TOLERANCE = 0.05
+PRICE_TOLERANCE_SHARE = 0.05
 """A collapse goes ahead although it has become dearer by this share since it was priced."""
 
 
@@ -70,7 +70,7 @@ def _best(
         costs[chosen] = np.inf
         v = np.int64(around[chosen, 0])
         others = one_ring(v, faces, alive, head, following, around_other, seen)
-        if others < 0 or count + others > MAX_NEIGHBOURS:
+        if others < 0 or count + others > MAX_COLLAPSED_VALENCE:
             continue
         # link condition: the only points next to both are those of the triangles on the edge
         common = 0
@@ -141,10 +141,10 @@ def _collapse(
         p = faces[corner // 3, corner % 3]
         following[corner] = head[p]
         head[p] = corner
-    around = np.empty((MAX_NEIGHBOURS, 2), np.int32)
-    around_other = np.empty((MAX_NEIGHBOURS, 2), np.int32)
-    costs = np.empty(MAX_NEIGHBOURS)
-    to_mend = np.empty(MAX_NEIGHBOURS, np.int32)
+    around = np.empty((MAX_COLLAPSED_VALENCE, 2), np.int32)
+    around_other = np.empty((MAX_COLLAPSED_VALENCE, 2), np.int32)
+    costs = np.empty(MAX_COLLAPSED_VALENCE)
+    to_mend = np.empty(MAX_COLLAPSED_VALENCE, np.int32)
     seen = np.empty(points, np.int32)
     seen[:] = -1
     wedges = np.empty((8, 2), np.int32)
@@ -169,7 +169,7 @@ def _collapse(
         )  # fmt: skip
         if v < 0:
             continue
-        if price > key * (1 + PRICE_TOLERANCE):  # its surroundings have changed: it has to queue again
+        if price > key * (1 + PRICE_TOLERANCE_SHARE):  # its surroundings have changed: it has to queue again
             heap_keys[size], heap_items[size] = price, u
             sift_up(heap_keys, heap_items, size)
             size += 1

@@ -10,7 +10,7 @@ import numpy as np
 
 from engine.compiled import njit
 
-MIN_NORMAL_COSINE = 0.2
+MIN_COLLAPSE_NORMAL_COSINE = 0.2
 """A collapse may not turn a triangle's normal by more than this."""
 
 MIN_TRIANGLE_QUALITY = 1e-3
@@ -124,7 +124,7 @@ def corner_successors(
                 )
                 if (
                     after <= MIN_TRIANGLE_QUALITY * longest
-                    or ax * bx + ay * by + az * bz < MIN_NORMAL_COSINE * before * after
+                    or ax * bx + ay * by + az * bz < MIN_COLLAPSE_NORMAL_COSINE * before * after
                 ):
                     return 0
                 mine, right, left = corners[t, k], corners[t, (k + 1) % 3], corners[t, (k + 2) % 3]

@@ -16,7 +16,7 @@ from engine.compiled import njit
 from engine.imaging.alpha.colour_pairs import alpha_from_colour_pairs
 from engine.imaging.resample import resized
 
-COVARIANCE_REGULARISATION = 2e-5
+MATTE_COVARIANCE_REGULARISATION = 2e-5
 """What is added to the variances of a window's colours in [0, 1]: grain of scans and JPEG."""
 
 SAMPLE_WEIGHT = 1.0
@@ -87,7 +87,7 @@ def _solve(
     ys, xs = np.nonzero((trimap > 0) & (trimap < 1))
     number = np.full(trimap.shape, -1, np.int32)
     number[ys, xs] = np.arange(len(ys), dtype=np.int32)
-    rows = laplacian_rows(pixels, number, len(ys), COVARIANCE_REGULARISATION)
+    rows = laplacian_rows(pixels, number, len(ys), MATTE_COVARIANCE_REGULARISATION)
     neighbours, right = _couple(rows, number, trimap, ys.astype(np.int32), xs.astype(np.int32))
     diagonal = weight[ys, xs]
     right += diagonal * target[ys, xs]

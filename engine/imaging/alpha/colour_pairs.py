@@ -15,7 +15,7 @@ from engine.compiled import njit
 SEARCH_DIRECTIONS = 8
 """Directions searched; neighbouring pixels use different sets of them, so that together they see more."""
 
-COLOUR_NOISE = 6.0
+COLOUR_NOISE_GREY_LEVELS = 6.0
 """Grey levels by which a mixed colour may miss the line between its pair without losing confidence."""
 
 
@@ -85,12 +85,12 @@ def _search(rgb, trimap, reach, alpha_out, confidence_out):  # type: ignore[no-u
                     a = min(max(a, 0.0), 1.0)
                     m0, m1, m2 = r - back[j, 0] - a * d0, g - back[j, 1] - a * d1, b - back[j, 2] - a * d2
                     miss = m0 * m0 + m1 * m1 + m2 * m2
-                    cost = miss / (COLOUR_NOISE * COLOUR_NOISE) + 0.5 * (
+                    cost = miss / (COLOUR_NOISE_GREY_LEVELS * COLOUR_NOISE_GREY_LEVELS) + 0.5 * (
                         front[i, 3] / near_front + back[j, 3] / near_back
                     )
                     if cost < best:
                         best, best_alpha, best_miss, best_gap = cost, a, miss, gap
             alpha_out[y, x] = best_alpha
-            certain = np.exp(-best_miss / (2 * COLOUR_NOISE * COLOUR_NOISE))
-            distinct = 1 - np.exp(-best_gap / (2 * (4 * COLOUR_NOISE) ** 2))
+            certain = np.exp(-best_miss / (2 * COLOUR_NOISE_GREY_LEVELS * COLOUR_NOISE_GREY_LEVELS))
+            distinct = 1 - np.exp(-best_gap / (2 * (4 * COLOUR_NOISE_GREY_LEVELS) ** 2))
             confidence_out[y, x] = certain * distinct

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from engine.imaging.resample import resized
 
-COVARIANCE_REGULARISATION = 1e-4
+GUIDE_COVARIANCE_REGULARISATION = 1e-4
 """What is added to the variances of colours in [0, 1]: noise of a flat area."""
 
 
@@ -41,6 +41,8 @@ def _affine_models(
     cross = mean(guide * alpha[..., None]) - colour * level[..., None]
     products = mean(np.stack([guide[..., i] * guide[..., j] for i in range(3) for j in range(3)], -1))
     spread = products.reshape(*alpha.shape, 3, 3) - colour[..., :, None] * colour[..., None, :]
-    slope = np.linalg.solve(spread + COVARIANCE_REGULARISATION * np.eye(3, dtype=np.float32), cross[..., None])[..., 0]
+    slope = np.linalg.solve(spread + GUIDE_COVARIANCE_REGULARISATION * np.eye(3, dtype=np.float32), cross[..., None])[
+        ..., 0
+    ]
     offset = level - np.einsum("ijk,ijk->ij", slope, colour)
     return mean(slope.astype(np.float32)), mean(offset.astype(np.float32))

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.imaging.resample import resized
 
-FLAT_SMOOTHNESS = 5e-3
+FLAT_SMOOTHNESS_WEIGHT = 5e-3
 """Weight of smoothness where alpha is flat (the paper: 1)."""
-EDGE_SMOOTHNESS = 0.1
+EDGE_SMOOTHNESS_WEIGHT = 0.1
 """By how much the weight of smoothness grows with the step of alpha between neighbours (the paper: 1e-5)."""
 
-MIN_SETTLED_SIDE = 256
+MIN_SETTLED_SIDE_PIXELS = 256
 """Pixels of the longest side of a picture from which pixels amid wholly opaque or transparent ones are settled already."""
 
 TRANSPARENT_RELUCTANCE = 0.1
@@ -52,7 +52,7 @@ def estimate_layers(
         pyramid.append((resized(pyramid[-1][0], size), resized(pyramid[-1][1], size)))
     for size, (small_image, small_matte) in zip(sizes, reversed(pyramid), strict=True):
         front, back = resized(front, size, smooth=False).copy(), resized(back, size, smooth=False).copy()
-        _relax(small_image, small_matte, front, back, 10 if max(size) <= 32 else 2, max(size) > MIN_SETTLED_SIDE)
+        _relax(small_image, small_matte, front, back, 10 if max(size) <= 32 else 2, max(size) > MIN_SETTLED_SIDE_PIXELS)
     np.copyto(front, image, where=matte[..., None] >= 1)
     np.copyto(back, image, where=matte[..., None] <= 0)
     return front, back
@@ -93,7 +93,7 @@ def _relax(image, alpha, front, back, sweeps, some_settled):  # type: ignore[no-
                     ny = y + (1 if k == 0 else -1 if k == 1 else 0)
                     nx = x + (1 if k == 2 else -1 if k == 3 else 0)
                     ny, nx = min(max(ny, 0), height - 1), min(max(nx, 0), width - 1)
-                    weight = FLAT_SMOOTHNESS + EDGE_SMOOTHNESS * abs(a - alpha[ny, nx])
+                    weight = FLAT_SMOOTHNESS_WEIGHT + EDGE_SMOOTHNESS_WEIGHT * abs(a - alpha[ny, nx])
                     weights += weight
                     f0 += weight * front[ny, nx, 0]
                     f1 += weight * front[ny, nx, 1]

@@ -27,13 +27,13 @@ STRAND_REACH_SHARE = 0.12
 """How far strands are followed, as a share of the square root of the layer's area."""
 BACKGROUND_SIGMA = 10.0
 """Standard deviation, in pixels, of the neighbourhood that predicts the background's colour."""
-BACKGROUND_NOISE = 4.0
+BACKGROUND_NOISE_GREY_LEVELS = 4.0
 """Grey levels (over three channels) of noise that even the plainest background has."""
 MAX_PLAIN_SIGMA = 14.0
 """Largest standard deviation of a background, grey levels over three channels, against which strands can be told."""
 WORKING_SIGMA = 3.0
 """Pixels of a Gaussian's standard deviation on the smaller picture in which a wide one is applied."""
-MIN_SLIVER_CONTRAST = 60.0
+MIN_SLIVER_CONTRAST_GREY_LEVELS = 60.0
 """Grey levels a channel by which a sliver must differ from the layer around it."""
 
 
@@ -74,7 +74,7 @@ def like_plain_background(rgb: NDArray[np.uint8], background: NDArray[np.bool_])
     near = cv2.GaussianBlur(known.astype(np.float32), (0, 0), 1.5 * BACKGROUND_SIGMA) > 1e-3
     noise = resized(np.where(near, spread, 2 * MAX_PLAIN_SIGMA**2).astype(np.float32), (width, height))
     miss = _squared(rgb - resized(mean, (width, height)))
-    return np.asarray((noise < MAX_PLAIN_SIGMA**2) & (miss < 9 * (noise + BACKGROUND_NOISE**2)))
+    return np.asarray((noise < MAX_PLAIN_SIGMA**2) & (miss < 9 * (noise + BACKGROUND_NOISE_GREY_LEVELS**2)))
 
 
 def _distance(mask: NDArray[np.bool_]) -> Mask:
@@ -99,7 +99,7 @@ def _strands_and_slivers(
     miss = _squared(rgb - resized(mean, (width, height)))
     noise = resized(spread, (width, height))
     plain = noise < MAX_PLAIN_SIGMA**2
-    noise += BACKGROUND_NOISE**2
+    noise += BACKGROUND_NOISE_GREY_LEVELS**2
 
     odd = plain & (miss > 9 * noise) & (depth < -band) & (depth > -1.3 * reach)
     strands = _hanging_on(odd, depth, band, reach)
@@ -108,7 +108,7 @@ def _strands_and_slivers(
     near = _local_mean(small, layer, 0.75 * BACKGROUND_SIGMA)
     spread = _local_mean(_squared(small - near), layer, 0.75 * BACKGROUND_SIGMA)
     layer_miss = _squared(rgb - resized(near, (width, height)))
-    unlike = (layer_miss > 3 * MIN_SLIVER_CONTRAST**2) & (layer_miss > 9 * resized(spread, (width, height)))
+    unlike = (layer_miss > 3 * MIN_SLIVER_CONTRAST_GREY_LEVELS**2) & (layer_miss > 9 * resized(spread, (width, height)))
     slivers = plain & (miss < 9 * noise) & unlike & (layer_miss > 9 * miss) & (depth > 0) & (depth < 4 * band)
     return _grown(strands, 2), _grown(slivers, 3)
 
@@ -133,7 +133,7 @@ def _plain_background(image: NDArray[np.float32], background: NDArray[np.bool_])
         )
         miss = _squared(image - mean)
         spread = _local_mean(miss, weight, 2 * BACKGROUND_SIGMA)
-        odd = background & (miss > 9 * (spread + BACKGROUND_NOISE**2))
+        odd = background & (miss > 9 * (spread + BACKGROUND_NOISE_GREY_LEVELS**2))
     return mean, spread
 
 

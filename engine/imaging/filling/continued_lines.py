@@ -20,25 +20,25 @@ from engine.imaging.filling.straight_lines import Line, lines_towards
 
 MAX_NEIGHBOUR_COSINE = float(np.cos(np.deg2rad(12)))
 """Cosine of the angle from which on two lines that reach the hole side by side may both be."""
-PROFILE_HALF_WIDTH = 5
+PROFILE_HALF_WIDTH_PIXELS = 5
 """Pixels on either side of a line that its profile holds."""
-CORE_HALF_WIDTH = 2
+CORE_HALF_WIDTH_PIXELS = 2
 """Pixels on either side of a line that have to be known in every row."""
-SAMPLES_PER_PIXEL = 2
+PROFILE_SAMPLES_PER_PIXEL = 2
 """Samples of a profile for each pixel across the line."""
-MAX_SUPPORT = 96
+MAX_SUPPORT_PIXELS = 96
 """Pixels along a line from which it is known, at most."""
-MIN_SUPPORT = 20
+MIN_SUPPORT_PIXELS = 20
 """Pixels along a line from which it is known, at least."""
 MIN_EXPLAINED_SHARE = 0.6
 """Share of those pixels that must look like the line: what crosses it does not."""
-MIN_UNMATCHED_LENGTH = 30
+MIN_UNMATCHED_LENGTH_PIXELS = 30
 """Pixels of the least known length of a line that is not found again beyond the hole."""
-MAX_RESIDUAL_VARIANCE = 0.35
+MAX_RESIDUAL_VARIANCE_SHARE = 0.35
 """Share of a profile's variance by which a pixel's own may be off to look like it."""
-MIN_CONTRAST = 10.0
+MIN_CONTRAST_GREY_LEVELS = 10.0
 """Grey levels by which a line stands out, at least."""
-MAX_CUT_ROWS = 3 * PROFILE_HALF_WIDTH
+MAX_CUT_ROWS = 3 * PROFILE_HALF_WIDTH_PIXELS
 """Rows across the hole's edge that may be cut by it: a line that runs along the edge has more."""
 MIN_SLOPE_SHARE = 0.15
 """Share of a profile's steepest slope below which the line has ended."""
@@ -99,7 +99,7 @@ def continue_lines(picture: NDArray[np.float32], hole: NDArray[np.bool_], reach:
     scene = _Scene(picture, hole, np.asarray(touched, np.uint8))
     canvas = _Canvas(picture.copy(), np.zeros(hole.shape, np.float32))
     drawn: list[Line] = []
-    for line in lines_towards(scene.picture, scene.hole, MIN_SUPPORT):
+    for line in lines_towards(scene.picture, scene.hole, MIN_SUPPORT_PIXELS):
         if any(_beside(line, other) for other in drawn):
             continue  # the other edge of one that has two
         finer = _laid_through(scene, line)
@@ -111,7 +111,7 @@ def continue_lines(picture: NDArray[np.float32], hole: NDArray[np.bool_], reach:
 
 def _beside(line: Line, other: Line) -> bool:
     """Whether a line reaches the hole within the profile of another that runs much as it does."""
-    near = abs((line.point - other.point) @ other.normal) < PROFILE_HALF_WIDTH - 1
+    near = abs((line.point - other.point) @ other.normal) < PROFILE_HALF_WIDTH_PIXELS - 1
     return bool(near and abs(line.direction @ other.direction) > MAX_NEIGHBOUR_COSINE)
 
 
@@ -122,22 +122,22 @@ def _laid_through(scene: _Scene, line: Line) -> Line | None:
         if strip is None:
             return None
         near = _near_the_hole(strip)
-        if near.sum() < MIN_SUPPORT:
+        if near.sum() < MIN_SUPPORT_PIXELS:
             return None
         rows = strip.colours[near].mean(axis=2)
         profile = _median(rows)
         if np.isnan(profile).any():
             return None
-        slope = np.gradient(profile) * SAMPLES_PER_PIXEL
+        slope = np.gradient(profile) * PROFILE_SAMPLES_PER_PIXEL
         level = rows - profile
         level = np.nan_to_num(level - np.nanmean(level, axis=1, keepdims=True))
-        like = (level**2).mean(axis=1) < 2 * MAX_RESIDUAL_VARIANCE * profile.var()
-        if like.sum() < MIN_SUPPORT or np.ptp(profile) < MIN_CONTRAST:
+        like = (level**2).mean(axis=1) < 2 * MAX_RESIDUAL_VARIANCE_SHARE * profile.var()
+        if like.sum() < MIN_SUPPORT_PIXELS or np.ptp(profile) < MIN_CONTRAST_GREY_LEVELS:
             return None
         shift = np.clip(-(level @ slope) / max(float(slope @ slope), 1e-6), -1, 1)[like]
         t = (strip.start + np.flatnonzero(near))[like].astype(float)
         turn, move = np.polyfit(t, shift, 1)
-        offsets = np.arange(len(slope)) / SAMPLES_PER_PIXEL - PROFILE_HALF_WIDTH
+        offsets = np.arange(len(slope)) / PROFILE_SAMPLES_PER_PIXEL - PROFILE_HALF_WIDTH_PIXELS
         move += float(offsets @ slope**2 / (slope @ slope))  # to the middle between both edges of a thin one
         direction = line.direction + turn * line.normal
         line = Line(line.point + move * line.normal, direction / np.linalg.norm(direction))
@@ -151,17 +151,20 @@ def _strip(scene: _Scene, line: Line) -> _Strip | None:
     for axis in range(2):
         if abs(line.direction[axis]) > 1e-9:
             ends = (
-                np.array([PROFILE_HALF_WIDTH, size[axis] - 1 - PROFILE_HALF_WIDTH]) - line.point[axis]
+                np.array([PROFILE_HALF_WIDTH_PIXELS, size[axis] - 1 - PROFILE_HALF_WIDTH_PIXELS]) - line.point[axis]
             ) / line.direction[axis]
             low, high = max(low, ends.min()), min(high, ends.max())
-        elif not PROFILE_HALF_WIDTH <= line.point[axis] <= size[axis] - 1 - PROFILE_HALF_WIDTH:
+        elif not PROFILE_HALF_WIDTH_PIXELS <= line.point[axis] <= size[axis] - 1 - PROFILE_HALF_WIDTH_PIXELS:
             return None
-    if high - low < MIN_SUPPORT:
+    if high - low < MIN_SUPPORT_PIXELS:
         return None
     start, stop = int(np.ceil(low)), int(np.floor(high)) + 1
     across = (
-        np.arange(-PROFILE_HALF_WIDTH * SAMPLES_PER_PIXEL, PROFILE_HALF_WIDTH * SAMPLES_PER_PIXEL + 1)
-        / SAMPLES_PER_PIXEL
+        np.arange(
+            -PROFILE_HALF_WIDTH_PIXELS * PROFILE_SAMPLES_PER_PIXEL,
+            PROFILE_HALF_WIDTH_PIXELS * PROFILE_SAMPLES_PER_PIXEL + 1,
+        )
+        / PROFILE_SAMPLES_PER_PIXEL
     )
     t = np.arange(start, stop)
     xy = line.point + t[:, None, None] * line.direction + across[:, None] * line.normal
@@ -169,7 +172,7 @@ def _strip(scene: _Scene, line: Line) -> _Strip | None:
     colours = cv2.remap(scene.picture, x, y, cv2.INTER_CUBIC)
     hidden = np.asarray(cv2.remap(scene.touched, x, y, cv2.INTER_NEAREST) > 0)
     colours[hidden] = np.nan
-    known = ~hidden[:, np.abs(across) <= CORE_HALF_WIDTH].any(axis=1)
+    known = ~hidden[:, np.abs(across) <= CORE_HALF_WIDTH_PIXELS].any(axis=1)
     middle = line.point + t[:, None] * line.direction
     column, row = middle.round().astype(int).T
     return _Strip(start, np.asarray(colours, np.float32), np.asarray(known), scene.hole[row, column])
@@ -177,7 +180,7 @@ def _strip(scene: _Scene, line: Line) -> _Strip | None:
 
 def _near_the_hole(strip: _Strip) -> NDArray[np.bool_]:
     """Known rows within reach of those where the line is in the hole."""
-    around = np.convolve(strip.open, np.ones(2 * MAX_SUPPORT + 1))[MAX_SUPPORT:-MAX_SUPPORT]
+    around = np.convolve(strip.open, np.ones(2 * MAX_SUPPORT_PIXELS + 1))[MAX_SUPPORT_PIXELS:-MAX_SUPPORT_PIXELS]
     return np.asarray(strip.known & (around > 0.5))
 
 
@@ -194,7 +197,7 @@ def _paint(scene: _Scene, line: Line, reach: float, canvas: _Canvas) -> None:
             _stroke(scene.hole, strip, line, (first, last), (before, after), canvas)
             continue
         for side, other, end in ((before, after, first), (after, before, last)):
-            if side is None or side.length < MIN_UNMATCHED_LENGTH:
+            if side is None or side.length < MIN_UNMATCHED_LENGTH_PIXELS:
                 continue
             inside = first > 0 and last < len(strip.open)
             length = min(side.length, round(reach), far // 2 if inside or other is not None else far)
@@ -204,21 +207,21 @@ def _paint(scene: _Scene, line: Line, reach: float, canvas: _Canvas) -> None:
 
 def _side(strip: _Strip, edge: int, step: int) -> _Side | None:
     """What is known of the line from row `edge` of the hole on in the direction `step`."""
-    rows = np.arange(edge + step, -1 if step < 0 else len(strip.known), step)[: MAX_SUPPORT + MAX_CUT_ROWS]
+    rows = np.arange(edge + step, -1 if step < 0 else len(strip.known), step)[: MAX_SUPPORT_PIXELS + MAX_CUT_ROWS]
     if not len(rows) or not strip.known[rows].any():
         return None
     begin = int(np.argmax(strip.known[rows]))
     if begin > MAX_CUT_ROWS:
         return None
-    rows = rows[begin:][:MAX_SUPPORT]
+    rows = rows[begin:][:MAX_SUPPORT_PIXELS]
     rows = rows[strip.known[rows]]
-    profile = _median(strip.colours[rows[: 2 * MIN_SUPPORT]])
-    if np.isnan(profile).any() or float(np.ptp(profile.mean(axis=1))) < MIN_CONTRAST:
+    profile = _median(strip.colours[rows[: 2 * MIN_SUPPORT_PIXELS]])
+    if np.isnan(profile).any() or float(np.ptp(profile.mean(axis=1))) < MIN_CONTRAST_GREY_LEVELS:
         return None
     like = _looks_like(strip.colours[rows], profile)
     share = np.cumsum(like) / np.arange(1, len(rows) + 1)
     enough = np.flatnonzero(like & (share >= MIN_EXPLAINED_SHARE))
-    if len(enough) < MIN_SUPPORT:
+    if len(enough) < MIN_SUPPORT_PIXELS:
         return None
     last = int(enough[-1])
     return _Side(rows[: last + 1][like[: last + 1]], profile, abs(int(rows[last] - rows[0])) + 1)
@@ -235,7 +238,7 @@ def _looks_like(rows: NDArray[np.float32], profile: NDArray[np.float32]) -> NDAr
     apart = rows - profile
     apart = apart - np.nanmean(apart, axis=1, keepdims=True)
     spread = float((profile - profile.mean(axis=0)).var())
-    return np.asarray(np.nanmean(apart**2, axis=(1, 2)) < MAX_RESIDUAL_VARIANCE * spread)
+    return np.asarray(np.nanmean(apart**2, axis=(1, 2)) < MAX_RESIDUAL_VARIANCE_SHARE * spread)
 
 
 def _alike(one: NDArray[np.float32], other: NDArray[np.float32]) -> bool:
@@ -256,8 +259,8 @@ def _stroke(
     begin, end = sides
     slope = np.abs(np.gradient((begin.profile + end.profile).mean(axis=1)))
     steep = np.flatnonzero(slope > MIN_SLOPE_SHARE * slope.max())
-    low = max(steep[0] / SAMPLES_PER_PIXEL - PROFILE_HALF_WIDTH - 1.5, -PROFILE_HALF_WIDTH)
-    high = min(steep[-1] / SAMPLES_PER_PIXEL - PROFILE_HALF_WIDTH + 1.5, PROFILE_HALF_WIDTH)
+    low = max(steep[0] / PROFILE_SAMPLES_PER_PIXEL - PROFILE_HALF_WIDTH_PIXELS - 1.5, -PROFILE_HALF_WIDTH_PIXELS)
+    high = min(steep[-1] / PROFILE_SAMPLES_PER_PIXEL - PROFILE_HALF_WIDTH_PIXELS + 1.5, PROFILE_HALF_WIDTH_PIXELS)
     ends = line.point + (strip.start + np.array([first, last - 1])[:, None]) * line.direction
     corners = (ends[:, None] + np.array([low, high])[:, None] * line.normal).reshape(-1, 2)
     x0, y0 = np.maximum(np.floor(corners.min(axis=0)).astype(int), 0)
@@ -268,7 +271,7 @@ def _stroke(
     chosen = hole[y0:y1, x0:x1] & (along >= first - 0.5) & (along <= last - 0.5) & (across >= low) & (across <= high)
     if not chosen.any():
         return
-    along, column = along[chosen], (across[chosen] + PROFILE_HALF_WIDTH) * SAMPLES_PER_PIXEL
+    along, column = along[chosen], (across[chosen] + PROFILE_HALF_WIDTH_PIXELS) * PROFILE_SAMPLES_PER_PIXEL
     share = np.clip((along - first) / max(last - first, 1), 0, 1)[:, None]
     positions = np.arange(len(slope))
     of = [np.stack([np.interp(column, positions, s.profile[:, c]) for c in range(3)], axis=1) for s in (begin, end)]
@@ -295,4 +298,4 @@ def _grain(strip: _Strip, side: _Side, along: NDArray[np.float64], column: NDArr
     back = np.abs(along.astype(int)) % (2 * count)
     row = side.rows[np.where(back < count, back, 2 * count - 1 - back)]
     rest = strip.colours[row, column.round().astype(int)] - side.profile[column.round().astype(int)]
-    return np.asarray(np.clip(np.nan_to_num(rest), -MIN_CONTRAST, MIN_CONTRAST), np.float32)
+    return np.asarray(np.clip(np.nan_to_num(rest), -MIN_CONTRAST_GREY_LEVELS, MIN_CONTRAST_GREY_LEVELS), np.float32)

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.imaging.filling.patchmatch import (
-    PATCH_RADIUS,
-    PATCH_SIDE,
+    PATCH_RADIUS_PIXELS,
+    PATCH_SIDE_PIXELS,
     colour_image,
     colour_planes,
     patch_distance,
@@ -46,7 +46,7 @@ def exemplar_fill(
 @njit(fastmath=True, nogil=True)
 def _fill(planes, hole, known, source_ys, source_xs):  # type: ignore[no-untyped-def]
     confidence = known.copy()
-    target = np.zeros((4, PATCH_SIDE, 8), np.float32)
+    target = np.zeros((4, PATCH_SIDE_PIXELS, 8), np.float32)
     while True:
         ty, tx = _next_centre(planes, hole, known, confidence)
         if ty < 0:
@@ -62,8 +62,8 @@ def _fill(planes, hole, known, source_ys, source_xs):  # type: ignore[no-untyped
                 best, by, bx = found, sy, sx
         shift = patch_shift(planes, target, mass, by, bx)
         trust = _mean_over_patch(confidence, ty, tx)
-        for dy in range(-PATCH_RADIUS, PATCH_RADIUS + 1):
-            for dx in range(-PATCH_RADIUS, PATCH_RADIUS + 1):
+        for dy in range(-PATCH_RADIUS_PIXELS, PATCH_RADIUS_PIXELS + 1):
+            for dx in range(-PATCH_RADIUS_PIXELS, PATCH_RADIUS_PIXELS + 1):
                 y, x = ty + dy, tx + dx
                 if hole[y, x]:
                     for c in range(3):
@@ -79,13 +79,13 @@ def _next_centre(planes, hole, known, confidence):  # type: ignore[no-untyped-de
     height, width = hole.shape
     best = np.float32(-1)
     by = bx = -1
-    for y in range(PATCH_RADIUS, height - PATCH_RADIUS):
-        for x in range(PATCH_RADIUS, width - PATCH_RADIUS):
+    for y in range(PATCH_RADIUS_PIXELS, height - PATCH_RADIUS_PIXELS):
+        for x in range(PATCH_RADIUS_PIXELS, width - PATCH_RADIUS_PIXELS):
             if not hole[y, x] and not (
-                y == PATCH_RADIUS
-                or x == PATCH_RADIUS
-                or y == height - PATCH_RADIUS - 1
-                or x == width - PATCH_RADIUS - 1
+                y == PATCH_RADIUS_PIXELS
+                or x == PATCH_RADIUS_PIXELS
+                or y == height - PATCH_RADIUS_PIXELS - 1
+                or x == width - PATCH_RADIUS_PIXELS - 1
             ):
                 continue
             open_sides = (not hole[y - 1, x]) + (not hole[y + 1, x]) + (not hole[y, x - 1]) + (not hole[y, x + 1])
@@ -97,8 +97,8 @@ def _next_centre(planes, hole, known, confidence):  # type: ignore[no-untyped-de
             if trust <= 0:
                 continue
             line = np.float32(0)
-            for dy in range(-PATCH_RADIUS + 1, PATCH_RADIUS):
-                for dx in range(-PATCH_RADIUS + 1, PATCH_RADIUS):
+            for dy in range(-PATCH_RADIUS_PIXELS + 1, PATCH_RADIUS_PIXELS):
+                for dx in range(-PATCH_RADIUS_PIXELS + 1, PATCH_RADIUS_PIXELS):
                     py, px = y + dy, x + dx
                     if (
                         known[py, px] * known[py - 1, px] * known[py + 1, px] * known[py, px - 1] * known[py, px + 1]
@@ -122,12 +122,17 @@ def _next_centre(planes, hole, known, confidence):  # type: ignore[no-untyped-de
 @njit(fastmath=True, nogil=True)
 def _touches(hole, y, x):  # type: ignore[no-untyped-def]
     """Whether the patch around a known centre at the picture's rim holds hole pixels that no other centre fills."""
-    for dy in range(-PATCH_RADIUS, PATCH_RADIUS + 1):
-        for dx in range(-PATCH_RADIUS, PATCH_RADIUS + 1):
+    for dy in range(-PATCH_RADIUS_PIXELS, PATCH_RADIUS_PIXELS + 1):
+        for dx in range(-PATCH_RADIUS_PIXELS, PATCH_RADIUS_PIXELS + 1):
             if hole[y + dy, x + dx]:
                 py, px = y + dy, x + dx
                 height, width = hole.shape
-                if py < PATCH_RADIUS or px < PATCH_RADIUS or py >= height - PATCH_RADIUS or px >= width - PATCH_RADIUS:
+                if (
+                    py < PATCH_RADIUS_PIXELS
+                    or px < PATCH_RADIUS_PIXELS
+                    or py >= height - PATCH_RADIUS_PIXELS
+                    or px >= width - PATCH_RADIUS_PIXELS
+                ):
                     return True
     return False
 
@@ -135,7 +140,7 @@ def _touches(hole, y, x):  # type: ignore[no-untyped-def]
 @njit(fastmath=True, nogil=True)
 def _mean_over_patch(values, y, x):  # type: ignore[no-untyped-def]
     total = np.float32(0)
-    for dy in range(-PATCH_RADIUS, PATCH_RADIUS + 1):
-        for dx in range(-PATCH_RADIUS, PATCH_RADIUS + 1):
+    for dy in range(-PATCH_RADIUS_PIXELS, PATCH_RADIUS_PIXELS + 1):
+        for dx in range(-PATCH_RADIUS_PIXELS, PATCH_RADIUS_PIXELS + 1):
             total += values[y + dy, x + dx]
-    return total / (2 * PATCH_RADIUS + 1) ** 2
+    return total / (2 * PATCH_RADIUS_PIXELS + 1) ** 2

@@ -22,7 +22,7 @@ Values = TypeVar("Values", np.uint8, np.float32)
 
 SOFT_EDGE = 0.006
 """How far colours around a hole are mixed with what was in it, as a share of the longer side."""
-MIN_SOFT_EDGE = 2
+MIN_SOFT_EDGE_PIXELS = 2
 """Pixels around a hole in which colours are mixed with what was in it, at least."""
 
 
@@ -76,8 +76,8 @@ def inpaint(
 
 
 def grown_by_margin(mask: NDArray[np.bool_], margin: int | None = None) -> NDArray[np.bool_]:
-    """A mask (H, W) grown by a disk of `margin` pixels (default: `SOFT_EDGE` of the longer side, and `MIN_SOFT_EDGE` at least)."""
-    margin = max(MIN_SOFT_EDGE, round(SOFT_EDGE * max(mask.shape))) if margin is None else margin
+    """A mask (H, W) grown by a disk of `margin` pixels (default: `SOFT_EDGE` of the longer side, and `MIN_SOFT_EDGE_PIXELS` at least)."""
+    margin = max(MIN_SOFT_EDGE_PIXELS, round(SOFT_EDGE * max(mask.shape))) if margin is None else margin
     disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * margin + 1, 2 * margin + 1))
     return np.asarray(cv2.dilate(mask.astype(np.uint8), disk) > 0)
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from engine.imaging.filling.continued_lines import continue_lines
 from engine.imaging.filling.exemplar_fill import exemplar_fill
 from engine.imaging.filling.nearest import nearest_in
-from engine.imaging.filling.patchmatch import PATCH_SIDE, PatchField, colour_planes, valid_centres
+from engine.imaging.filling.patchmatch import PATCH_SIDE_PIXELS, PatchField, colour_planes, valid_centres
 from engine.imaging.filling.poisson import membrane
 from engine.imaging.filling.seams import heal_seams
 from engine.imaging.masks.mask_distance import dilate_mask
@@ -27,7 +27,7 @@ COARSEST_SIDE = 120
 """Longest side, in pixels, of the coarsest picture."""
 CONFIDENCE_DECAY = 1.4
 """Factor by which a guessed pixel counts less with each pixel that it lies deeper in the hole."""
-MIN_REACH_PIXELS = 20.0
+MIN_FILLED_REACH_PIXELS = 20.0
 """Pixels filled behind the hole's edge on every level, so that detail fades with depth instead of ending."""
 
 
@@ -68,7 +68,7 @@ def _fill(
     stretched = membrane(around, coarsest.wanted, cycles=6)
     guess = np.where(coarsest.wanted[..., None], stretched, around).astype(np.float32)
     if (sources := valid_centres(~coarsest.hole)).any():
-        filled = coarsest.hole & dilate_mask(coarsest.wanted, PATCH_SIDE)
+        filled = coarsest.hole & dilate_mask(coarsest.wanted, PATCH_SIDE_PIXELS)
         guess = exemplar_fill(guess, filled, sources, ~coarsest.hole)
     field: PatchField | None = None
     for level in reversed(levels):
@@ -78,7 +78,7 @@ def _fill(
         if not sources.any():
             continue
         depth = np.asarray(cv2.distanceTransform(level.hole.astype(np.uint8), cv2.DIST_L2, 3))
-        active = level.wanted & ((depth <= max(reach / 2**level.number, MIN_REACH_PIXELS)) | (level is coarsest))
+        active = level.wanted & ((depth <= max(reach / 2**level.number, MIN_FILLED_REACH_PIXELS)) | (level is coarsest))
         targets = _centres_over(active)
         field = PatchField.start(targets, sources, seed, field)
         weight = np.where(level.hole, CONFIDENCE_DECAY ** -np.minimum(depth, 40), 1.0).astype(np.float32)
@@ -141,5 +141,5 @@ def _refine(
 
 def _centres_over(active: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Centres of the patches that touch an active pixel and lie inside the picture."""
-    touched = cv2.dilate(active.astype(np.uint8), np.ones((PATCH_SIDE, PATCH_SIDE), np.uint8)) > 0
+    touched = cv2.dilate(active.astype(np.uint8), np.ones((PATCH_SIDE_PIXELS, PATCH_SIDE_PIXELS), np.uint8)) > 0
     return touched & valid_centres(np.ones_like(active))

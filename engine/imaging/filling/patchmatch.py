@@ -20,12 +20,12 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 
-PATCH_RADIUS = 3
+PATCH_RADIUS_PIXELS = 3
 """Pixels from a patch's centre to its border."""
-PATCH_SIDE = 2 * PATCH_RADIUS + 1
+PATCH_SIDE_PIXELS = 2 * PATCH_RADIUS_PIXELS + 1
 """Pixels of a patch's side."""
 
-MAX_SHIFT = 24.0
+MAX_COLOUR_SHIFT_GREY_LEVELS = 24.0
 """Grey levels by which a patch's mean colour may be shifted to fit, at most."""
 SHIFT_COST = 0.15
 """What a shift of a patch's mean colour costs, as a share of what the same difference would cost unshifted."""
@@ -54,19 +54,19 @@ def colour_image(planes: NDArray[np.float32]) -> NDArray[np.float32]:
 
 @njit(fastmath=True, nogil=True, forceinline=True)
 def _allowed_shift(mean):  # type: ignore[no-untyped-def]
-    return min(max(mean, np.float32(-MAX_SHIFT)), np.float32(MAX_SHIFT))
+    return min(max(mean, np.float32(-MAX_COLOUR_SHIFT_GREY_LEVELS)), np.float32(MAX_COLOUR_SHIFT_GREY_LEVELS))
 
 
 @njit(fastmath=True, nogil=True, forceinline=True)
 def take_target(planes, weight, y, x, target):  # type: ignore[no-untyped-def]
     """Copy the patch at (y, x) into `target` (4, 7, 8): colours and weights. Returns the sum of the weights."""
     mass = np.float32(0)
-    for dy in range(PATCH_SIDE):
-        for dx in range(PATCH_SIDE):
-            target[0, dy, dx] = planes[0, y + dy - PATCH_RADIUS, x + dx - PATCH_RADIUS]
-            target[1, dy, dx] = planes[1, y + dy - PATCH_RADIUS, x + dx - PATCH_RADIUS]
-            target[2, dy, dx] = planes[2, y + dy - PATCH_RADIUS, x + dx - PATCH_RADIUS]
-            target[3, dy, dx] = weight[y + dy - PATCH_RADIUS, x + dx - PATCH_RADIUS]
+    for dy in range(PATCH_SIDE_PIXELS):
+        for dx in range(PATCH_SIDE_PIXELS):
+            target[0, dy, dx] = planes[0, y + dy - PATCH_RADIUS_PIXELS, x + dx - PATCH_RADIUS_PIXELS]
+            target[1, dy, dx] = planes[1, y + dy - PATCH_RADIUS_PIXELS, x + dx - PATCH_RADIUS_PIXELS]
+            target[2, dy, dx] = planes[2, y + dy - PATCH_RADIUS_PIXELS, x + dx - PATCH_RADIUS_PIXELS]
+            target[3, dy, dx] = weight[y + dy - PATCH_RADIUS_PIXELS, x + dx - PATCH_RADIUS_PIXELS]
             mass += target[3, dy, dx]
     return max(mass, np.float32(1e-6))
 
@@ -77,8 +77,8 @@ def patch_distance(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def
     (sy, sx) (grey levels squared)."""
     total = s0 = s1 = s2 = np.float32(0)
     # unsigned indices need no wrap-around, without which the inner loop becomes vector instructions
-    oy, ox = np.uintp(sy - PATCH_RADIUS), np.uintp(sx - PATCH_RADIUS)
-    for dy in range(np.uintp(PATCH_SIDE)):
+    oy, ox = np.uintp(sy - PATCH_RADIUS_PIXELS), np.uintp(sx - PATCH_RADIUS_PIXELS)
+    for dy in range(np.uintp(PATCH_SIDE_PIXELS)):
         for dx in range(np.uintp(8)):
             w = target[3, dy, dx]
             d0 = target[0, dy, dx] - planes[0, oy + dy, ox + dx]
@@ -99,12 +99,12 @@ def patch_distance(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def
 def patch_shift(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def]
     """The colour (3 numbers) to add to the patch at (sy, sx) so that it fits the taken one."""
     s0 = s1 = s2 = np.float32(0)
-    for dy in range(PATCH_SIDE):
-        for dx in range(PATCH_SIDE):
+    for dy in range(PATCH_SIDE_PIXELS):
+        for dx in range(PATCH_SIDE_PIXELS):
             w = target[3, dy, dx]
-            s0 += w * (target[0, dy, dx] - planes[0, sy + dy - PATCH_RADIUS, sx + dx - PATCH_RADIUS])
-            s1 += w * (target[1, dy, dx] - planes[1, sy + dy - PATCH_RADIUS, sx + dx - PATCH_RADIUS])
-            s2 += w * (target[2, dy, dx] - planes[2, sy + dy - PATCH_RADIUS, sx + dx - PATCH_RADIUS])
+            s0 += w * (target[0, dy, dx] - planes[0, sy + dy - PATCH_RADIUS_PIXELS, sx + dx - PATCH_RADIUS_PIXELS])
+            s1 += w * (target[1, dy, dx] - planes[1, sy + dy - PATCH_RADIUS_PIXELS, sx + dx - PATCH_RADIUS_PIXELS])
+            s2 += w * (target[2, dy, dx] - planes[2, sy + dy - PATCH_RADIUS_PIXELS, sx + dx - PATCH_RADIUS_PIXELS])
     share = np.float32(1 - SHIFT_COST)
     return _allowed_shift(s0 / mass) * share, _allowed_shift(s1 / mass) * share, _allowed_shift(s2 / mass) * share
 
@@ -113,7 +113,7 @@ def patch_shift(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def]
 def _match_band(planes, weight, targets, sources, field, cost, sweeps, random_tries, seed, top, bottom):  # type: ignore[no-untyped-def]
     height, width = cost.shape
     state = np.uint32((seed + top) * 2654435761 + 12345)
-    target = np.zeros((4, PATCH_SIDE, 8), np.float32)
+    target = np.zeros((4, PATCH_SIDE_PIXELS, 8), np.float32)
     for sweep in range(sweeps):
         step = 1 if sweep % 2 == 0 else -1
         for row in range(bottom - top):
@@ -216,7 +216,7 @@ class PatchField:
 @njit(fastmath=True, nogil=True)
 def _weigh_band(planes, weight, targets, field, cost, sharpness, shift, trust, top, bottom):  # type: ignore[no-untyped-def]
     """Each patch's colour `shift` and its `trust`."""
-    target = np.zeros((4, PATCH_SIDE, 8), np.float32)
+    target = np.zeros((4, PATCH_SIDE_PIXELS, 8), np.float32)
     for y in range(top, bottom):
         for x in range(cost.shape[1]):
             if targets[y, x]:
@@ -238,13 +238,13 @@ def _vote_band(planes, hole, field, sharpness, shift, trust, result, top, bottom
                 continue
             best = np.float32(0)
             if sharpness == 0:
-                for cy in range(max(0, y - PATCH_RADIUS), min(height, y + PATCH_RADIUS + 1)):
-                    for cx in range(max(0, x - PATCH_RADIUS), min(width, x + PATCH_RADIUS + 1)):
+                for cy in range(max(0, y - PATCH_RADIUS_PIXELS), min(height, y + PATCH_RADIUS_PIXELS + 1)):
+                    for cx in range(max(0, x - PATCH_RADIUS_PIXELS), min(width, x + PATCH_RADIUS_PIXELS + 1)):
                         best = max(best, trust[cy, cx])
             mass = np.float32(0)
             s0 = s1 = s2 = np.float32(0)
-            for cy in range(max(0, y - PATCH_RADIUS), min(height, y + PATCH_RADIUS + 1)):
-                for cx in range(max(0, x - PATCH_RADIUS), min(width, x + PATCH_RADIUS + 1)):
+            for cy in range(max(0, y - PATCH_RADIUS_PIXELS), min(height, y + PATCH_RADIUS_PIXELS + 1)):
+                for cx in range(max(0, x - PATCH_RADIUS_PIXELS), min(width, x + PATCH_RADIUS_PIXELS + 1)):
                     w = trust[cy, cx]
                     if w == 0:
                         continue
@@ -280,6 +280,6 @@ def valid_centres(usable: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Where a whole patch lies inside `usable` (H, W) and inside the picture."""
     padded = np.pad(usable.astype(np.uint8), 1)
     eroded = cv2.erode(
-        padded, np.ones((PATCH_SIDE, PATCH_SIDE), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0
+        padded, np.ones((PATCH_SIDE_PIXELS, PATCH_SIDE_PIXELS), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0
     )
     return np.asarray(eroded[1:-1, 1:-1] > 0)

@@ -16,7 +16,7 @@ from engine.imaging.masks.mask_pieces import bounding_box
 
 V_CYCLES = 2
 """V-cycles on the finest grid after the full multigrid start: under 1% of the largest boundary step is left."""
-SWEEPS = 1, 20
+RELAXATION_SWEEPS = 1, 20
 """Of relaxation on a grid, and on the coarsest one, which they solve."""
 
 
@@ -255,5 +255,5 @@ def _solve(
             break
         grid[3], count = count, _find_runs(inverse, grid, runs, count)
         grid[4] = count
-    _full_multigrid(u, own, right, links, inverse, residual, runs, grids, cycles, SWEEPS)
+    _full_multigrid(u, own, right, links, inverse, residual, runs, grids, cycles, RELAXATION_SWEEPS)
     return u[: pixels[0]].reshape(*sizes[0], channels)[1:-1, 1:-1]

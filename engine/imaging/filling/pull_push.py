@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 FULL_WEIGHT = 0.5
 """Of a pixel, from which on it is itself alone."""
-SMALLEST = 2
+MIN_COARSE_SIDE_PIXELS = 2
 """Pixels of the coarsest level's shorter side, at least."""
 
 
@@ -24,7 +24,7 @@ def pull_push(picture: NDArray[np.floating], weight: NDArray[np.floating]) -> ND
 
 def _continued(mixed: NDArray[np.float32], known: NDArray[np.float32]) -> NDArray[np.float32]:
     own = mixed / np.maximum(known, 1e-6)
-    if min(mixed.shape[:2]) < 2 * SMALLEST:
+    if min(mixed.shape[:2]) < 2 * MIN_COARSE_SIDE_PIXELS:
         total = np.float32(known.sum())
         mean = mixed.sum(axis=(0, 1)) / max(total, np.float32(1e-6))
         coarse = np.broadcast_to(mean, mixed.shape)

@@ -15,13 +15,13 @@ from engine.imaging.masks.mask_distance import distance_to
 
 WORKING_SIDE = 640
 """Longest side, in pixels, of the picture in which segments are looked for."""
-MAX_GAP_TO_HOLE = 16.0
+MAX_GAP_TO_HOLE_PIXELS = 16.0
 """Pixels from the hole within which a line has to end."""
-MIN_SEGMENT_LENGTH = 8.0
+MIN_SEGMENT_LENGTH_PIXELS = 8.0
 """Pixels of the shortest segment that is looked at."""
 MIN_COLLINEAR_COSINE = float(np.cos(np.deg2rad(3)))
 """Cosine of the largest angle between two segments of one line."""
-MAX_OFFSET = 1.0
+MAX_OFFSET_PIXELS = 1.0
 """Pixels by which a segment's ends may be off the line where it begins."""
 MAX_OFFSET_PER_PIXEL = 0.004
 """Pixels by which they may be off it besides, for each pixel of distance from there."""
@@ -49,13 +49,13 @@ def lines_towards(picture: NDArray[np.float32], hole: NDArray[np.bool_], least: 
     at = np.clip(ends.round().astype(int), 0, np.array(away.shape[::-1]) - 1)
     apart = away[at[..., 1], at[..., 0]]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    kept = (length >= MIN_SEGMENT_LENGTH) & (apart.max(axis=1) > 3)
+    kept = (length >= MIN_SEGMENT_LENGTH_PIXELS) & (apart.max(axis=1) > 3)
     ends, length, apart = ends[kept], length[kept], apart[kept]
     order = np.argsort(-length)
     ends, length, apart = ends[order], length[order], apart[order]
     used = np.zeros(len(ends), bool)
     lines: list[tuple[float, Line]] = []
-    for seed in np.flatnonzero(apart.min(axis=1) < MAX_GAP_TO_HOLE):
+    for seed in np.flatnonzero(apart.min(axis=1) < MAX_GAP_TO_HOLE_PIXELS):
         if used[seed] or len(lines) == MAX_LINES:
             continue
         line, members = _through(ends[seed][None]), np.array([seed])
@@ -99,5 +99,5 @@ def _along(ends: NDArray[np.float64], line: Line) -> NDArray[np.bool_]:
     turned = np.abs(towards @ line.direction) / np.maximum(np.linalg.norm(towards, axis=1), 1e-6)
     along, aside = (ends - line.point) @ line.direction, np.abs((ends - line.point) @ line.normal)
     return np.asarray(
-        (turned > MIN_COLLINEAR_COSINE) & (aside < MAX_OFFSET + MAX_OFFSET_PER_PIXEL * np.abs(along)).all(axis=1)
+        (turned > MIN_COLLINEAR_COSINE) & (aside < MAX_OFFSET_PIXELS + MAX_OFFSET_PER_PIXEL * np.abs(along)).all(axis=1)
     )

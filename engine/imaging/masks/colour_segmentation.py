@@ -19,7 +19,7 @@ MIXTURE_GAUSSIANS = 5
 """Gaussians in a mixture: the K of GrabCut."""
 MIN_MIXTURE_PIXELS = 10 * MIXTURE_GAUSSIANS
 """Pixels of which a mixture says something about their area."""
-MAX_SAMPLES = 1500
+MAX_SAMPLE_PIXELS = 1500
 """Pixels, evenly spread, from which a mixture is found."""
 MIN_VARIANCE = 1.0
 """Levels squared that are added to each Gaussian's variances: one of a single colour has a density, too."""
@@ -29,7 +29,7 @@ SMOOTHNESS_COST = 8.0
 """What it costs where the labels of two neighbours of one colour differ, beside negative logarithms of densities."""
 SEED_COST = 1e3
 """What it costs to give a seed another label: more than all its neighbours together."""
-UNSEEDED = -1
+UNSEEDED_MARK = -1
 """The seed of a pixel that has none."""
 
 
@@ -54,7 +54,7 @@ class ColourMixture:
         """
         if len(colours) < MIN_MIXTURE_PIXELS:
             raise ValueError(f"{len(colours)} colours are too few for a mixture of {MIXTURE_GAUSSIANS}")
-        some = np.ascontiguousarray(colours[:: max(1, len(colours) // MAX_SAMPLES)], np.float32)
+        some = np.ascontiguousarray(colours[:: max(1, len(colours) // MAX_SAMPLE_PIXELS)], np.float32)
         criteria = (cv2.TERM_CRITERIA_COUNT, 10, 0.0)
         cv2.setRNGSeed(1)
         _, cluster, _ = cv2.kmeans(some, MIXTURE_GAUSSIANS, np.empty(0, np.int32), criteria, 1, cv2.KMEANS_PP_CENTERS)
@@ -140,12 +140,12 @@ class ContrastGraph:
 
         costs : (N, L) of each label at each pixel.
         labels : (N,) to begin with.
-        seeds : (N,), the label that a pixel must have, `UNSEEDED` where it is sought. That of a pixel whose label is none of the L
+        seeds : (N,), the label that a pixel must have, `UNSEEDED_MARK` where it is sought. That of a pixel whose label is none of the L
             is L: it has no say.
         """
         if seeds is not None:
             another = seeds[:, None] != np.arange(costs.shape[1])
-            costs = np.where(seeds[:, None] == UNSEEDED, costs, SEED_COST * another)
+            costs = np.where(seeds[:, None] == UNSEEDED_MARK, costs, SEED_COST * another)
         return alpha_expansion(costs, self.edges, self.weights, labels)
 
 

@@ -9,7 +9,7 @@ from engine.compiled import njit
 
 BARYCENTRIC_TOLERANCE = 1e-4
 """By how much a pixel may lie outside a triangle, in barycentric coordinates, and still count as in it."""
-UNBOUNDED = 1e9
+UNBOUNDED_ROW_PIXELS = 1e9
 """Pixels: a bound that no row reaches."""
 
 
@@ -17,10 +17,15 @@ UNBOUNDED = 1e9
 def _bounds(w: float, wx: float, wy: float) -> tuple[float, float, float, float]:
     """Where w + wx * dx + wy * dy is not negative: from a + b * dy to c + d * dy, as (a, b, c, d)."""
     if wx > 1e-12:
-        return (-BARYCENTRIC_TOLERANCE - w) / wx, -wy / wx, UNBOUNDED, 0.0
+        return (-BARYCENTRIC_TOLERANCE - w) / wx, -wy / wx, UNBOUNDED_ROW_PIXELS, 0.0
     if wx < -1e-12:
-        return -UNBOUNDED, 0.0, (-BARYCENTRIC_TOLERANCE - w) / wx, -wy / wx
-    return -UNBOUNDED, 0.0, UNBOUNDED, 0.0  # an edge along the row bounds rows, as the triangle's box does
+        return -UNBOUNDED_ROW_PIXELS, 0.0, (-BARYCENTRIC_TOLERANCE - w) / wx, -wy / wx
+    return (
+        -UNBOUNDED_ROW_PIXELS,
+        0.0,
+        UNBOUNDED_ROW_PIXELS,
+        0.0,
+    )  # an edge along the row bounds rows, as the triangle's box does
 
 
 @njit(nogil=True, inline="always")

@@ -20,21 +20,21 @@ from engine.motion.kinematics import place_joints, world_rotations
 Array = NDArray[np.float64]
 Contacts = NDArray[np.bool_]
 
-REFERENCE_LEG = 0.85
+REFERENCE_LEG_METRES = 0.85
 """Metres of the legs for which lengths and speeds are given here: those of others are in proportion."""
 
-CONTACT_HEIGHT = 0.05
-"""Metres, for legs of `REFERENCE_LEG`: heel or ball are lower while a foot begins to stand."""
-RELEASE_HEIGHT = 0.08
-"""Metres, for legs of `REFERENCE_LEG`: heel or ball are lower while a foot goes on standing."""
+CONTACT_HEIGHT_METRES = 0.05
+"""Metres, for legs of `REFERENCE_LEG_METRES`: heel or ball are lower while a foot begins to stand."""
+RELEASE_HEIGHT_METRES = 0.08
+"""Metres, for legs of `REFERENCE_LEG_METRES`: heel or ball are lower while a foot goes on standing."""
 
-CONTACT_SPEED = 0.4
-"""Metres a second, for legs of `REFERENCE_LEG`: heel or ball are slower while a foot begins to stand."""
-RELEASE_SPEED = 0.7
-"""Metres a second, for legs of `REFERENCE_LEG`: heel or ball are slower while a foot goes on standing."""
+CONTACT_METRES_PER_SECOND = 0.4
+"""Metres a second, for legs of `REFERENCE_LEG_METRES`: heel or ball are slower while a foot begins to stand."""
+RELEASE_METRES_PER_SECOND = 0.7
+"""Metres a second, for legs of `REFERENCE_LEG_METRES`: heel or ball are slower while a foot goes on standing."""
 
-MAX_DRIFT = 0.06
-"""Metres, for legs of `REFERENCE_LEG`: a foot whose ball wanders farther than this from its place, shuffles."""
+MAX_FOOT_DRIFT_METRES = 0.06
+"""Metres, for legs of `REFERENCE_LEG_METRES`: a foot whose ball wanders farther than this from its place, shuffles."""
 
 MIN_CONTACT_SECONDS = 0.07
 """Seconds that a foot must stand, at least; a gap that is shorter is none."""
@@ -68,13 +68,13 @@ def sole_places(skeleton: Skeleton, clip: Clip) -> Array:
     return np.stack(points, 1)
 
 
-def find_contacts(points: Array, fps: float, leg: float = REFERENCE_LEG) -> Contacts:
+def find_contacts(points: Array, fps: float, leg: float = REFERENCE_LEG_METRES) -> Contacts:
     """(F, 2) bool: in which frames each foot stands, from `sole_places`; `leg` metres long."""
-    scale = leg / REFERENCE_LEG
+    scale = leg / REFERENCE_LEG_METRES
     heights = points[:, :, :2, 1] / scale
     speeds = _speeds(points[:, :, :2], fps) / scale
-    begins = np.any((heights < CONTACT_HEIGHT) & (speeds < CONTACT_SPEED), axis=-1)
-    lasts = np.any((heights < RELEASE_HEIGHT) & (speeds < RELEASE_SPEED), axis=-1)
+    begins = np.any((heights < CONTACT_HEIGHT_METRES) & (speeds < CONTACT_METRES_PER_SECOND), axis=-1)
+    lasts = np.any((heights < RELEASE_HEIGHT_METRES) & (speeds < RELEASE_METRES_PER_SECOND), axis=-1)
     shortest = max(round(MIN_CONTACT_SECONDS * fps), 1)
     contacts = np.zeros(begins.shape, bool)
     for side in range(2):
@@ -92,7 +92,7 @@ def floor_height(points: Array, fps: float) -> float:
     speeds = _speeds(flat, fps)
     lowest = flat[..., 1].argmin(1)
     heights = flat[frames, lowest, 1]
-    slow = speeds[frames, lowest] < CONTACT_SPEED
+    slow = speeds[frames, lowest] < CONTACT_METRES_PER_SECOND
     low = heights < np.percentile(heights, 10) + 0.15
     chosen = heights[slow & low]
     return float(np.median(chosen) if len(chosen) >= max(2, 0.05 * len(heights)) else np.percentile(heights, 10))
@@ -154,7 +154,7 @@ def _without_shuffling(stands: NDArray[np.bool_], ball: Array, fps: float) -> ND
     while waiting:
         first, last = waiting.pop()
         here = level[first : last + 1]
-        if np.linalg.norm(here - np.median(here, axis=0), axis=1).max() <= MAX_DRIFT:
+        if np.linalg.norm(here - np.median(here, axis=0), axis=1).max() <= MAX_FOOT_DRIFT_METRES:
             continue
         fastest = first + int(np.argmax(speeds[first : last + 1]))
         begin, end = max(fastest - reach, first), min(fastest + reach, last)

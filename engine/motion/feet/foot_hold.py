@@ -18,7 +18,7 @@ from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip, loop_step
 from engine.motion.feet.foot_contact import (
-    REFERENCE_LEG,
+    REFERENCE_LEG_METRES,
     Contacts,
     FeetReport,
     find_contacts,
@@ -104,8 +104,8 @@ def _level_feet(skeleton: Skeleton, clip: Clip, leg: float) -> Clip:
     for sole in soles(skeleton):
         ankle = places[:, sole.joints[2]]
         speed = np.linalg.norm(np.gradient(ankle, axis=0), axis=-1) * clip.fps if len(ankle) > 1 else np.zeros(1)
-        low = ankle[:, 1] < np.percentile(ankle[:, 1], 10) + 0.04 * leg / REFERENCE_LEG
-        still = np.flatnonzero(low & (speed < 0.25 * leg / REFERENCE_LEG))
+        low = ankle[:, 1] < np.percentile(ankle[:, 1], 10) + 0.04 * leg / REFERENCE_LEG_METRES
+        still = np.flatnonzero(low & (speed < 0.25 * leg / REFERENCE_LEG_METRES))
         if len(still) < 3:
             continue
         joint, toe = sole.joints[2:]

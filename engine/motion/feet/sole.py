@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 
@@ -56,14 +56,14 @@ class Sole:
 
 def soles(skeleton: Skeleton) -> tuple[Sole, Sole]:
     """The left and the right foot."""
-    left, right = (_sole(skeleton, side) for side in SIDES)
+    left, right = (_sole(skeleton, side) for side in SIDE_NAMES)
     return left, right
 
 
 def leg_length(skeleton: Skeleton) -> float:
     """Thigh and shin, metres: the mean of both legs."""
     heads = np.asarray(skeleton.heads, np.float64)
-    legs = [[skeleton.index(side + part) for part in ("UpLeg", "Leg", "Foot")] for side in SIDES]
+    legs = [[skeleton.index(side + part) for part in ("UpLeg", "Leg", "Foot")] for side in SIDE_NAMES]
     return float(np.mean([np.linalg.norm(np.diff(heads[leg], axis=0), axis=1).sum() for leg in legs]))
 
 

@@ -14,7 +14,7 @@ from engine.meshopt.filters import decode_exponential, decode_octahedral, decode
 from engine.meshopt.index_codec import decode_indices
 from engine.meshopt.triangle_codec import decode_triangles
 
-EXTENSION = "EXT_meshopt_compression"
+MESHOPT_EXTENSION = "EXT_meshopt_compression"
 
 
 def decompressed(stream: bytes, count: int, stride: int, mode: Any, filter_: Any) -> bytes:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from engine.errors import InputError
-from engine.motion.files.gltf_compression import EXTENSION, decompressed
+from engine.motion.files.gltf_compression import MESHOPT_EXTENSION, decompressed
 from engine.motion.files.source_motion import MAX_MOTION_BYTES
 
 MAX_JSON_BYTES = 8 << 20
@@ -93,10 +93,12 @@ class GltfFile:
         """
         part = self.part("bufferViews", index)
         extensions = part.extensions if isinstance(part.extensions, dict) else {}
-        if EXTENSION not in self._required or EXTENSION not in extensions:  # the numbers are there, as they were
+        if (
+            MESHOPT_EXTENSION not in self._required or MESHOPT_EXTENSION not in extensions
+        ):  # the numbers are there, as they were
             return self._bytes(part), part
         if index not in self._decompressed:
-            self._decompressed[index] = self._decompress(part, extensions[EXTENSION])
+            self._decompressed[index] = self._decompress(part, extensions[MESHOPT_EXTENSION])
         return memoryview(self._decompressed[index]), part
 
     def _bytes(self, part: Part) -> memoryview:
@@ -129,7 +131,7 @@ class GltfFile:
         parts = self.parts.get(kind, [])
         if type(index) is not int or not 0 <= index < len(parts):
             raise unreadable(f"one of its {kind} is not there")
-        self.require_known(parts[index], (EXTENSION,) if kind == "bufferViews" else ())
+        self.require_known(parts[index], (MESHOPT_EXTENSION,) if kind == "bufferViews" else ())
         return cast(Part, parts[index])
 
     def require_known(self, part: Part, known: Sequence[str] = ()) -> None:

@@ -139,8 +139,8 @@ def at_rest(parts: Any, nodes: list[int], parents: NDArray[np.int32]) -> tuple[A
             turns[joint], own[joint] = _turn_and_scale(matrix[:3, :3])
             offsets[joint] = matrix[:3, 3]
         else:
-            turn = _numbers(node.rotation, 4, rotation.IDENTITY)
-            turns[joint] = rotation.normalize(turn if turn.any() else rotation.IDENTITY)
+            turn = _numbers(node.rotation, 4, rotation.IDENTITY_QUATERNION)
+            turns[joint] = rotation.normalize(turn if turn.any() else rotation.IDENTITY_QUATERNION)
             offsets[joint] = _numbers(node.translation, 3, (0, 0, 0))
             own[joint] = np.mean(_numbers(node.scale, 3, (1, 1, 1)))
         if parents[joint] >= 0:

@@ -12,7 +12,7 @@ from engine.motion.library.posture import Arm, Foot, Posture, Value, embody
 
 Array = NDArray[np.float64]
 
-BEATS, BEAT_SECONDS = 8, 0.5
+BEAT_COUNT, BEAT_SECONDS = 8, 0.5
 STEP_WIDTH = 0.3
 """Leg lengths from side to side."""
 
@@ -22,14 +22,14 @@ def dance(skeleton: Skeleton, fps: float) -> Clip:
 
     Each foot goes aside on one beat and comes back on another; it stands still in between.
     """
-    frames = max(round(BEATS * BEAT_SECONDS * fps), 8)
-    beat = np.arange(frames) / frames * BEATS
+    frames = max(round(BEAT_COUNT * BEAT_SECONDS * fps), 8)
+    beat = np.arange(frames) / frames * BEAT_COUNT
     bar = beat % 4
     left_at, left_up = _goes(bar, out=0.0, back=3.0)
     right_at, right_up = _goes(bar, out=2.0, back=1.0, out_first=False)
     side = np.sin(2 * np.pi * (bar - 0.1) / 4)
     bounce = np.cos(2 * np.pi * beat)
-    up = periodic_curve(beat / BEATS, ((0.0, 0.0), (0.44, 0.0), (0.56, 1.0), (0.88, 1.0)))
+    up = periodic_curve(beat / BEAT_COUNT, ((0.0, 0.0), (0.44, 0.0), (0.56, 1.0), (0.88, 1.0)))
     groove = np.sin(2 * np.pi * beat / 2 - 0.5)
     posture = Posture(
         frames=frames,

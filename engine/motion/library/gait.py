@@ -23,7 +23,7 @@ WALK_SECONDS = 1.1
 """Seconds of a walk's cycle."""
 WALK_STRIDE = 1.5
 """Leg lengths of way in a walk's cycle."""
-WALK_STANCE = 0.62
+WALK_STANCE_SHARE = 0.62
 """Share of a walk's cycle in which a foot stands."""
 
 WALK_PITCH: Keys = (
@@ -36,7 +36,7 @@ RUN_SECONDS = 0.7
 """Seconds of a run's cycle."""
 RUN_STRIDE = 2.6
 """Leg lengths of way in a run's cycle."""
-RUN_STANCE = 0.3
+RUN_STANCE_SHARE = 0.3
 """Share of a run's cycle in which a foot stands."""
 RUN_HEIGHT = -0.075
 """Leg lengths above standing at which the hips are as the feet leave the ground and touch it."""
@@ -77,9 +77,9 @@ def walk(skeleton: Skeleton, fps: float) -> Clip:
         head=(1.0 + 1.5 * np.cos(2 * turn), 1.0 * np.cos(turn), -0.8 * np.sin(turn)),
         arms={"Left": _walking_arm(phase + 0.5), "Right": _walking_arm(phase)},
         feet={
-            "Left": _going_foot(phase, WALK_STANCE, WALK_STRIDE, -0.1, WALK_PITCH, WALK_LIFT, aside=-0.025),
+            "Left": _going_foot(phase, WALK_STANCE_SHARE, WALK_STRIDE, -0.1, WALK_PITCH, WALK_LIFT, aside=-0.025),
             "Right": _going_foot(
-                phase + 0.5, WALK_STANCE, WALK_STRIDE, -0.1, WALK_PITCH, WALK_LIFT, aside=0.025, late=True
+                phase + 0.5, WALK_STANCE_SHARE, WALK_STRIDE, -0.1, WALK_PITCH, WALK_LIFT, aside=0.025, late=True
             ),
         },
     )
@@ -103,9 +103,9 @@ def run(skeleton: Skeleton, fps: float) -> Clip:
         head=(4.0 + 2.0 * np.cos(2 * turn), 2.0 * np.cos(turn), 0.0),
         arms={"Left": _running_arm(phase + 0.5), "Right": _running_arm(phase)},
         feet={
-            "Left": _going_foot(phase, RUN_STANCE, RUN_STRIDE, -0.22, RUN_PITCH, RUN_LIFT, aside=-0.05),
+            "Left": _going_foot(phase, RUN_STANCE_SHARE, RUN_STRIDE, -0.22, RUN_PITCH, RUN_LIFT, aside=-0.05),
             "Right": _going_foot(
-                phase + 0.5, RUN_STANCE, RUN_STRIDE, -0.22, RUN_PITCH, RUN_LIFT, aside=0.05, late=True
+                phase + 0.5, RUN_STANCE_SHARE, RUN_STRIDE, -0.22, RUN_PITCH, RUN_LIFT, aside=0.05, late=True
             ),
         },
     )
@@ -114,7 +114,7 @@ def run(skeleton: Skeleton, fps: float) -> Clip:
 
 def _running_height(phase: Array) -> Array:
     """The hips fall freely while both feet are in the air, and are caught and thrown up again in between."""
-    half, landed = (phase * 2) % 1.0, 2 * RUN_STANCE
+    half, landed = (phase * 2) % 1.0, 2 * RUN_STANCE_SHARE
     flight = np.clip((half - landed) / (1 - landed), 0, 1)
     speed = 4 * RUN_RISE / (1 - landed)
     caught = ((0.0, 0.0, -speed), (landed / 2, -speed * landed / 4, 0.0), (landed, 0.0, speed))

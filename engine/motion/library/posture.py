@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import FINGERS, SIDES
+from engine.geometry.joint_names import FINGER_NAMES, SIDE_NAMES
 from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
@@ -169,7 +169,7 @@ def _hang_arm(world: Array, skeleton: Skeleton, side: str, arm: Arm) -> None:
         if side + name in skeleton.names:
             below = _below(skeleton, side + name)
             world[:, below] = rotation.multiply(world[:, below[0]], turn)[:, None]
-    for finger in FINGERS:
+    for finger in FINGER_NAMES:
         for phalanx in (1, 2, 3):
             name = f"{side}Hand{finger}{phalanx}"
             if name in skeleton.names:
@@ -181,7 +181,7 @@ def _hang_arm(world: Array, skeleton: Skeleton, side: str, arm: Arm) -> None:
 
 
 def _sides(skeleton: Skeleton) -> list[tuple[Sole, str]]:
-    return list(zip(soles(skeleton), SIDES, strict=True))
+    return list(zip(soles(skeleton), SIDE_NAMES, strict=True))
 
 
 def _stand(sole: Sole, foot: Foot, side: str, leg: float, frames: int) -> HeldFoot:

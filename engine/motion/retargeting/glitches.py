@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 MIN_FLIP_ANGLE = np.radians(60)
 """A joint that turns by less from one frame to the next is not flipped."""
 
-MAX_ANGULAR_SPEED = np.radians(3600)
+MAX_RADIANS_PER_SECOND = np.radians(3600)
 """Radians a second: people's joints stay under it, but for the inner rotation of a pitcher's arm."""
 
 MAX_FLIP_SECONDS = 0.5
@@ -33,7 +33,7 @@ def without_flips(motion: SourceMotion) -> SourceMotion:
     """The motion with flipped joints turned evenly from the frame before to the frame after; the same motion if none
     flips."""
     steps = rotation.angle(rotation.multiply(rotation.inverse(motion.rotations[:-1]), motion.rotations[1:]))
-    flips = steps > max(MIN_FLIP_ANGLE, float(MAX_ANGULAR_SPEED / motion.fps))
+    flips = steps > max(MIN_FLIP_ANGLE, float(MAX_RADIANS_PER_SECOND / motion.fps))
     if not flips.any():
         return motion
     rotations = motion.rotations.copy()

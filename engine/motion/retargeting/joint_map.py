@@ -9,15 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.geometry.joint_names import FINGERS, SIDES
+from engine.geometry.joint_names import FINGER_NAMES, SIDE_NAMES
 from engine.motion import rotation
 from engine.motion.files.source_motion import SourceMotion
 from engine.motion.retargeting.joint_names import SIDED_JOINTS, TARGET_NAMES, match_names
 from engine.motion.retargeting.tree_shape import children_of, common_ancestor, match_shape, path
 
-REQUIRED_JOINTS = (
+REQUIRED_MOTION_JOINTS = (
     "Hips",
-    *(f"{side}{part}" for side in SIDES for part in ("UpLeg", "Leg", "Foot", "Arm", "ForeArm")),
+    *(f"{side}{part}" for side in SIDE_NAMES for part in ("UpLeg", "Leg", "Foot", "Arm", "ForeArm")),
 )
 
 MIN_TURN_ANGLE = np.radians(3)
@@ -28,11 +28,11 @@ MAX_JOINTS_TOLD = 10
 
 JOINT_CHAINS = tuple(
     tuple(side + part for part in chain)
-    for side in SIDES
+    for side in SIDE_NAMES
     for chain in (
         SIDED_JOINTS[:4],
         SIDED_JOINTS[4:],
-        *((f"Hand{f}{n}" for n in "123") for f in FINGERS),
+        *((f"Hand{f}{n}" for n in "123") for f in FINGER_NAMES),
     )
 )
 
@@ -52,14 +52,14 @@ def map_joints(motion: SourceMotion, overrides: Mapping[str, str | None] | None 
     overrides = dict(overrides or {})
     _check(motion, overrides)
     found = _order_holds(motion.parents, match_names(motion.names))
-    if any(name not in found for name in REQUIRED_JOINTS):
+    if any(name not in found for name in REQUIRED_MOTION_JOINTS):
         found = _completed(motion.parents, found, _by_shape(motion))
     chosen = {name: motion.names.index(joint) for name, joint in overrides.items() if joint is not None}
     found = {name: index for name, index in found.items() if name not in overrides} | chosen
     found = _trunk(motion.parents, found)
     found = {name: index for name, index in found.items() if name not in overrides} | chosen
     mapping = {name: motion.names[found[name]] for name in TARGET_NAMES if name in found}
-    missing = [name for name in REQUIRED_JOINTS if name not in mapping]
+    missing = [name for name in REQUIRED_MOTION_JOINTS if name not in mapping]
     if missing:
         raise not_humanoid(
             motion,
@@ -75,7 +75,7 @@ def _completed(parents: NDArray[np.int32], said: dict[str, int], shape: dict[str
     names said of the rest, such as fingers."""
     kept = set(said.values())
     both = _order_holds(parents, {name: joint for name, joint in shape.items() if joint not in kept} | said)
-    if not shape or all(name in both for name in REQUIRED_JOINTS):
+    if not shape or all(name in both for name in REQUIRED_MOTION_JOINTS):
         return both if shape else said
     taken = set(shape.values())
     return _order_holds(parents, {name: joint for name, joint in said.items() if joint not in taken} | shape)
@@ -112,7 +112,7 @@ def not_humanoid(motion: SourceMotion, mapping: Mapping[str, str], detail: str) 
 def _each_its_own(motion: SourceMotion, mapping: Mapping[str, str]) -> None:
     """Limbs between one joint and itself have no length and no direction."""
     moved: dict[str, list[str]] = {}
-    for name in REQUIRED_JOINTS:
+    for name in REQUIRED_MOTION_JOINTS:
         moved.setdefault(mapping[name], []).append(name)
     for joint, names in moved.items():
         if len(names) > 1:
@@ -153,7 +153,7 @@ def _by_shape(motion: SourceMotion) -> dict[str, int]:
 
 def _trunk(parents: NDArray[np.int32], found: dict[str, int]) -> dict[str, int]:
     """Hips, spine, shoulders and neck, from where the limbs hang."""
-    if any(name not in found for name in REQUIRED_JOINTS[1:]):
+    if any(name not in found for name in REQUIRED_MOTION_JOINTS[1:]):
         return found
     found = dict(found)
     hips = common_ancestor(parents, found["LeftUpLeg"], found["RightUpLeg"])
@@ -170,7 +170,7 @@ def _trunk(parents: NDArray[np.int32], found: dict[str, int]) -> dict[str, int]:
         found["Spine"] = spine[0]
     if len(spine) >= 3:
         found["Spine1"] = spine[len(spine) // 2]
-    for side in SIDES:
+    for side in SIDE_NAMES:
         between = path(parents, chest, found[f"{side}Arm"])[1:-1]
         if f"{side}Shoulder" not in found and between:
             found[f"{side}Shoulder"] = between[-1]

@@ -13,14 +13,14 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from engine.geometry.joint_names import FINGERS, SIDES
+from engine.geometry.joint_names import FINGER_NAMES, SIDE_NAMES
 
 SIDED_JOINTS = ("Shoulder", "Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot", "ToeBase")
 
 TARGET_NAMES: tuple[str, ...] = (
     *("Hips", "Spine", "Spine1", "Spine2", "Neck", "Head"),
-    *(f"{side}{part}" for side in SIDES for part in SIDED_JOINTS),
-    *(f"{side}Hand{f}{n}" for side in SIDES for f in FINGERS for n in (1, 2, 3)),
+    *(f"{side}{part}" for side in SIDE_NAMES for part in SIDED_JOINTS),
+    *(f"{side}Hand{f}{n}" for side in SIDE_NAMES for f in FINGER_NAMES for n in (1, 2, 3)),
 )
 """The joints of our skeletons that a motion can move, by their Mixamo names."""
 
@@ -150,7 +150,7 @@ def match_names(names: Sequence[str]) -> dict[str, int]:
             continue
         if said.side and said.words == "finger" and 0 < len(said.digits) < 3 and said.digits[0] in "01234":
             # 3ds Max: Finger0, Finger01, Finger02 are the thumb, Finger1, Finger11, Finger12 the index finger
-            label, phalanx = FINGERS[int(said.digits[0])], int(said.digits[1:] or 0) + 1
+            label, phalanx = FINGER_NAMES[int(said.digits[0])], int(said.digits[1:] or 0) + 1
             fingers.setdefault((said.side, label), []).append((phalanx, index))
             continue
         if said.side and (finger := _FINGER.fullmatch(said.words)):
@@ -163,7 +163,7 @@ def match_names(names: Sequence[str]) -> dict[str, int]:
             if said.words in words and sided == bool(said.side) and (sided or said.number <= 1 or part != "Head"):
                 found.setdefault(said.side + part, index)
                 break
-    for side in SIDES:
+    for side in SIDE_NAMES:
         _tell_shoulders(spoken, side, found)
     for (hand, label), joints in fingers.items():
         for phalanx, index in joints:

@@ -30,7 +30,7 @@ MAX_HEIGHT_ERROR = 0.02
 MIN_SPEED_SHARE = 0.1
 """What is slower than this share of its usual speed is at rest."""
 
-WHOLE_FRAME_TOLERANCE = 0.15
+WHOLE_FRAME_TOLERANCE_FRAMES = 0.15
 """Frames: files either show the first pose again or leave that out; what is found between is noise, if less than this."""
 
 
@@ -50,7 +50,7 @@ def as_loop(motion: SourceMotion, heights: Array) -> SourceMotion:
     moves = usual > 0 and (speeds[0] + speeds[-1]) / 2 > MIN_SPEED_SHARE * usual
     if not moves or not -0.5 < frames < 1.5 or missed > MAX_SEAM_ERROR * usual or sunk > MAX_HEIGHT_ERROR:
         return motion
-    if abs(frames - round(frames)) < WHOLE_FRAME_TOLERANCE:
+    if abs(frames - round(frames)) < WHOLE_FRAME_TOLERANCE_FRAMES:
         frames = round(frames)
     whole = len(turns) - 1 + frames
     kept = min(int(np.ceil(whole)), len(turns))

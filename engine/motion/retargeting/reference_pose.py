@@ -16,7 +16,7 @@ from itertools import pairwise, permutations, product
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.files.source_motion import SourceMotion
@@ -42,7 +42,7 @@ def t_pose_turns(motion: SourceMotion, mapping: Mapping[str, str], skeleton: Ske
     corrections = {name: rotation.identity() for name in joints}
     if not at_rest:
         corrections.update(_upright_trunk(places, joints))
-    for side in SIDES:
+    for side in SIDE_NAMES:
         _correct_limb(("Arm", "ForeArm"), "Hand", side, places, joints, skeleton, corrections)
         _correct_limb(("UpLeg", "Leg"), "Foot", side, places, joints, skeleton, corrections)
         _correct_ends(side, places, joints, skeleton, corrections, pitch=not at_rest)

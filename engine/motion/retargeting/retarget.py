@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
@@ -163,7 +163,7 @@ def _carry_root(
 def _leg_length(places: Array, names: tuple[str, ...], joints: Mapping[str, str]) -> float:
     """Thigh and shin of the source, in its own unit: the mean of both legs."""
     at = {name: places[:, names.index(source)] for name, source in joints.items()}
-    sides = SIDES
+    sides = SIDE_NAMES
     thighs = [np.linalg.norm(at[f"{side}Leg"] - at[f"{side}UpLeg"], axis=1) for side in sides]
     shins = [np.linalg.norm(at[f"{side}Foot"] - at[f"{side}Leg"], axis=1) for side in sides]
     return float(np.median(np.mean(thighs, axis=0) + np.mean(shins, axis=0)))

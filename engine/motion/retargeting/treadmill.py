@@ -16,16 +16,16 @@ from scipy.ndimage import gaussian_filter1d
 from engine.geometry.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.edit import loop_travel
-from engine.motion.feet.foot_contact import REFERENCE_LEG, sole_places
+from engine.motion.feet.foot_contact import REFERENCE_LEG_METRES, sole_places
 from engine.motion.feet.sole import leg_length
 
 Array = NDArray[np.float64]
 
-MIN_GROUND_SPEED = 0.2
-"""Metres a second, for legs of `REFERENCE_LEG`: feet that go back slower than this shuffle."""
+MIN_GROUND_METRES_PER_SECOND = 0.2
+"""Metres a second, for legs of `REFERENCE_LEG_METRES`: feet that go back slower than this shuffle."""
 
-CONTACT_HEIGHT_SCALE = 0.01
-"""Metres, for legs of `REFERENCE_LEG`: how far above the lowest point of both soles another hardly stands."""
+CONTACT_HEIGHT_SCALE_METRES = 0.01
+"""Metres, for legs of `REFERENCE_LEG_METRES`: how far above the lowest point of both soles another hardly stands."""
 
 STEP_TOLERANCE = 0.5
 """How far a point's step may differ from the ground's and still go with it, as a share of the ground's."""
@@ -39,8 +39,8 @@ MIN_CONTACT_SHARE = 0.5
 MIN_FOOT_SHARE = 0.2
 """Each foot's share of what goes with the ground, at least."""
 
-MAX_HEIGHT_SPREAD = 0.03
-"""Metres, for legs of `REFERENCE_LEG`: what goes with the ground at heights that differ by more, pedals, say."""
+MAX_HEIGHT_SPREAD_METRES = 0.03
+"""Metres, for legs of `REFERENCE_LEG_METRES`: what goes with the ground at heights that differ by more, pedals, say."""
 
 MAX_ROOT_TRAVEL_SHARE = 0.25
 """What the root may travel by itself, as a share of the ground's way."""
@@ -54,21 +54,21 @@ AIRBORNE_WEIGHT = 0.05
 
 def travel_as_walked(skeleton: Skeleton, clip: Clip) -> Clip:
     """The clip travelling as its feet walk, if it is a walk in place; else the same clip."""
-    scale = leg_length(skeleton) / REFERENCE_LEG
+    scale = leg_length(skeleton) / REFERENCE_LEG_METRES
     if len(clip.rotations) < 3:
         return clip
     steps, heights = _steps(skeleton, clip)
-    lowest = np.exp((heights.min(1, keepdims=True) - heights) / (CONTACT_HEIGHT_SCALE * scale))
+    lowest = np.exp((heights.min(1, keepdims=True) - heights) / (CONTACT_HEIGHT_SCALE_METRES * scale))
     ground = np.median((steps * lowest[..., None]).sum(1) / lowest.sum(1)[:, None], axis=0)
     for _ in range(GROUND_STEP_ROUNDS):
         speed = float(np.linalg.norm(ground))
-        if speed * clip.fps < MIN_GROUND_SPEED * scale:
+        if speed * clip.fps < MIN_GROUND_METRES_PER_SECOND * scale:
             return clip
         stands = lowest * np.exp(-((np.linalg.norm(steps - ground, axis=-1) / (STEP_TOLERANCE * speed)) ** 2))
         ground = (steps * stands[..., None]).sum((0, 1)) / stands.sum()
     left = stands[:, :3].sum() / stands.sum()
     own = loop_travel(clip) if clip.loops else (clip.root[-1] - clip.root[0]) * [1, 0, 1]
-    level = np.abs(heights - (heights * stands).sum() / stands.sum()) < MAX_HEIGHT_SPREAD * scale
+    level = np.abs(heights - (heights * stands).sum() / stands.sum()) < MAX_HEIGHT_SPREAD_METRES * scale
     walks = (stands * level).max(1).mean() > MIN_CONTACT_SHARE and MIN_FOOT_SHARE < left < 1 - MIN_FOOT_SHARE
     if not walks or np.linalg.norm(own) > MAX_ROOT_TRAVEL_SHARE * speed * len(steps):
         return clip

@@ -13,14 +13,17 @@ EXPRESSION_FEATURES = ("mouth_open", "mouth_wide", "corners_up", "inner_brows_up
 """What is measured of an expression, in eye distances of the face turned to the front; the eyes' opening is over
 their own width."""
 
-CHUNK_FRAMES = 256
+TURNED_CHUNK_FRAMES = 256
 """Meshes that are turned to the front together, so that memory does not grow with a video's length."""
 
 
 def measure_expression(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
     """`EXPRESSION_FEATURES` of meshes (N, 478, 3) whose heads may be turned: (N, 6)."""
     return np.concatenate(
-        [_expressed(meshes[start : start + CHUNK_FRAMES]) for start in range(0, len(meshes), CHUNK_FRAMES)]
+        [
+            _expressed(meshes[start : start + TURNED_CHUNK_FRAMES])
+            for start in range(0, len(meshes), TURNED_CHUNK_FRAMES)
+        ]
     )
 
 
@@ -53,7 +56,9 @@ def lip_asymmetry(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
         front = frontalise(some)[..., :2]
         return np.asarray(front[:, lips] - front[:, opposite] * (-1, 1), np.float32)
 
-    return np.concatenate([off(meshes[start : start + CHUNK_FRAMES]) for start in range(0, len(meshes), CHUNK_FRAMES)])
+    return np.concatenate(
+        [off(meshes[start : start + TURNED_CHUNK_FRAMES]) for start in range(0, len(meshes), TURNED_CHUNK_FRAMES)]
+    )
 
 
 def frontalise(meshes: NDArray[np.floating]) -> NDArray[np.float64]:

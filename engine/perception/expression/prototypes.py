@@ -42,15 +42,15 @@ PARTED_EYE_DISTANCES = 0.05
 MAX_POUT_EYE_DISTANCES = 0.06
 """Eye distances by which a mouth may be narrower in sadness; beyond, it purses its lips or speaks."""
 
-OUTER_BROW_SCALE = 0.015
+OUTER_BROW_SCALE_EYE_DISTANCES = 0.015
 """Eye distances by which the outer end of a brow comes more than 0.7 of the inner end's way in surprise. In fear, which
 shares raised brows and wide eyes with it, the outer end stays behind (AU 1 with 4)."""
-MOUTH_WIDTH_SCALE = 0.06
+MOUTH_WIDTH_SCALE_EYE_DISTANCES = 0.06
 """Eye distances by which the mouth narrows in surprise, and is drawn wide in fear (AU 20)."""
-BROW_GAP_SCALE = 0.02
+BROW_GAP_SCALE_EYE_DISTANCES = 0.02
 """Eye distances by which the brows part in surprise."""
 
-MAX_WINK_YAW = 0.45
+MAX_WINK_YAW_RADIANS = 0.45
 """Radians of yaw from rest, beyond which one eye is seen too obliquely to tell a wink."""
 
 Shown = Literal["happy", "surprise", "anger", "fear", "sadness", "wink"]
@@ -103,7 +103,7 @@ def movements(moved: NDArray[np.floating], rest: NDArray[np.floating]) -> Moveme
     eyes = [MEASURES.index("right_eye_open"), MEASURES.index("left_eye_open")]
     lids = moved[:, eyes].T / np.maximum(rest[eyes], 0.1)[:, None]
     shut = np.sort(-lids, axis=0) / CLEAR_MOVEMENTS["eye_shut"]
-    brow = (outer - 0.7 * inner) / OUTER_BROW_SCALE
+    brow = (outer - 0.7 * inner) / OUTER_BROW_SCALE_EYE_DISTANCES
     return Movements(
         corners_up=corners.min(axis=0) / CLEAR_MOVEMENTS["corners_up"],
         corners_down=-corners.max(axis=0) / CLEAR_MOVEMENTS["corners_down"],
@@ -119,7 +119,7 @@ def movements(moved: NDArray[np.floating], rest: NDArray[np.floating]) -> Moveme
         eyes_narrower=-lids.mean(axis=0) / CLEAR_MOVEMENTS["eyes_narrower"],
         one_eye_shut=shut[1],
         other_eye_shut=np.maximum(shut[0], 0),
-        like_surprise=brow - of["mouth_wide"] / MOUTH_WIDTH_SCALE + apart / BROW_GAP_SCALE,
+        like_surprise=brow - of["mouth_wide"] / MOUTH_WIDTH_SCALE_EYE_DISTANCES + apart / BROW_GAP_SCALE_EYE_DISTANCES,
         mouth_open=of["mouth_open"],
         mouth_narrower=-of["mouth_wide"],
         yaw=of["yaw"],
@@ -158,7 +158,7 @@ def sadness(done: Movements) -> Course:
 
 def wink(done: Movements) -> Course:
     """One eye shuts and the other does not (AU 46)."""
-    return _all(done.one_eye_shut, 2 - 2.2 * done.other_eye_shut, 4 * (MAX_WINK_YAW - np.abs(done.yaw)))
+    return _all(done.one_eye_shut, 2 - 2.2 * done.other_eye_shut, 4 * (MAX_WINK_YAW_RADIANS - np.abs(done.yaw)))
 
 
 PROTOTYPES: Mapping[Shown, Callable[[Movements], Course]] = {

@@ -7,13 +7,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from engine.perception.face_track.face_crop import FaceCrop, interpolate_crops
 
-EASE_BACK = 8
+EASE_BACK_FRAMES = 8
 """Frames over which what had vanished eases from its held place back to where it was found again."""
 
 
 def return_share(frames: ArrayLike) -> NDArray[np.float64]:
     """How far something is on its way back, in [0, 1], so many frames after it was found again, the first of them 1."""
-    t = np.clip(np.asarray(frames) / (EASE_BACK + 1), 0, 1)
+    t = np.clip(np.asarray(frames) / (EASE_BACK_FRAMES + 1), 0, 1)
     return np.asarray(t * t * (3 - 2 * t), float)
 
 
@@ -38,7 +38,7 @@ class HeldFace:
         if self._lost is not None:
             self._since += 1
             seen = interpolate_crops(self._lost, seen, float(return_share(self._since)))
-            if self._since == EASE_BACK:
+            if self._since == EASE_BACK_FRAMES:
                 self._lost = None
         self._last = seen
         looks = [seen] * (self._waiting + 1)

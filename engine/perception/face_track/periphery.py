@@ -7,11 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.registration.rigid import Similarity, fit_similarity
-from engine.perception.face_track.held_face import EASE_BACK, return_share
+from engine.perception.face_track.held_face import EASE_BACK_FRAMES, return_share
 from engine.perception.segmentation import selfie_mask
 
 MAX_POINTS = 100
-WORKING_HEIGHT = 360
+TRACKED_HEIGHT_PIXELS = 360
 """Frames are tracked at about this height; points outside the face need no more."""
 MAX_FORWARD_BACKWARD_PIXELS = 1.0
 """A point that does not come back to within this many working pixels is not trusted in that frame."""
@@ -52,7 +52,7 @@ class PeripheryTracker:
             if mesh is None:
                 self._before += 1
                 return
-            self._scale = min(1.0, WORKING_HEIGHT / rgb.shape[0])
+            self._scale = min(1.0, TRACKED_HEIGHT_PIXELS / rgb.shape[0])
             self._first = self._last = self._grey(rgb)
             self._start = _choose(rgb, mesh, self._scale)
             self._face = self._small(mesh)
@@ -118,7 +118,7 @@ class PeripheryTracker:
 def ease_returns(points: NDArray[np.float32], tracked: NDArray[np.bool_]) -> NDArray[np.float32]:
     """(N, K, 2): a point that is found again goes over from where it was lost, at the pace of a face that comes back."""
     eased, lost = points.copy(), points[0]
-    since = np.full(points.shape[1], EASE_BACK + 1)
+    since = np.full(points.shape[1], EASE_BACK_FRAMES + 1)
     for i in range(1, len(points)):
         lost = np.where((tracked[i] | ~tracked[i - 1])[:, None], lost, eased[i - 1])
         since = np.where(tracked[i], since + 1, 0)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from engine.media.excerpt import Excerpt
 from engine.media.film_strip import FilmStrip, FilmStripWriter
-from engine.media.timing import SHORTEST_SPAN
+from engine.media.timing import MIN_SPAN_SECONDS
 from engine.media.video import probe_video, read_video
 from engine.perception.face_track.covered_face import CoveredFace
 from engine.perception.face_track.face_crop import FaceCrop, crop_face
@@ -25,7 +25,7 @@ from engine.perception.landmarks import MESH_SIZE
 from engine.perception.one_face import OneFace
 from engine.perception.temporal_filter import remove_jitter
 
-MAX_TRACKED_SIDE = 1280
+MAX_TRACKED_SIDE_PIXELS = 1280
 """Pixels; larger videos are read at this size, which holds all that is kept of them."""
 
 
@@ -125,7 +125,7 @@ def track_face(
     ):
         around: Future[None] = beside.submit(lambda: None)  # the points around follow a frame behind, on another core
         for index, frame in enumerate(
-            read_video(path, fps=fps, trim=trim, limits=limits, warn=warn, longest_side=MAX_TRACKED_SIDE)
+            read_video(path, fps=fps, trim=trim, limits=limits, warn=warn, longest_side=MAX_TRACKED_SIDE_PIXELS)
         ):
             tick(min(index / expected, 1.0))
             starts.append(frame.time)
@@ -168,7 +168,7 @@ def _times(starts: list[float], end: float, fps: float | None) -> NDArray[np.flo
     `fps`."""
     if fps is not None:
         return np.arange(len(starts) + 1) / fps
-    return np.array([*starts, max(end, starts[-1] + SHORTEST_SPAN)]) - starts[0]
+    return np.array([*starts, max(end, starts[-1] + MIN_SPAN_SECONDS)]) - starts[0]
 
 
 def _followed(follow: OneFace, rgb: NDArray[np.uint8]) -> NDArray[np.float32] | None:

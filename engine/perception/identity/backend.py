@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from engine.perception.identity.descriptor import FaceDescriptor, IdentityDistances
-from engine.perception.identity.dlib_descriptor import DISTANCES, MODEL_SHA256, DlibDescriptor
+from engine.perception.identity.dlib_descriptor import IDENTITY_DISTANCES, MODEL_SHA256, DlibDescriptor
 from engine.perception.identity.operator_descriptor import OperatorDescriptor, operator_distances
 from engine.perception.models import DESCRIPTOR_SETTING, named_model
 
@@ -32,4 +32,4 @@ def descriptor_name(settings: Mapping[str, str]) -> str:
 
 def descriptor_distances(settings: Mapping[str, str]) -> IdentityDistances:
     """What distances of its descriptors mean; no network is loaded for it. Raises `ModelError` as `face_descriptor` does."""
-    return operator_distances(settings) if named_model(settings, DESCRIPTOR_SETTING) is not None else DISTANCES
+    return operator_distances(settings) if named_model(settings, DESCRIPTOR_SETTING) is not None else IDENTITY_DISTANCES

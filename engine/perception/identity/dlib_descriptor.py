@@ -21,7 +21,7 @@ from engine.perception.identity.face_chip import DLIB_LAYOUT, face_chip
 MODEL_FILE = "dlib_face_recognition_resnet_model_v1.dat"
 MODEL_SHA256 = "55533b28a95800a551ba546ba62fe69625c7e95a7061c338adffead08719da30"
 
-DISTANCES = IdentityDistances(same=0.6, other=0.7)
+IDENTITY_DISTANCES = IdentityDistances(same=0.6, other=0.7)
 """Of its author's training, and as seen in collections of photographs: nearly all pairs of two people have more than 0.63."""
 
 
@@ -30,7 +30,7 @@ class DlibDescriptor:
     """A `FaceDescriptor`."""
 
     network: Any
-    distances: IdentityDistances = DISTANCES
+    distances: IdentityDistances = IDENTITY_DISTANCES
 
     @classmethod
     def load(cls) -> DlibDescriptor:

@@ -18,33 +18,40 @@ from scipy.spatial import cKDTree
 AXIS_DEPTH = 0.045
 """z of the cylinder's axis in the rest pose, metres."""
 
-CHART_RADIUS = 0.1
+CHART_RADIUS_METRES = 0.1
 """Metres of u for one radian."""
 
 TEXELS_PER_METRE = 4000.0
 """Texels in a metre: four to the millimetre, a little finer than the supersampled picture."""
 
-LEFT, RIGHT, TOP, BOTTOM = -0.22, 0.22, 0.95, 0.55
-CHART_SHAPE = (round((TOP - BOTTOM) * TEXELS_PER_METRE), round((RIGHT - LEFT) * TEXELS_PER_METRE))
+CHART_LEFT, CHART_RIGHT, CHART_TOP, CHART_BOTTOM = -0.22, 0.22, 0.95, 0.55
+CHART_SHAPE = (
+    round((CHART_TOP - CHART_BOTTOM) * TEXELS_PER_METRE),
+    round((CHART_RIGHT - CHART_LEFT) * TEXELS_PER_METRE),
+)
 
 
 def coordinates(points: NDArray[np.floating]) -> NDArray[np.float32]:
     """(V, 3) points of the rest pose to (V, 2) float32 chart coordinates (u, v), metres."""
     turn = np.arctan2(points[:, 0], points[:, 2] - AXIS_DEPTH)
-    return np.stack([CHART_RADIUS * turn, points[:, 1]], 1).astype(np.float32)
+    return np.stack([CHART_RADIUS_METRES * turn, points[:, 1]], 1).astype(np.float32)
 
 
 def texture_coordinates(chart: NDArray[np.floating]) -> NDArray[np.float32]:
     """Chart coordinates (..., 2) to those of a texture of `CHART_SHAPE`, (0, 0) its top left, (1, 1) its bottom right."""
-    return np.stack([(chart[..., 0] - LEFT) / (RIGHT - LEFT), (TOP - chart[..., 1]) / (TOP - BOTTOM)], -1).astype(
-        np.float32
-    )
+    return np.stack(
+        [
+            (chart[..., 0] - CHART_LEFT) / (CHART_RIGHT - CHART_LEFT),
+            (CHART_TOP - chart[..., 1]) / (CHART_TOP - CHART_BOTTOM),
+        ],
+        -1,
+    ).astype(np.float32)
 
 
 def grid() -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """u and v at the centres of the texels, (H, W) float32 each."""
-    u = LEFT + (np.arange(CHART_SHAPE[1], dtype=np.float32) + 0.5) / TEXELS_PER_METRE
-    v = TOP - (np.arange(CHART_SHAPE[0], dtype=np.float32) + 0.5) / TEXELS_PER_METRE
+    u = CHART_LEFT + (np.arange(CHART_SHAPE[1], dtype=np.float32) + 0.5) / TEXELS_PER_METRE
+    v = CHART_TOP - (np.arange(CHART_SHAPE[0], dtype=np.float32) + 0.5) / TEXELS_PER_METRE
     return np.broadcast_to(u, CHART_SHAPE), np.broadcast_to(v[:, None], CHART_SHAPE)
 
 
@@ -57,12 +64,12 @@ def slopes(height: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np
 def box(low: Sequence[float], high: Sequence[float]) -> tuple[slice, slice]:
     """The rows and columns of the chart's texels between two corners (u, v), metres."""
     columns = slice(
-        min(max(int((low[0] - LEFT) * TEXELS_PER_METRE), 0), CHART_SHAPE[1]),
-        min(max(int((high[0] - LEFT) * TEXELS_PER_METRE) + 1, 0), CHART_SHAPE[1]),
+        min(max(int((low[0] - CHART_LEFT) * TEXELS_PER_METRE), 0), CHART_SHAPE[1]),
+        min(max(int((high[0] - CHART_LEFT) * TEXELS_PER_METRE) + 1, 0), CHART_SHAPE[1]),
     )
     rows = slice(
-        min(max(int((TOP - high[1]) * TEXELS_PER_METRE), 0), CHART_SHAPE[0]),
-        min(max(int((TOP - low[1]) * TEXELS_PER_METRE) + 1, 0), CHART_SHAPE[0]),
+        min(max(int((CHART_TOP - high[1]) * TEXELS_PER_METRE), 0), CHART_SHAPE[0]),
+        min(max(int((CHART_TOP - low[1]) * TEXELS_PER_METRE) + 1, 0), CHART_SHAPE[0]),
     )
     return rows, columns
 

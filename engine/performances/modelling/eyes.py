@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-EYEBALL_RADIUS = 0.0147
+EYEBALL_RADIUS_METRES = 0.0147
 """Metres. The template's eyes are a little larger than life; the iris is not."""
 
 IRIS_RADIUS = 0.0056
@@ -24,7 +24,7 @@ IRIS_DEPTH = 0.0007
 REFRACTIVE_INDEX = 1.336
 """Index of refraction of the eye's watery humour."""
 
-_RIM_DEPTH = np.sqrt(EYEBALL_RADIUS**2 - IRIS_RADIUS**2)
+_RIM_DEPTH = np.sqrt(EYEBALL_RADIUS_METRES**2 - IRIS_RADIUS**2)
 _CORNEA_CENTRE = _RIM_DEPTH - np.sqrt(CORNEA_RADIUS**2 - IRIS_RADIUS**2)
 
 
@@ -32,7 +32,7 @@ def profile(cosine: NDArray[np.floating]) -> NDArray[np.float64]:
     """Distance of the eye's surface from its centre, by the cosine of the angle to the direction of gaze."""
     c = np.asarray(cosine, np.float64)
     inside = np.maximum(CORNEA_RADIUS**2 - _CORNEA_CENTRE**2 * (1 - c**2), 0)
-    return np.maximum(EYEBALL_RADIUS, np.where(c > 0.8, _CORNEA_CENTRE * c + np.sqrt(inside), 0.0))
+    return np.maximum(EYEBALL_RADIUS_METRES, np.where(c > 0.8, _CORNEA_CENTRE * c + np.sqrt(inside), 0.0))
 
 
 @dataclass(frozen=True)

@@ -16,10 +16,10 @@ from engine.body.subdivision import catmull_clark
 from engine.body.template import load_rig
 from engine.geometry.skinning import bone_transforms, skin
 from engine.geometry.surface import triangulate
-from engine.performances.modelling.eyes import EYEBALL_RADIUS, build_eyeball, profile
+from engine.performances.modelling.eyes import EYEBALL_RADIUS_METRES, build_eyeball, profile
 from engine.performances.modelling.lids import Lids, build_lids
 
-PHENOTYPE = Phenotype(age=0.52, gender=0.86, muscle=0.48, weight=0.5, caucasian=0.7, asian=0.15, african=0.15)
+FIGURE_PHENOTYPE = Phenotype(age=0.52, gender=0.86, muscle=0.48, weight=0.5, caucasian=0.7, asian=0.15, african=0.15)
 
 FACE_FEATURES = {
     "r-eye-scale-incr": 0.22,
@@ -47,7 +47,7 @@ NECK_SHARES = {"neck01": 0.12, "neck02": 0.16, "neck03": 0.22, "head": 0.5}
 LID_GAP_METRES = 0.0006
 """Metres between the eyeball and the surface of the skin on it."""
 
-MIN_FRAMED_HEIGHT = 0.45
+MIN_FRAMED_HEIGHT_METRES = 0.45
 """Metres: what lies lower in the template's rest pose is never in the picture."""
 
 
@@ -124,10 +124,10 @@ class PosedFigure:
 def build_figure() -> Figure:
     """Make the actor's body."""
     template, rig = load_template(), load_rig("default")
-    shape = load_shape_space().shape(PHENOTYPE, FACE_FEATURES) + template.face_units.displacement(CLOSED_LIPS)
+    shape = load_shape_space().shape(FIGURE_PHENOTYPE, FACE_FEATURES) + template.face_units.displacement(CLOSED_LIPS)
     arms_down = _arms_down(rig, shape)
     skin_quads = template.quads[template.faces("body")]
-    framed = arms_down[skin_quads][:, :, 1].min(1) > MIN_FRAMED_HEIGHT
+    framed = arms_down[skin_quads][:, :, 1].min(1) > MIN_FRAMED_HEIGHT_METRES
     near = np.abs(arms_down[skin_quads][:, :, 0]).max(1) < 0.26
     cage = skin_quads[framed & near]
     once = catmull_clark(cage, len(shape))
@@ -222,7 +222,7 @@ def _keep_off(surface: NDArray[np.float32], eye: NDArray[np.float64], centre: ND
 
     `eye` (4, 4) places the eye's own axes (it looks along +z), whose origin `centre` lies at its middle.
     """
-    near = np.flatnonzero(np.abs(surface - centre).max(1) < 1.5 * EYEBALL_RADIUS)
+    near = np.flatnonzero(np.abs(surface - centre).max(1) < 1.5 * EYEBALL_RADIUS_METRES)
     local = (surface[near] - centre) @ eye[:3, :3]
     distance = np.linalg.norm(local, axis=1)
     cosine = local[:, 2] / np.maximum(distance, 1e-9)

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from engine.geometry.surface import triangle_areas, triangulate, vertex_normals
-from engine.performances.modelling.chart import AXIS_DEPTH, CHART_RADIUS, smooth_curve, smooth_step
+from engine.performances.modelling.chart import AXIS_DEPTH, CHART_RADIUS_METRES, smooth_curve, smooth_step
 from engine.performances.modelling.figure import Figure
 
-HAIRLINE = [
+HAIRLINE_POINTS = [
     *((0.0, 0.8565), (0.018, 0.8575), (0.034, 0.8580), (0.047, 0.8550), (0.057, 0.8465), (0.0635, 0.8360)),
     *((0.071, 0.8270), (0.0795, 0.8180), (0.087, 0.8080), (0.0920, 0.7960), (0.0965, 0.7830), (0.1000, 0.7720)),
     *((0.1080, 0.7700), (0.1120, 0.7850), (0.1200, 0.8000), (0.1400, 0.8120), (0.1620, 0.8100), (0.1740, 0.7900)),
@@ -35,7 +35,7 @@ class Haircut:
 
 def hair_cover(chart: NDArray[np.floating]) -> NDArray[np.float32]:
     """How far inside the hair's border points of the map (N, 2) lie, metres; negative outside."""
-    curve = smooth_curve(HAIRLINE, 1200)
+    curve = smooth_curve(HAIRLINE_POINTS, 1200)
     curve[:, 0] = np.clip(curve[:, 0], 0, None)
     place = np.stack([np.abs(chart[:, 0]), chart[:, 1]], 1)
     distance, nearest = cKDTree(curve).query(place)
@@ -121,4 +121,4 @@ def _scatter(
 
 
 def _chart_of(points: NDArray[np.floating]) -> NDArray[np.floating]:
-    return np.stack([CHART_RADIUS * np.arctan2(points[:, 0], points[:, 2] - AXIS_DEPTH), points[:, 1]], 1)
+    return np.stack([CHART_RADIUS_METRES * np.arctan2(points[:, 0], points[:, 2] - AXIS_DEPTH), points[:, 1]], 1)

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from engine.performances.modelling.eyes import Eyeball
 from engine.render.rasteriser import rasterise
 
-RIM_OVERLAP = 0.0003
+RIM_OVERLAP_METRES = 0.0003
 """Metres by which the upper rim covers the lower one when shut."""
 
-INNER_FADE, OUTER_FADE = 0.009, 0.0055
+INNER_FADE_METRES, OUTER_FADE_METRES = 0.009, 0.0055
 """Metres beyond the visible eyeball over which the lid's motion fades: at the nose the lids reach further."""
 
 
@@ -49,10 +49,10 @@ class Lids:
         (V, 3), the template's vertices with all other face units at work."""
         gap = (self.upper @ moved[:, 1]) - (self.lower @ moved[:, 1])
         reach = -(self.upper @ self.shut[:, 1])
-        needed = np.clip((gap + RIM_OVERLAP) / np.maximum(reach, 1e-4), 0, 1.6)
+        needed = np.clip((gap + RIM_OVERLAP_METRES) / np.maximum(reach, 1e-4), 0, 1.6)
         needed = np.convolve(np.pad(needed, 2, mode="edge"), np.full(5, 0.2), mode="valid")
         inner_is_first = self.x.mean() > 0
-        fades = (INNER_FADE, OUTER_FADE) if inner_is_first else (OUTER_FADE, INNER_FADE)
+        fades = (INNER_FADE_METRES, OUTER_FADE_METRES) if inner_is_first else (OUTER_FADE_METRES, INNER_FADE_METRES)
         ends = (self.x[0] - fades[0], *self.x, self.x[-1] + fades[1])
         amount = np.interp(self.columns, ends, (0.0, *needed, 0.0))
         return (share * amount[:, None] * self.shut).astype(np.float32)

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from engine.performances.modelling.brows import BROW_LINE
 from engine.performances.modelling.chart import (
+    CHART_LEFT,
     CHART_SHAPE,
-    LEFT,
+    CHART_TOP,
     TEXELS_PER_METRE,
-    TOP,
     blob,
     curve_coordinates,
     grid,
@@ -36,8 +36,8 @@ MELANIN_ABSORBANCE = np.array([0.26, 0.50, 0.78], np.float32)
 """Absorbance of one unit of pigment in red, green and blue: after the spectra in T. Igarashi et al., The
 Appearance of Human Skin, 2007, in the proportions that matched photographs by eye."""
 
-UPPER_LIP = [(-0.0236, 0.7213), (-0.0175, 0.7252), (-0.0105, 0.7286), (-0.0052, 0.7312), (0.0, 0.7300)]
-LOWER_LIP = [(-0.0236, 0.7213), (-0.0185, 0.7158), (-0.0115, 0.7116), (-0.0055, 0.7097), (0.0, 0.7093)]
+UPPER_LIP_BORDER = [(-0.0236, 0.7213), (-0.0175, 0.7252), (-0.0105, 0.7286), (-0.0052, 0.7312), (0.0, 0.7300)]
+LOWER_LIP_BORDER = [(-0.0236, 0.7213), (-0.0185, 0.7158), (-0.0115, 0.7116), (-0.0055, 0.7097), (0.0, 0.7093)]
 """The right half of the lips' border, from the corner of the mouth to the middle."""
 
 
@@ -74,10 +74,10 @@ def paint_skin(seed: int = 7) -> Skin:
 
 def _lips(rng: np.random.Generator) -> NDArray[np.float32]:
     """The vermilion with its soft, slightly ragged border."""
-    upper, lower = smooth_curve(mirrored(UPPER_LIP)), smooth_curve(mirrored(LOWER_LIP))
+    upper, lower = smooth_curve(mirrored(UPPER_LIP_BORDER)), smooth_curve(mirrored(LOWER_LIP_BORDER))
     outline = np.concatenate([upper, lower[::-1]])
     texels = np.stack(
-        [(outline[:, 0] - LEFT) * TEXELS_PER_METRE - 0.5, (TOP - outline[:, 1]) * TEXELS_PER_METRE - 0.5], 1
+        [(outline[:, 0] - CHART_LEFT) * TEXELS_PER_METRE - 0.5, (CHART_TOP - outline[:, 1]) * TEXELS_PER_METRE - 0.5], 1
     )
     inside = np.zeros(CHART_SHAPE, np.uint8)
     cv2.fillPoly(inside, [np.rint(texels * 16).astype(np.int32)], 1, shift=4)
@@ -119,11 +119,11 @@ def _melanin(rng: np.random.Generator) -> NDArray[np.float32]:
         - 0.05 * blob((0.0, 0.66), (0.06, 0.03))  # the throat sees no sun
     )
     spots = np.maximum(noise(rng, 0.0016) - 2.3, 0) * (0.4 + mirrored_blobs((0.032, 0.765), (0.02, 0.012)))
-    moles = sum(strength * blob(place, (size, size)) for place, size, strength in MOLES)
+    moles = sum(strength * blob(place, (size, size)) for place, size, strength in MOLE_PLACES)
     return np.maximum(0.265 + tan + 0.022 * noise(rng, 0.016, 3) + 0.07 * spots + moles, 0.02)
 
 
-MOLES = (((0.041, 0.7405), 0.00055, 1.1), ((-0.056, 0.7685), 0.0005, 0.9), ((-0.022, 0.6925), 0.0006, 0.7))
+MOLE_PLACES = (((0.041, 0.7405), 0.00055, 1.1), ((-0.056, 0.7685), 0.0005, 0.9), ((-0.022, 0.6925), 0.0006, 0.7))
 """Place, radius and strength."""
 
 

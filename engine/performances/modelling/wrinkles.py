@@ -26,7 +26,7 @@ class Furrow:
     width: float
 
 
-FOREHEAD = (
+FOREHEAD_FURROWS = (
     Furrow(
         [(-0.046, 0.8225), (-0.030, 0.8262), (-0.012, 0.8243), (0.008, 0.8236), (0.028, 0.8266), (0.045, 0.8215)],
         0.34,
@@ -55,22 +55,22 @@ UNDER_EYE = (
     Furrow([(0.0185, 0.7810), (0.0265, 0.7763), (0.0365, 0.7757), (0.0470, 0.7795)], 0.30, 0.80),
 )
 
-NASOLABIAL = (
+NASOLABIAL_FURROWS = (
     Furrow([(0.0178, 0.7570), (0.0222, 0.7495), (0.0272, 0.7405), (0.0312, 0.7305), (0.0325, 0.7215)], 0.75, 1.10),
 )
 """The fold between cheek and lip, from the wing of the nose around the corner of the mouth."""
 
-DIMPLE = (
+DIMPLE_FURROWS = (
     Furrow([(0.0345, 0.7285), (0.0372, 0.7215), (0.0365, 0.7135)], 0.26, 0.95),
     Furrow([(0.0265, 0.7235), (0.0278, 0.7200), (0.0262, 0.7165)], 0.30, 0.60),
 )
 
-GLABELLA = (
+GLABELLA_FURROWS = (
     Furrow([(0.0055, 0.8010), (0.0062, 0.8075), (0.0048, 0.8140)], 0.32, 0.70),
     Furrow([(-0.0062, 0.8015), (-0.0068, 0.8070), (-0.0056, 0.8125)], 0.28, 0.70),
 )
 
-CHIN = (Furrow([(-0.014, 0.7015), (-0.006, 0.7035), (0.004, 0.7036), (0.0135, 0.7012)], 0.30, 0.9),)
+CHIN_FURROWS = (Furrow([(-0.014, 0.7015), (-0.006, 0.7035), (0.004, 0.7036), (0.0135, 0.7012)], 0.30, 0.9),)
 
 
 @dataclass(frozen=True)
@@ -115,15 +115,15 @@ def carve() -> Wrinkles:
     for name, furrows in (
         ("crows_feet", CROWS_FEET),
         ("under_eye", UNDER_EYE),
-        ("nasolabial", NASOLABIAL),
-        ("dimple", DIMPLE),
+        ("nasolabial", NASOLABIAL_FURROWS),
+        ("dimple", DIMPLE_FURROWS),
     ):
         groups[f"{name}_left"] = _relief(furrows)
         groups[f"{name}_right"] = groups[f"{name}_left"][:, ::-1]
-    forehead = _relief(FOREHEAD)
+    forehead = _relief(FOREHEAD_FURROWS)
     left = 1 / (1 + np.exp(-np.linspace(-9, 9, CHART_SHAPE[1], dtype=np.float32)[None] * 2.2))
     groups["forehead_left"], groups["forehead_right"] = forehead * left, forehead * (1 - left)
-    groups["glabella"], groups["chin"] = _relief(GLABELLA), _relief(CHIN)
+    groups["glabella"], groups["chin"] = _relief(GLABELLA_FURROWS), _relief(CHIN_FURROWS)
     return Wrinkles(tuple(groups), np.stack([np.ascontiguousarray(relief) for relief in groups.values()]))
 
 

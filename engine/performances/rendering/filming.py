@@ -22,8 +22,8 @@ from engine.compiled import njit
 from engine.performances.modelling.actor import Actor, Scene, stage
 from engine.performances.modelling.figure import Pose
 from engine.performances.rendering.studio import (
-    CAMERA,
-    SAMPLES_PER_SIDE,
+    SAMPLES_PER_PIXEL_SIDE,
+    STUDIO_CAMERA,
     Exposure,
     backdrop,
     expose,
@@ -45,12 +45,12 @@ MAX_UNSEEN_PIXELS = 300
 MIN_COVERAGE = 0.02
 """What is seen by less than this share of a pixel counts as not seen."""
 
-SAME_SURFACE = 0.0025
+SAME_SURFACE_METRES = 0.0025
 """Metres along the view by which two points of one surface may differ within a pixel."""
 
 
 def film(
-    actor: Actor, poses: Sequence[Pose], samples: int = SAMPLES_PER_SIDE, detail: float = 1.0
+    actor: Actor, poses: Sequence[Pose], samples: int = SAMPLES_PER_PIXEL_SIDE, detail: float = 1.0
 ) -> Iterator[NDArray]:
     """The pictures (SIZE, SIZE, 3) uint8 of the `poses`, in order."""
 
@@ -86,13 +86,13 @@ def key_frames(poses: Sequence[Pose]) -> list[int]:
 
 
 def carry(
-    first: Exposure, last: Exposure, share: float, scene: Scene, samples: int = SAMPLES_PER_SIDE
+    first: Exposure, last: Exposure, share: float, scene: Scene, samples: int = SAMPLES_PER_PIXEL_SIDE
 ) -> Exposure | None:
     """A scene in the light of two others: that of `first` and, by `share` [0, 1], of `last`.
 
     None where more than `MAX_UNSEEN_PIXELS` pixels were seen in neither.
     """
-    camera = CAMERA.scaled(samples)
+    camera = STUDIO_CAMERA.scaled(samples)
     raster = rasterise(camera.project(scene.vertices), scene.triangles, camera.size, perspective=True)
     parts = parts_seen(scene, raster)
     light, weight = np.zeros((*camera.size, 3), np.float32), np.zeros(camera.size, np.float32)
@@ -100,7 +100,7 @@ def carry(
         pixels = camera.project(interpolate(key.scene.vertices, scene.triangles, raster))
         _look_up(key, _ScenePoints(parts, pixels), factor, light, weight)
     covered, known = parts >= 0, weight > MIN_COVERAGE
-    if int((covered & ~known).sum()) > MAX_UNSEEN_PIXELS * (samples / SAMPLES_PER_SIDE) ** 2:
+    if int((covered & ~known).sum()) > MAX_UNSEEN_PIXELS * (samples / SAMPLES_PER_PIXEL_SIDE) ** 2:
         return None
     radiance = backdrop(camera.size)
     radiance[known] = light[known] / weight[known, None]
@@ -114,7 +114,7 @@ def _look_up(
 ) -> None:
     """Add to `light` (H, W, 3) and `weight` (H, W) what a key frame shows of each visible point, times `factor`."""
     shown = _KeyFrame(key.radiance, key.raster.depth, key.parts)
-    _gather(points, shown, np.array([factor, SAME_SURFACE], np.float32), light, weight)
+    _gather(points, shown, np.array([factor, SAME_SURFACE_METRES], np.float32), light, weight)
 
 
 class _ScenePoints(NamedTuple):

@@ -20,21 +20,21 @@ from engine.render.strands import draw_strands, shade_strands
 from engine.render.subsurface import diffuse
 
 PICTURE_SIZE = 512
-SAMPLES_PER_SIDE = 2
+SAMPLES_PER_PIXEL_SIDE = 2
 """Pixels are rendered as SAMPLES x SAMPLES and averaged."""
 
-CAMERA = Camera(
+STUDIO_CAMERA = Camera(
     eye=(0.0, 0.775, 1.62), focal=PICTURE_SIZE * 1.50 / 0.294, centre=(255.5, 257.0), size=(PICTURE_SIZE, PICTURE_SIZE)
 )
 """A portrait lens 1.6 m away: little perspective, the face about 250 pixels wide."""
 
-EXPOSURE = 1.55
+STUDIO_EXPOSURE = 1.55
 
 
 HAIR_LAMPS = 0.3
 """Detail of the lamps for hair: it is too rough to show more."""
 
-HAIR = np.array([0.046, 0.027, 0.0165], np.float32)
+HAIR_COLOUR = np.array([0.046, 0.027, 0.0165], np.float32)
 
 
 @dataclass(frozen=True)
@@ -50,15 +50,17 @@ class Exposure:
     hair: tuple[NDArray[np.float32], ...]
 
 
-def photograph(actor: Actor, scene: Scene, samples: int = SAMPLES_PER_SIDE, detail: float = 1.0) -> NDArray[np.uint8]:
+def photograph(
+    actor: Actor, scene: Scene, samples: int = SAMPLES_PER_PIXEL_SIDE, detail: float = 1.0
+) -> NDArray[np.uint8]:
     """A picture (SIZE, SIZE, 3) uint8 of a scene: some seconds. For a quick proof take one sample a pixel and less
     `detail` of the lamps."""
     return finish(expose(actor, scene, samples, detail), actor, samples)
 
 
-def expose(actor: Actor, scene: Scene, samples: int = SAMPLES_PER_SIDE, detail: float = 1.0) -> Exposure:
+def expose(actor: Actor, scene: Scene, samples: int = SAMPLES_PER_PIXEL_SIDE, detail: float = 1.0) -> Exposure:
     """Light a scene."""
-    camera = CAMERA.scaled(samples)
+    camera = STUDIO_CAMERA.scaled(samples)
     seen = visible_points(scene, camera)
     matter = materials(actor, scene, seen)
     surface = Surface(
@@ -79,15 +81,15 @@ def expose(actor: Actor, scene: Scene, samples: int = SAMPLES_PER_SIDE, detail: 
     )
 
 
-def finish(exposure: Exposure, actor: Actor, samples: int = SAMPLES_PER_SIDE) -> NDArray[np.uint8]:
+def finish(exposure: Exposure, actor: Actor, samples: int = SAMPLES_PER_PIXEL_SIDE) -> NDArray[np.uint8]:
     """Draw the hair over an exposure and develop it: (SIZE, SIZE, 3) uint8."""
-    camera = CAMERA.scaled(samples)
+    camera = STUDIO_CAMERA.scaled(samples)
     picture = exposure.radiance.copy()
     widths = (actor.crop.widths, *(rooted.widths for rooted in actor.rooted))
     for width, hairs, shine in zip(widths, exposure.scene.hairs, exposure.hair, strict=True):
         pixels = camera.project(hairs.reshape(-1, 3)).reshape(hairs.shape)
         draw_strands(picture, exposure.raster.depth, pixels, shine, width * camera.focal / pixels[..., 2])
-    return develop(box_downsample(picture, samples), EXPOSURE)
+    return develop(box_downsample(picture, samples), STUDIO_EXPOSURE)
 
 
 def parts_seen(scene: Scene, raster: Raster) -> NDArray[np.int8]:
@@ -117,8 +119,8 @@ def _shine(
 ) -> NDArray[np.float32]:
     count, pieces = hairs.shape[:2]
     tangents = unit(np.gradient(hairs, axis=1).reshape(-1, 3))
-    view = unit(np.asarray(CAMERA.eye, np.float32) - hairs.reshape(-1, 3))
-    colour = np.repeat(tone.astype(np.float32), pieces)[:, None] * HAIR
+    view = unit(np.asarray(STUDIO_CAMERA.eye, np.float32) - hairs.reshape(-1, 3))
+    colour = np.repeat(tone.astype(np.float32), pieces)[:, None] * HAIR_COLOUR
     return shade_strands(tangents, view, passed.reshape(count * pieces, -1), few, colour, 1.0).reshape(hairs.shape)
 
 

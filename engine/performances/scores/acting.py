@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.performances.modelling.figure import Pose
 from engine.performances.scores.timing import ease, idle_noise
 
@@ -18,7 +18,7 @@ def pose(
 ) -> Pose:
     """Let the lids follow the gaze, as they do, and the eyes hold their aim while the head turns."""
     up, left = gaze[0] + 0.9 * head[0], gaze[1] - 0.9 * head[1]
-    for side in SIDES:
+    for side in SIDE_NAMES:
         add(units, f"eyeLookUp{side}", max(up, 0.0) / 30)
         add(units, f"eyeLookDown{side}", max(-up, 0.0) / 30)
     return Pose(units=units, head=head, lean=lean, gaze=(up, left), breath=breath)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.performances.catalogue import performance
 from engine.performances.modelling.figure import Pose
 from engine.performances.scores.acting import Units, add, head_sway, lids, pose, sum_turns
@@ -74,7 +74,7 @@ def surprise(t: float) -> Pose:
     add(units, "mouthFunnel", 0.30 * swell(t, 0.46, 0.95, 1.5, 2.35))
     # closing, the lips press together for a moment before they settle
     add(units, "mouthShrugUpper", 0.05 * swell(t, 2.0, 2.4, 2.45, 2.9))
-    for side in SIDES:
+    for side in SIDE_NAMES:
         add(units, f"mouthPress{side}", 0.16 * swell(t, 2.05, 2.42, 2.50, 3.05))
     lids(units, blink(t, 0.20, depth=0.55, slow=0.8) + blink(t, 1.74), lead=0.0)
     # a tiny dip, then the head goes back and up

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 BLINK_CLOSES = 0.10
-BLINK_REOPENS = 0.22
+BLINK_REOPENING_SECONDS = 0.22
 """Seconds. Spontaneous blinks: the lid falls about twice as fast as it rises (K.-A. Kwon et al., High-speed camera
 characterization of voluntary eye blinking kinematics, 2013)."""
 
@@ -36,7 +36,7 @@ def blink(t: float, at: float, depth: float = 1.0, slow: float = 1.0) -> float:
     and settling slowly."""
     down = ease(t, at, at + slow * BLINK_CLOSES)
     shut = at + slow * (BLINK_CLOSES + 0.035)
-    x = max((t - shut) / (slow * BLINK_REOPENS), 0.0)
+    x = max((t - shut) / (slow * BLINK_REOPENING_SECONDS), 0.0)
     # a critically damped rise, cut off where less than a hundredth is left
     left = (1 + 6.6 * x) * np.exp(-6.6 * x) if x < 1.4 else 0.0
     fade = 1 - ease(x, 1.0, 1.4)

@@ -14,10 +14,10 @@ MIN_EXPRESSION_SPREADS = 1.0
 """`REST_SPREAD` of a measure, from the person's own median, from which on a photograph shows what the measure tells."""
 MIN_PHOTOS_OF_EXPRESSION = 8
 """So many photographs at least are mixed in a texture: of fewer, other expressions show through."""
-MIN_ANGLE = 12.0
+MIN_ANGLE_DEGREES = 12.0
 """Degrees aside, up or down from which on a photograph is not one from before."""
 
-EXPRESSIONS: Mapping[str, tuple[tuple[str, ...], int]] = {
+COVERED_EXPRESSIONS: Mapping[str, tuple[tuple[str, ...], int]] = {
     "an open mouth": (("mouth_open",), 1),
     "a smile": (("right_corner_up", "left_corner_up"), 1),
     "mouth corners drawn down": (("right_corner_up", "left_corner_up"), -1),
@@ -30,12 +30,12 @@ EXPRESSIONS: Mapping[str, tuple[tuple[str, ...], int]] = {
 
 
 def shown_expressions(faces: Sequence[PhotoFace]) -> dict[str, int]:
-    """How many of the faces, whose median is taken to be the person's usual face, show each of `EXPRESSIONS`."""
+    """How many of the faces, whose median is taken to be the person's usual face, show each of `COVERED_EXPRESSIONS`."""
     if not faces:
-        return dict.fromkeys(EXPRESSIONS, 0)
+        return dict.fromkeys(COVERED_EXPRESSIONS, 0)
     beyond = _beyond_usual(np.array([face.mesh for face in faces]))
     counts = {}
-    for name, (measures, sign) in EXPRESSIONS.items():
+    for name, (measures, sign) in COVERED_EXPRESSIONS.items():
         told = sign * beyond[:, [MEASURES.index(one) for one in measures]].mean(axis=1)
         counts[name] = int((told > MIN_EXPRESSION_SPREADS).sum())
     return counts
@@ -45,11 +45,11 @@ def shown_sides(faces: Sequence[PhotoFace]) -> dict[str, int]:
     """How many of the faces are seen from before, turned to either side, up and down."""
     yaw, pitch = (np.array([getattr(face, name) for face in faces], float) for name in ("yaw", "pitch"))
     return {
-        "from before": int(((np.abs(yaw) <= MIN_ANGLE) & (np.abs(pitch) <= MIN_ANGLE)).sum()),
-        "turned to the picture's left": int((yaw < -MIN_ANGLE).sum()),
-        "turned to the picture's right": int((yaw > MIN_ANGLE).sum()),
-        "raised": int((pitch < -MIN_ANGLE).sum()),
-        "lowered": int((pitch > MIN_ANGLE).sum()),
+        "from before": int(((np.abs(yaw) <= MIN_ANGLE_DEGREES) & (np.abs(pitch) <= MIN_ANGLE_DEGREES)).sum()),
+        "turned to the picture's left": int((yaw < -MIN_ANGLE_DEGREES).sum()),
+        "turned to the picture's right": int((yaw > MIN_ANGLE_DEGREES).sum()),
+        "raised": int((pitch < -MIN_ANGLE_DEGREES).sum()),
+        "lowered": int((pitch > MIN_ANGLE_DEGREES).sum()),
     }
 
 

@@ -16,7 +16,7 @@ from engine.persona.collection.photos import Photos
 
 TILE_PIXELS = 96
 """Pixels of a face's picture."""
-COLUMNS = 16
+FACE_SHEET_COLUMNS = 16
 FACE_MARGIN = 1.3
 """Of a face's larger side that is shown."""
 
@@ -30,12 +30,12 @@ def write_faces(
     looks: Sequence[int | None],
     synthetic: bool,
 ) -> list[Path]:
-    """Leave `faces.json`, a list of all faces by their numbers, and `faces.jpg`, their pictures in rows of `COLUMNS`."""
-    rows = max(-(-len(faces) // COLUMNS), 1)
-    sheet = np.full((rows * TILE_PIXELS, COLUMNS * TILE_PIXELS, 3), 255, np.uint8)
+    """Leave `faces.json`, a list of all faces by their numbers, and `faces.jpg`, their pictures in rows of `FACE_SHEET_COLUMNS`."""
+    rows = max(-(-len(faces) // FACE_SHEET_COLUMNS), 1)
+    sheet = np.full((rows * TILE_PIXELS, FACE_SHEET_COLUMNS * TILE_PIXELS, 3), 255, np.uint8)
     told = []
     for number, (face, reason, distance, look) in enumerate(zip(faces, reasons, distances, looks, strict=True)):
-        row, column = divmod(number, COLUMNS)
+        row, column = divmod(number, FACE_SHEET_COLUMNS)
         sheet[row * TILE_PIXELS : (row + 1) * TILE_PIXELS, column * TILE_PIXELS : (column + 1) * TILE_PIXELS] = (
             _picture(photos.picture(face.photo), face.mesh)
         )
@@ -54,7 +54,7 @@ def write_faces(
             }
         )
     skipped = [{"file": one.name, "code": one.code} for one in photos.skipped]
-    document = {"tile": TILE_PIXELS, "columns": COLUMNS, "faces": told, "skipped": skipped}
+    document = {"tile": TILE_PIXELS, "columns": FACE_SHEET_COLUMNS, "faces": told, "skipped": skipped}
     (folder / "faces.json").write_text(json.dumps(document) + "\n")
     write_still(folder / "faces.jpg", sheet, synthetic)
     return [folder / "faces.json", folder / "faces.jpg"]

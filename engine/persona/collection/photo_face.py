@@ -16,7 +16,7 @@ from engine.perception.head_pose import head_pose
 from engine.perception.identity.descriptor import FaceDescriptor
 from engine.perception.identity.face_chip import ARCFACE_LAYOUT, face_chip
 
-LONGEST_SIDE = 1600
+LOOKED_AT_SIDE_PIXELS = 1600
 """Pixels at which photographs are looked at: faces of people who had their picture taken are large in them by then."""
 MAX_FACES_OF_PHOTO = 12
 """Faces of one photograph that are looked at, the largest first: of a group, whoever is meant is among them."""
@@ -25,7 +25,7 @@ JUDGED_EYE_DISTANCE = 40.0
 file's size."""
 NEAR_WIDTHS, MIN_NEIGHBOUR_SHARE = 2.5, 0.4
 """Its widths within which another face is beside a face, and the share of them that the other has at least."""
-CHIP = ARCFACE_LAYOUT
+ALIGNED_FACE_LAYOUT = ARCFACE_LAYOUT
 EYE_CORNERS = ((33, 133), (263, 362))
 
 
@@ -55,7 +55,11 @@ class PhotoFace:
 
 def as_looked_at(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """A photograph (H, W, 3), shrunk where it is larger than faces ask for."""
-    return resized(rgb, size_within(rgb.shape, LONGEST_SIDE)) if max(rgb.shape[:2]) > LONGEST_SIDE else rgb
+    return (
+        resized(rgb, size_within(rgb.shape, LOOKED_AT_SIDE_PIXELS))
+        if max(rgb.shape[:2]) > LOOKED_AT_SIDE_PIXELS
+        else rgb
+    )
 
 
 def faces_of(rgb: NDArray[np.uint8], photo: int, describe: FaceDescriptor) -> list[PhotoFace]:
@@ -96,7 +100,7 @@ def _face(
         _blur(rgb, mesh, distance),
         float(np.ptp(mesh[:, 0])) / widest,
         describe(rgb, mesh),
-        cv2.cvtColor(face_chip(rgb, mesh, CHIP), cv2.COLOR_RGB2GRAY).astype(np.uint8),
+        cv2.cvtColor(face_chip(rgb, mesh, ALIGNED_FACE_LAYOUT), cv2.COLOR_RGB2GRAY).astype(np.uint8),
     )
 
 

@@ -17,7 +17,7 @@ from engine.perception.expression.features import frontalise
 from engine.perception.landmarks import MESH_SIZE
 from engine.persona.composite.retouching import Retouching
 from engine.persona.persona import Persona
-from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
+from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 from engine.persona.texture.expression_weights import SMOOTHING_FRAMES, expression_points, expression_weights
 
 TEXTURES_AT_ONCE = 8
@@ -54,7 +54,7 @@ def act(
     faces = np.array([control.points[:MESH_SIZE] + motion.offsets[:MESH_SIZE] for motion in motions], np.float32)
     depths = np.array([motion.depth[:MESH_SIZE] for motion in motions], np.float32)
     front = frontalise(np.concatenate([faces, depths[..., None]], axis=-1))
-    scale = persona.frame.scale * REFERENCE_WIDTH / persona.frame.size[1]
+    scale = persona.frame.scale * REFERENCE_WIDTH_PIXELS / persona.frame.size[1]
     shown, known = expression_points(front) * scale, persona.points * scale
     rest = expression_weights(shown[driver.neutral][None], known)[0]
     return PhotoActing(motions, faces, depths, expression_weights(shown, known, smoothing), rest)

@@ -30,7 +30,7 @@ SHUT_PENALTY, GREY_PENALTY, BESIDE_PENALTY = 3.0, 3.0, 2.0
 """Of shut eyes, of black and white among photographs in colour, and of each face beside: whose pixels are whose is not always seen."""
 MAX_CANDIDATES = 32
 """Photographs that are looked at, of those whose faces are best."""
-MIN_HEAD_SHARE = 0.5
+MIN_SHOWN_HEAD_SHARE = 0.5
 """Of the head that the photograph has to show."""
 WHOLE_HEAD_SHARE = 0.85
 
@@ -49,7 +49,7 @@ def portrait_photo(
     shares = [head_share(one) for one in found]
     grey = np.array([is_grey(one.rgb, one.mesh) for one in found])
     whole = scores[some] - (1 - np.array(shares)) / CUT_SHARE - GREY_PENALTY * (grey & (grey.mean() < 0.5))
-    whole[np.array(shares) < MIN_HEAD_SHARE] = -np.inf
+    whole[np.array(shares) < MIN_SHOWN_HEAD_SHARE] = -np.inf
     return found[int(np.argmax(whole))] if np.isfinite(whole).any() else None
 
 

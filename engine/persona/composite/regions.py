@@ -7,30 +7,41 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.landmarks import LEFT_EYE, LIPS_OUTER, RIGHT_EYE
-from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
+from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 from engine.persona.texture.texture_frame import TextureFrame
 
-NOSE_VERTICES = (98, 327, 2, 1, 4, 19, 94, 97, 326, 129, 358, 48, 278)
+NOSE_TIP_AND_WING_VERTICES = (98, 327, 2, 1, 4, 19, 94, 97, 326, 129, 358, 48, 278)
 """Its tip and wings: nostrils that are a pixel off would be doubled."""
-RIM_RAMP = (4.0, 16.0)
+SKIN_RAMP_PIXELS = (4.0, 16.0)
 """Pixels of a frame 194 wide from the face's rim, between which the skin begins and is whole."""
-EYES, WINGS, LIPS = (3.0, 2.0), (1.0, 1.5), (1.0, 1.5)
+EYE_ENLARGEMENT_AND_RAMP_PIXELS, NOSE_WING_ENLARGEMENT_AND_RAMP_PIXELS, LIP_ENLARGEMENT_AND_RAMP_PIXELS = (
+    (3.0, 2.0),
+    (1.0, 1.5),
+    (1.0, 1.5),
+)
 """Pixels of such a frame by which eyes, nose and lips are drawn larger, and over which they pass into the skin."""
 
 
 def retouched_skin(frame: TextureFrame) -> NDArray[np.float32]:
     """(H, W) in [0, 1] the skin of a persona's frame: the face without eyes, the nose's tip and wings, and lips, and nothing at its
     rim."""
-    inside = cv2.distanceTransform(frame.face.astype(np.uint8), cv2.DIST_L2, 3) * (REFERENCE_WIDTH / frame.size[1])
-    skin = np.clip((inside - RIM_RAMP[0]) / (RIM_RAMP[1] - RIM_RAMP[0]), 0, 1)
-    for contour, reach in ((RIGHT_EYE, EYES), (LEFT_EYE, EYES), (NOSE_VERTICES, WINGS), (LIPS_OUTER, LIPS)):
+    inside = cv2.distanceTransform(frame.face.astype(np.uint8), cv2.DIST_L2, 3) * (
+        REFERENCE_WIDTH_PIXELS / frame.size[1]
+    )
+    skin = np.clip((inside - SKIN_RAMP_PIXELS[0]) / (SKIN_RAMP_PIXELS[1] - SKIN_RAMP_PIXELS[0]), 0, 1)
+    for contour, reach in (
+        (RIGHT_EYE, EYE_ENLARGEMENT_AND_RAMP_PIXELS),
+        (LEFT_EYE, EYE_ENLARGEMENT_AND_RAMP_PIXELS),
+        (NOSE_TIP_AND_WING_VERTICES, NOSE_WING_ENLARGEMENT_AND_RAMP_PIXELS),
+        (LIPS_OUTER, LIP_ENLARGEMENT_AND_RAMP_PIXELS),
+    ):
         skin = skin * (1 - _grown(frame, contour, reach))
     return np.asarray(skin, np.float32)
 
 
 def _grown(frame: TextureFrame, contour: tuple[int, ...], reach: tuple[float, float]) -> NDArray[np.float32]:
     """(H, W) the hull of a contour's vertices, drawn larger and softened."""
-    unit = frame.size[1] / REFERENCE_WIDTH
+    unit = frame.size[1] / REFERENCE_WIDTH_PIXELS
     mask = np.zeros(frame.size, np.uint8)
     hull = cv2.convexHull(np.rint(frame.places[list(contour), :2]).astype(np.int32))
     cv2.fillConvexPoly(mask, hull, 1)

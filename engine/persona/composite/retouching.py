@@ -23,12 +23,12 @@ from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.composite.regions import retouched_skin
 from engine.persona.light.low_frequencies import low_frequencies
 from engine.persona.persona import Persona
-from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
+from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 from engine.persona.texture.texture_frame import TextureFrame, sampled
 
-MAX_DIFFERENCE = 45.0
+MAX_CREASE_GREY_LEVELS = 45.0
 """Grey levels by which creases may change the skin."""
-DETAIL_BAND = (1.2, 6.0)
+DETAIL_SIGMAS_PIXELS = (1.2, 6.0)
 """Pixels of a frame 194 wide: what is finer than the one and coarser than the other, contrast is not told by."""
 CONTRAST_RANGE = (0.8, 1.5)
 """Of the photograph over the persona, whose means have less of it."""
@@ -82,7 +82,7 @@ class Retouching:
         now = texture.astype(np.float32)
         apart = now - self.base
         apart -= low_frequencies(apart, self.skin, self.frame.scale)
-        added = np.clip(np.float32(self.contrast) * apart, -MAX_DIFFERENCE, MAX_DIFFERENCE)
+        added = np.clip(np.float32(self.contrast) * apart, -MAX_CREASE_GREY_LEVELS, MAX_CREASE_GREY_LEVELS)
         if self.unresolved > 0:
             added += np.float32(self.contrast) * (now - cv2.GaussianBlur(now, (0, 0), self.unresolved))
         added *= self.skin[..., None]
@@ -94,7 +94,7 @@ class Retouching:
 def retouching_of(persona: Persona, photo: FacePhoto, base: NDArray[np.uint8], grey: bool) -> Retouching:
     """That of a photograph of the persona's, which for the photograph's expression has the texture `base` (H, W, 3)."""
     frame = persona.frame
-    unit = frame.size[1] / REFERENCE_WIDTH
+    unit = frame.size[1] / REFERENCE_WIDTH_PIXELS
     belief = cv2.GaussianBlur(persona.belief[photo.number].astype(np.float32) / 255, (0, 0), BELIEF_SIGMA * unit)
     believed = np.clip((belief - BELIEF_RANGE[0]) / (BELIEF_RANGE[1] - BELIEF_RANGE[0]), 0, 1)
     skin = (retouched_skin(frame) * believed).astype(np.float32)
@@ -107,7 +107,7 @@ def retouching_of(persona: Persona, photo: FacePhoto, base: NDArray[np.uint8], g
 
 
 def _contrast(grey: NDArray[np.float32], where: NDArray[np.bool_], unit: float) -> float:
-    fine, coarse = (cv2.GaussianBlur(grey, (0, 0), sigma * unit) for sigma in DETAIL_BAND)
+    fine, coarse = (cv2.GaussianBlur(grey, (0, 0), sigma * unit) for sigma in DETAIL_SIGMAS_PIXELS)
     return float((fine - coarse)[where].std()) if where.any() else 1.0
 
 

@@ -12,15 +12,15 @@ from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, skin_colour
 from engine.persona.eyes.eyeball import CAP_RADIANS
 from engine.persona.persona import Persona
 
-TEXTURE_SIZE_TEXELS = 192
+EYE_TEXTURE_SIZE_TEXELS = 192
 """Pixels of its side."""
-MIN_EYE_WIDTH_PIXELS = 28.0
+MIN_PHOTO_EYE_WIDTH_PIXELS = 28.0
 """Pixels of a photograph's eye whose iris is more than a blot."""
-SIDES = ("Right", "Left")
+EYE_SIDES = ("Right", "Left")
 """In the order of `prepare_eyes`."""
 WHITE_EDGE = 0.55
 """Of its light, that the white keeps where it turns away."""
-GAIN_RANGE = (0.6, 1.6)
+EYE_GAIN_RANGE = (0.6, 1.6)
 
 
 def eye_textures(persona: Persona, radii: dict[str, float]) -> dict[str, NDArray[np.uint8]]:
@@ -32,11 +32,11 @@ def eye_textures(persona: Persona, radii: dict[str, float]) -> dict[str, NDArray
         if photo is None:
             continue
         found = prepare_eyes(photo.rgb, photo.mesh)
-        if all(eye is not None and eye.width >= MIN_EYE_WIDTH_PIXELS for eye in found):
+        if all(eye is not None and eye.width >= MIN_PHOTO_EYE_WIDTH_PIXELS for eye in found):
             gain = float(skin @ LUMINANCE_WEIGHTS) / max(
                 float(skin_colour(photo.rgb, photo.mesh) @ LUMINANCE_WEIGHTS), 1
             )
-            return _both(found, photo.mesh, radii, float(np.clip(gain, *GAIN_RANGE)))
+            return _both(found, photo.mesh, radii, float(np.clip(gain, *EYE_GAIN_RANGE)))
     return _both(prepare_eyes(average, mesh), mesh, radii, 1.0)
 
 
@@ -45,11 +45,11 @@ def _both(
 ) -> dict[str, NDArray[np.uint8]]:
     """An eye that is not seen has the other's colours."""
     out = {}
-    for number, side in enumerate(SIDES):
+    for number, side in enumerate(EYE_SIDES):
         seen = number if found[number] is not None else 1 - number
         eye = found[seen]
         if eye is None:
-            out[side] = np.full((TEXTURE_SIZE_TEXELS, TEXTURE_SIZE_TEXELS, 3), 128, np.uint8)
+            out[side] = np.full((EYE_TEXTURE_SIZE_TEXELS, EYE_TEXTURE_SIZE_TEXELS, 3), 128, np.uint8)
             continue
         iris = mesh[EYE_VERTICES[seen][1][0], :2] - eye.corner
         out[side] = texture_of(eye, iris, radii[side] * eye.width, gain)
@@ -58,7 +58,7 @@ def _both(
 
 def texture_of(eye: EyeLayer, iris: NDArray[np.floating], radius: float, gain: float) -> NDArray[np.uint8]:
     """`iris` (2,) : its middle in the layer, pixels. `radius` : of the eyeball, pixels of the layer."""
-    places = (np.arange(TEXTURE_SIZE_TEXELS) + 0.5) / TEXTURE_SIZE_TEXELS * 2 - 1
+    places = (np.arange(EYE_TEXTURE_SIZE_TEXELS) + 0.5) / EYE_TEXTURE_SIZE_TEXELS * 2 - 1
     x, y = np.meshgrid(places, places)
     share = np.hypot(x, y)
     angle = np.minimum(share, 1) * CAP_RADIANS

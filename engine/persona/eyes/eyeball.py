@@ -12,16 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from engine.body.face.face_capture import MAX_GAZE_TRAVEL
+from engine.body.face.face_capture import MAX_GAZE_TRAVEL_EYE_WIDTHS
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
-EYE_VERTICES = {"Left": (LEFT_EYE, LEFT_IRIS), "Right": (RIGHT_EYE, RIGHT_IRIS)}
+EYE_AND_IRIS_VERTICES = {"Left": (LEFT_EYE, LEFT_IRIS), "Right": (RIGHT_EYE, RIGHT_IRIS)}
 BALL_OPENING_RATIO = 1.12
 """Than the opening is wide: its rim is never seen."""
 CAP_RADIANS = np.radians(80)
 """Of the ball, about the iris, that there is."""
-RINGS, SECTORS = 20, 40
-RIM_DEPTH = 0.1
+EYEBALL_RINGS, EYEBALL_SECTORS = 20, 40
+RIM_DEPTH_EYE_DISTANCES = 0.1
 """Eye distances that the rim of the lids reaches behind them."""
 
 
@@ -31,7 +31,7 @@ class Eyeball:
 
     centre : (3,). radius. vertices : (V, 3), rings about where it looks to. triangles : (T, 3), counter-clockwise from outside. uv : (V, 2)
     places on its texture, whose middle is the iris' and whose edge is the cap's. travel : of the iris, by the directions of
-    `MAX_GAZE_TRAVEL`, eye distances.
+    `MAX_GAZE_TRAVEL_EYE_WIDTHS`, eye distances.
     """
 
     centre: NDArray[np.float64]
@@ -44,7 +44,7 @@ class Eyeball:
 
     def turned(self, way: str) -> NDArray[np.float64]:
         """(V, 3) by how much it moves its vertices to look `way` ("In", "Out", "Up" or "Down") as far as eyes do."""
-        angle = np.arcsin(min(MAX_GAZE_TRAVEL[way] * self.width / self.radius, 0.9))
+        angle = np.arcsin(min(MAX_GAZE_TRAVEL_EYE_WIDTHS[way] * self.width / self.radius, 0.9))
         if way in ("Up", "Down"):
             turn = np.array([-angle if way == "Up" else angle, 0, 0])
         else:
@@ -56,7 +56,7 @@ class Eyeball:
 
 def eyeball(face: NDArray[np.floating], side: str, lids: NDArray[np.floating]) -> Eyeball:
     """That of one side of a `face` (478, 3) from the front: just behind all of `lids` (K, 3), wherever lids are when they move."""
-    contour, iris = EYE_VERTICES[side]
+    contour, iris = EYE_AND_IRIS_VERTICES[side]
     rim = np.asarray(face, np.float64)[list(contour)]
     width = float(np.linalg.norm(rim[8] - rim[0]))
     radius = BALL_OPENING_RATIO * width / 2
@@ -66,7 +66,7 @@ def eyeball(face: NDArray[np.floating], side: str, lids: NDArray[np.floating]) -
     centre = np.array([*middle, float((lids[near, 2] + bulge).max())])
     look = np.asarray(face, np.float64)[iris[0], :2] - middle
     pole = np.array([*look, -np.sqrt(max(radius**2 - float(look @ look), 1e-9))]) / radius
-    across, down = np.linspace(0, CAP_RADIANS, RINGS), np.linspace(0, 2 * np.pi, SECTORS + 1)
+    across, down = np.linspace(0, CAP_RADIANS, EYEBALL_RINGS), np.linspace(0, 2 * np.pi, EYEBALL_SECTORS + 1)
     angle, turn = (one.ravel() for one in np.meshgrid(across, down, indexing="ij"))
     local = np.column_stack([np.sin(angle) * np.cos(turn), np.sin(angle) * np.sin(turn), -np.cos(angle)])
     towards = Rotation.align_vectors(pole[None], np.array([[0.0, 0.0, -1.0]]))[0]
@@ -82,13 +82,13 @@ def lid_rim(contour: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray
     triangles = np.concatenate(
         [np.stack([here, after, after + count], axis=1), np.stack([here, after + count, here + count], axis=1)]
     )
-    points = np.concatenate([contour, contour + np.array([0, 0, RIM_DEPTH])])
+    points = np.concatenate([contour, contour + np.array([0, 0, RIM_DEPTH_EYE_DISTANCES])])
     (ax, ay), (bx, by) = contour[4, :2] - contour[0, :2], contour[8, :2] - contour[0, :2]
     clockwise = ax * by > ay * bx
     return points, (triangles[:, ::-1] if clockwise else triangles).astype(np.int32)
 
 
 def _grid() -> NDArray[np.int32]:
-    index = np.arange(RINGS * (SECTORS + 1)).reshape(RINGS, SECTORS + 1)
+    index = np.arange(EYEBALL_RINGS * (EYEBALL_SECTORS + 1)).reshape(EYEBALL_RINGS, EYEBALL_SECTORS + 1)
     a, b, c, d = index[:-1, :-1].ravel(), index[:-1, 1:].ravel(), index[1:, 1:].ravel(), index[1:, :-1].ravel()
-    return np.concatenate([np.stack([a, b, c], axis=1)[SECTORS:], np.stack([a, c, d], axis=1)]).astype(np.int32)
+    return np.concatenate([np.stack([a, b, c], axis=1)[EYEBALL_SECTORS:], np.stack([a, c, d], axis=1)]).astype(np.int32)

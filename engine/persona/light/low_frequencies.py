@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-GRID_STEP = 6
+GRID_STEP_PIXELS = 6
 """Pixels of the texture for one at which its light is told."""
 LIGHT_SIGMA_EYE_DISTANCES = 0.3
 """Eye distances: what is coarser is light."""
@@ -19,7 +19,7 @@ def low_frequencies(
 ) -> NDArray[np.float32]:
     """(H, W, 3) those of a texture (H, W, 3) with eyes `eye_distance` pixels apart, told where `mask` (H, W) counts."""
     height, width = texture.shape[:2]
-    size = max(width // GRID_STEP, 1), max(height // GRID_STEP, 1)
+    size = max(width // GRID_STEP_PIXELS, 1), max(height // GRID_STEP_PIXELS, 1)
     sigma = LIGHT_SIGMA_EYE_DISTANCES * eye_distance * size[0] / width
     weights = np.asarray(mask + MIN_WEIGHT, np.float32)
     weighted = cv2.resize(texture * weights[..., None], size, interpolation=cv2.INTER_AREA)

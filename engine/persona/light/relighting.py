@@ -19,13 +19,13 @@ from engine.persona.light.low_frequencies import low_frequencies
 from engine.persona.persona import Persona
 from engine.persona.texture.texture_frame import sampled
 
-GAIN_RANGE = (0.4, 2.5)
+LIGHT_GAIN_RANGE = (0.4, 2.5)
 """By which light may change."""
-LIGHT_FALLOFF = 1.3
+LIGHT_FALLOFF_EYE_DISTANCES = 1.3
 """Eye distances from the face at which a third of its change is left: hair and neck go along, a wall behind them does not."""
 MIN_STRENGTH = 0.12
 """Of a light from a side (`DirectedLight.strength`) that is seen to come from there."""
-RIM_LIGHT_WIDTH = 0.35
+RIM_LIGHT_WIDTH_EYE_DISTANCES = 0.35
 """Eye distances over which what is beside the face takes the light of its rim."""
 
 
@@ -58,12 +58,14 @@ def relit(persona: Persona, photo: FacePhoto, texture: NDArray[np.floating]) -> 
     own = sampled(photo.rgb, frame.lookup(photo.mesh))
     believed = frame.face * persona.belief[photo.number].astype(np.float32) / 255
     was, becomes = (low_frequencies(one, believed, frame.scale) for one in (own, texture.astype(np.float32)))
-    gain = np.clip((becomes + RATIO_OFFSET_LEVELS) / (was + RATIO_OFFSET_LEVELS), *GAIN_RANGE)
+    gain = np.clip((becomes + RATIO_OFFSET_LEVELS) / (was + RATIO_OFFSET_LEVELS), *LIGHT_GAIN_RANGE)
     found = cv2.remap(gain, at[..., 0], at[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     known = at[..., 0] >= 0
     unit = float(eye_distance(photo.mesh[:, :2]))
-    beside = cv2.GaussianBlur(nearest_values(np.asarray(found, np.float32), known), (0, 0), RIM_LIGHT_WIDTH * unit)
-    away = cv2.distanceTransform((~known).astype(np.uint8), cv2.DIST_L2, 3) / (LIGHT_FALLOFF * unit)
+    beside = cv2.GaussianBlur(
+        nearest_values(np.asarray(found, np.float32), known), (0, 0), RIM_LIGHT_WIDTH_EYE_DISTANCES * unit
+    )
+    away = cv2.distanceTransform((~known).astype(np.uint8), cv2.DIST_L2, 3) / (LIGHT_FALLOFF_EYE_DISTANCES * unit)
     gains = 1 + np.exp(-(away**2))[..., None] * (np.asarray(beside) - 1)
     return np.asarray(
         (photo.rgb + np.float32(RATIO_OFFSET_LEVELS)) * gains - np.float32(RATIO_OFFSET_LEVELS), np.float32

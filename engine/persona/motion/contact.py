@@ -19,7 +19,7 @@ from engine.perception.face_tessellation import face_triangles
 from engine.perception.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE
 
 MESH_VERTICES = 478
-REST_GAP = 0.01
+REST_GAP_EYE_DISTANCES = 0.01
 """Eye distances: openings that are narrower at rest are shut then, and stay as they are."""
 ANCHOR_STIFFNESS = 0.3
 """How much a vertex is held in its place, beside a bending of one: half of a correction is gone a few vertices away."""
@@ -42,8 +42,8 @@ def corrected(
     upper, lower, spread = _openings()
     before, own = driver[lower] - driver[upper], puppet[lower] - puppet[upper]
     now = before + deformation[lower] - deformation[upper]
-    squares = (before**2).sum(axis=1) + REST_GAP**2
-    open_share = np.clip(((now * before).sum(axis=1) + REST_GAP**2) / squares, 0, 1)[:, None]
+    squares = (before**2).sum(axis=1) + REST_GAP_EYE_DISTANCES**2
+    open_share = np.clip(((now * before).sum(axis=1) + REST_GAP_EYE_DISTANCES**2) / squares, 0, 1)[:, None]
     longer = np.reshape(factors, (len(factors), 1))
     wanted = open_share * own + (longer[upper] + longer[lower]) / 2 * (now - open_share * before)
     return np.asarray(moved + spread @ (wanted - own - (moved[lower] - moved[upper])), np.float64)

@@ -24,10 +24,10 @@ from engine.imaging.total_variation import denoised
 from engine.persona.motion.contact import corrected
 from engine.persona.texture.texture_frame import TextureFrame, with_rim
 
-TV_WEIGHT, HUBER = 0.5, 0.1
+TV_WEIGHT, HUBER_THRESHOLDS = 0.5, 0.1
 """Section 6's 1 and 0.05, of a field with twice as many pixels to a side: with 1 here, thin rims of lips and lids lose half of what
 sets their factors apart, and do not meet."""
-MIN_MOVEMENT = 0.02
+MIN_MOVEMENT_EYE_DISTANCES = 0.02
 """Eye distances: by which movement of less nothing is told of how far one like it leads."""
 MAX_FACTOR = 2.5
 """And its inverse: no face is so unlike another."""
@@ -35,7 +35,7 @@ MIN_TRUST = 1e-3
 """Of points that do not move, and so tell nothing: they take the factors of those about them, not these theirs."""
 NEIGHBOURHOOD_PIXELS = 2
 """Pixels of that field about a point among which a nearer one is sought."""
-COARSENESS = 2
+PIXELS_PER_FACTOR = 2
 """Pixels of the frame for one of the field in which factors are told."""
 
 
@@ -55,7 +55,7 @@ class DeformationTransfer:
         face in front view, in eye distances."""
         moved = with_rim(np.asarray(deformation, np.float64) + self._driver_mesh) - with_rim(self._driver_mesh)
         factors = self.factors((self._interpolation @ moved).reshape(*self._covered.shape, 3))
-        at = (self.driver.places[:478, :2] / COARSENESS).astype(np.float32)
+        at = (self.driver.places[:478, :2] / PIXELS_PER_FACTOR).astype(np.float32)
         own = cv2.remap(factors, at[:, :1], at[:, 1:], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         longer = deformation * np.asarray(own)
         return corrected(longer, np.asarray(own), deformation, self._driver_mesh, self._puppet_mesh)
@@ -79,12 +79,12 @@ class DeformationTransfer:
         if not known.any():
             return np.ones(known.shape, np.float32)
         rows, columns = distance_transform_edt(~known, return_distances=False, return_indices=True)
-        return denoised(field[rows, columns], TV_WEIGHT, HUBER, np.maximum(known, MIN_TRUST))
+        return denoised(field[rows, columns], TV_WEIGHT, HUBER_THRESHOLDS, np.maximum(known, MIN_TRUST))
 
     @property
     def _pixels(self) -> float:
         """Of the coarse frame, for an eye distance."""
-        return self.driver.scale / COARSENESS
+        return self.driver.scale / PIXELS_PER_FACTOR
 
     @cached_property
     def _driver_mesh(self) -> NDArray[np.float64]:
@@ -96,12 +96,12 @@ class DeformationTransfer:
 
     @cached_property
     def _covered(self) -> NDArray[np.bool_]:
-        return self.driver.covered[::COARSENESS, ::COARSENESS]
+        return self.driver.covered[::PIXELS_PER_FACTOR, ::PIXELS_PER_FACTOR]
 
     @cached_property
     def _interpolation(self) -> sp.csr_array:
         """(h * w, V) which blends the vertices' values at each of the coarse frame's pixels."""
-        step = np.s_[::COARSENESS, ::COARSENESS]
+        step = np.s_[::PIXELS_PER_FACTOR, ::PIXELS_PER_FACTOR]
         triangle, weights = (layer[step].reshape(self._covered.size, -1) for layer in self.driver.raster[:2])
         columns = self.driver.triangles[triangle[:, 0]]  # of pixels that nothing covers any: their weights are zero
         starts = np.arange(len(weights) + 1) * 3
@@ -111,7 +111,7 @@ class DeformationTransfer:
     @cached_property
     def _surfaces(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """(h, w, 3) the driver's points, and the corresponding ones of the puppet, in eye distances."""
-        step = np.s_[::COARSENESS, ::COARSENESS]
+        step = np.s_[::PIXELS_PER_FACTOR, ::PIXELS_PER_FACTOR]
         puppets = self.driver.interpolated(self.puppet.places)
         points = self.driver.interpolated(self.driver.places)
         return (
@@ -134,7 +134,7 @@ def _told(
     for y in range(height):
         for x in range(width):
             dx, dy, dz = moved[y, x, 0], moved[y, x, 1], moved[y, x, 2]
-            if not covered[y, x] or dx * dx + dy * dy + dz * dz <= MIN_MOVEMENT**2:
+            if not covered[y, x] or dx * dx + dy * dy + dz * dz <= MIN_MOVEMENT_EYE_DISTANCES**2:
                 continue
             px, py, pz = points[y, x, 0] + dx, points[y, x, 1] + dy, points[y, x, 2] + dz
             row = min(max(round(y + dy * pixels), 0), height - 1)
@@ -161,7 +161,7 @@ def _told(
                 step = points[row, column, k] - points[y, x, k]
                 length += step * step
                 along += step * (puppets[row, column, k] - puppets[y, x, k])
-            if length > MIN_MOVEMENT**2:
+            if length > MIN_MOVEMENT_EYE_DISTANCES**2:
                 field[y, x] = min(max(along / length, 1 / MAX_FACTOR), MAX_FACTOR)
                 known[y, x] = True
     return field, known

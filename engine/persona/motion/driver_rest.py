@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from engine.persona.texture.expression_weights import expression_points
 
-SAME_EXPRESSION = 0.02
+SAME_EXPRESSION_EYE_DISTANCES = 0.02
 """Eye distances that points of two frames are apart, in the mean square's root, in which the face does the same: a tracker's noise is half of it."""
 
 
@@ -20,4 +20,4 @@ def rest_of_frames(front: NDArray[np.floating], chosen: int) -> NDArray[np.float
     """
     points = expression_points(front)
     apart = np.sqrt(((points - points[chosen]) ** 2).sum(axis=-1).mean(axis=1))
-    return np.asarray(front[apart <= SAME_EXPRESSION].mean(axis=0), np.float64)
+    return np.asarray(front[apart <= SAME_EXPRESSION_EYE_DISTANCES].mean(axis=0), np.float64)

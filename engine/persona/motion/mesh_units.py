@@ -35,15 +35,15 @@ from engine.render.rasteriser import Raster, rasterise
 
 PIXELS_PER_METRE = 5000.0
 """Of the picture in which the template is looked at."""
-VIEW_MARGIN = 0.01
+VIEW_MARGIN_METRES = 0.01
 """Metres about the laid face that it shows."""
-MOUTH_REACH = 0.012
+MOUTH_REACH_METRES = 0.012
 """Metres above and below the laid mouth within which the template's is sought."""
-LIP_STEP = 0.003
+LIP_STEP_METRES = 0.003
 """Metres by which an open jaw moves one lip farther than the other: where it is less, nothing parts."""
 PARTED_SKIN_PIXELS = 4.0
 """Pixels from where lids or lips part to the skin that is looked up."""
-CREVICE_PIXELS, CREVICE_DEPTH = 15, 0.015
+CREVICE_WINDOW_PIXELS, CREVICE_DEPTH_METRES = 15, 0.015
 """Pixels about a place and metres that it is deeper than the highest there: between closed lips the throat is seen."""
 UPPER_LIP_RINGS = (
     LIPS_INNER[1:10],
@@ -59,7 +59,7 @@ LOWER_LIP_RINGS = (
     LIPS_OUTER[11:],
 )
 EYE_VERTICES = {"Left": LEFT_EYE, "Right": RIGHT_EYE}
-EYEBALLS = ("left_eye", "right_eye")
+EYEBALL_PARTS = ("left_eye", "right_eye")
 
 
 @dataclass(frozen=True)
@@ -119,16 +119,16 @@ class _FrontView:
     def nearest_skin(self) -> NDArray[np.intp]:
         """(2, H, W) rows and columns of the nearest pixel that shows skin."""
         depth = np.where(self.shown < 0, np.inf, self.raster.depth)
-        within = depth > minimum_filter(depth, CREVICE_PIXELS) + CREVICE_DEPTH * PIXELS_PER_METRE
+        within = depth > minimum_filter(depth, CREVICE_WINDOW_PIXELS) + CREVICE_DEPTH_METRES * PIXELS_PER_METRE
         none = (self.shown < 0) | self.eyes | within
         return np.asarray(distance_transform_edt(none, return_distances=False, return_indices=True), np.intp)
 
     def seam(self, place: NDArray[np.float64]) -> float | None:
         """The row near `place` (x, y) where lips part; None where none do."""
-        reach = int(MOUTH_REACH * PIXELS_PER_METRE)
+        reach = int(MOUTH_REACH_METRES * PIXELS_PER_METRE)
         x, y = np.rint(place).astype(int)
         steps = np.diff(self.jaw[y - reach : y + reach, x])
-        return float(y - reach + steps.argmax() + 0.5) if steps.max() > LIP_STEP else None
+        return float(y - reach + steps.argmax() + 0.5) if steps.max() > LIP_STEP_METRES else None
 
     def pixels(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
         """Points (N, 3), metres, as the rasteriser takes them."""
@@ -141,11 +141,11 @@ class _FrontView:
 
 
 def _front_view(template: Template, mean: NDArray[np.float64], laid: NDArray[np.float64]) -> _FrontView:
-    spans = [slice(*template.parts[part]) for part in ("body", *EYEBALLS)]
+    spans = [slice(*template.parts[part]) for part in ("body", *EYEBALL_PARTS)]
     triangles = triangulate(np.concatenate([template.quads[span] for span in spans]))
-    eyeballs = np.concatenate([template.vertices_of(part) for part in EYEBALLS])
-    low = np.array([laid[:, 0].min() - VIEW_MARGIN, laid[:, 1].max() + VIEW_MARGIN])
-    size = (np.ptp(laid[:, [1, 0]], axis=0) + 2 * VIEW_MARGIN) * PIXELS_PER_METRE
+    eyeballs = np.concatenate([template.vertices_of(part) for part in EYEBALL_PARTS])
+    low = np.array([laid[:, 0].min() - VIEW_MARGIN_METRES, laid[:, 1].max() + VIEW_MARGIN_METRES])
+    size = (np.ptp(laid[:, [1, 0]], axis=0) + 2 * VIEW_MARGIN_METRES) * PIXELS_PER_METRE
     blank = np.zeros((0, 0))
     view = _FrontView(Raster(*[blank] * 3), triangles, low, blank, blank.astype(np.bool_))  # type: ignore[arg-type]
     raster = rasterise(view.pixels(mean), triangles, (int(size[0]), int(size[1])), cull=True)

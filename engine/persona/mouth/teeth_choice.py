@@ -33,11 +33,11 @@ SHARP_BLUR, BLUR_LIMITS = 0.4, 0.2
 OPENING_ROWS = 10
 """From lip to lip at which an opening is looked at."""
 BURNT_GREY_LEVEL = 250.0
-TEETH_HEIGHT = 0.13
+TEETH_HEIGHT_EYE_DISTANCES = 0.13
 """Eye distances of upper teeth that are seen wholly."""
 WELL_LIT = 160.0
 """Of skin."""
-EDGE_SHARE = 0.5
+TEETH_EDGE_SHARE = 0.5
 """Of teeth seen, that the dark below them counts: without it where they end is the lower lip's line, which is no tooth's."""
 
 
@@ -79,7 +79,7 @@ def _seen(photo: FacePhoto) -> float:
     bright = np.clip((pixels / skin - BRIGHT_SHARES[0]) / (BRIGHT_SHARES[1] - BRIGHT_SHARES[0]), 0, 1)[:, 2:-2]
     burnt = (pixels[:, 2:-2] > BURNT_GREY_LEVEL).mean()
     gap = np.linalg.norm(lower - upper, axis=1)[2:-2] / float(eye_distance(photo.mesh[:, :2]))
-    height = float((bright.mean(axis=0) * gap).mean()) / TEETH_HEIGHT
+    height = float((bright.mean(axis=0) * gap).mean()) / TEETH_HEIGHT_EYE_DISTANCES
     ends = float(np.clip(bright[: OPENING_ROWS // 2].mean() - bright[-2:].mean(), 0, 1))
     dark = 1 - min(skin / WELL_LIT, 1.0)
-    return min(height, 1.0) - float(burnt) + EDGE_SHARE * ends - 2 * dark
+    return min(height, 1.0) - float(burnt) + TEETH_EDGE_SHARE * ends - 2 * dark

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth
 from engine.face_animation.mouth.pictured.teeth_strip import ARCH_CURVATURE_PER_EYE_DISTANCE
 
-HALF_WIDTH, UPPER_MARGIN_EYE_DISTANCES, LOWER_MARGIN_EYE_DISTANCES = 0.45, 0.3, 0.04
+SHEET_HALF_WIDTH_EYE_DISTANCES, UPPER_MARGIN_EYE_DISTANCES, LOWER_MARGIN_EYE_DISTANCES = 0.45, 0.3, 0.04
 """Eye distances from the middle of the edge of the teeth."""
-COLUMNS, ROWS = 32, 4
+SHEET_MESH_COLUMNS, SHEET_MESH_ROWS = 32, 4
 PIXELS_PER_EYE_DISTANCE = 320
 """Of an eye distance."""
 
@@ -31,25 +31,27 @@ def teeth_sheet(teeth: PhotoTeeth) -> TeethSheet:
     """That of a photograph's teeth, where the skull has them."""
     at = teeth.at
     across, down = (
-        np.linspace(-HALF_WIDTH, HALF_WIDTH, COLUMNS + 1),
-        np.linspace(-UPPER_MARGIN_EYE_DISTANCES, LOWER_MARGIN_EYE_DISTANCES, ROWS + 1),
+        np.linspace(-SHEET_HALF_WIDTH_EYE_DISTANCES, SHEET_HALF_WIDTH_EYE_DISTANCES, SHEET_MESH_COLUMNS + 1),
+        np.linspace(-UPPER_MARGIN_EYE_DISTANCES, LOWER_MARGIN_EYE_DISTANCES, SHEET_MESH_ROWS + 1),
     )
     x, y = (one.ravel() for one in np.meshgrid(across, down))
     vertices = np.column_stack([at.middle + x, at.edge + y, at.depth + ARCH_CURVATURE_PER_EYE_DISTANCE * x**2])
     uv = np.column_stack(
         [
-            (x + HALF_WIDTH) / (2 * HALF_WIDTH),
+            (x + SHEET_HALF_WIDTH_EYE_DISTANCES) / (2 * SHEET_HALF_WIDTH_EYE_DISTANCES),
             (y + UPPER_MARGIN_EYE_DISTANCES) / (UPPER_MARGIN_EYE_DISTANCES + LOWER_MARGIN_EYE_DISTANCES),
         ]
     ).astype(np.float32)
-    index = np.arange((ROWS + 1) * (COLUMNS + 1)).reshape(ROWS + 1, COLUMNS + 1)
+    index = np.arange((SHEET_MESH_ROWS + 1) * (SHEET_MESH_COLUMNS + 1)).reshape(
+        SHEET_MESH_ROWS + 1, SHEET_MESH_COLUMNS + 1
+    )
     a, b, c, d = index[:-1, :-1].ravel(), index[:-1, 1:].ravel(), index[1:, 1:].ravel(), index[1:, :-1].ravel()
     triangles = np.concatenate([np.stack([a, c, b], axis=1), np.stack([a, d, c], axis=1)]).astype(np.int32)
     width, height = (
-        round(2 * HALF_WIDTH * PIXELS_PER_EYE_DISTANCE),
+        round(2 * SHEET_HALF_WIDTH_EYE_DISTANCES * PIXELS_PER_EYE_DISTANCE),
         round((UPPER_MARGIN_EYE_DISTANCES + LOWER_MARGIN_EYE_DISTANCES) * PIXELS_PER_EYE_DISTANCE),
     )
-    columns = ((np.arange(width) + 0.5) / width * 2 - 1) * HALF_WIDTH
+    columns = ((np.arange(width) + 0.5) / width * 2 - 1) * SHEET_HALF_WIDTH_EYE_DISTANCES
     rows = (np.arange(height) + 0.5) / height * (
         UPPER_MARGIN_EYE_DISTANCES + LOWER_MARGIN_EYE_DISTANCES
     ) - UPPER_MARGIN_EYE_DISTANCES

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.persona.puppet import Puppet
 from engine.persona.results.face_units import FaceUnits
 from engine.render.rasteriser import depth_map
@@ -17,7 +17,7 @@ PIXELS_PER_EYE_DISTANCE = 64
 """Of an eye distance, in the pictures in which it is looked at."""
 HALF_EXTENT_EYE_DISTANCES = 2.5
 """Eye distances from between the eyes that these show."""
-SKIN_CLEARANCE = 0.015
+SKIN_CLEARANCE_EYE_DISTANCES = 0.015
 """Eye distances by which everything stays behind the skin: a millimetre."""
 
 
@@ -37,14 +37,18 @@ class BehindSkin:
             inside = (rows >= 0) & (rows < len(depths)) & (columns >= 0) & (columns < len(depths))
             skin = np.where(inside, depths[rows.clip(0, len(depths) - 1), columns.clip(0, len(depths) - 1)], np.inf)
             covered = np.isfinite(skin)
-            needed[covered] = np.maximum(needed[covered], (skin + SKIN_CLEARANCE - places[:, 2])[covered])
+            needed[covered] = np.maximum(needed[covered], (skin + SKIN_CLEARANCE_EYE_DISTANCES - places[:, 2])[covered])
         return needed
 
     @cached_property
     def _faces(self) -> list[tuple[str, ...]]:
         names = self._units.names
-        both = {name.removesuffix(SIDES[0]) for name in names if name.endswith(SIDES[0])}
-        return [(), *((name,) for name in names), *(tuple(f"{name}{side}" for side in SIDES) for name in sorted(both))]
+        both = {name.removesuffix(SIDE_NAMES[0]) for name in names if name.endswith(SIDE_NAMES[0])}
+        return [
+            (),
+            *((name,) for name in names),
+            *(tuple(f"{name}{side}" for side in SIDE_NAMES) for name in sorted(both)),
+        ]
 
     @cached_property
     def _depths(self) -> list[NDArray[np.float32]]:

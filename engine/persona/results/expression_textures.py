@@ -14,17 +14,17 @@ from numpy.typing import NDArray
 
 from engine.export.still import write_still
 from engine.persona.persona import Persona
-from engine.persona.results.face_units import EXPRESSIONS, FaceUnits
+from engine.persona.results.face_units import EXPRESSION_UNITS, FaceUnits
 
 TEXTURED_EXPRESSIONS = ("smile", "surprise", "anger", "sadness", "open_mouth")
-"""Of `EXPRESSIONS`, those whose textures differ clearly."""
+"""Of `EXPRESSION_UNITS`, those whose textures differ clearly."""
 
 
 def expression_textures(
     persona: Persona, units: FaceUnits, names: Sequence[str] = TEXTURED_EXPRESSIONS
 ) -> NDArray[np.uint8]:
     """(1 + E, H, W, 3) the neutral face's texture, and those of the expressions, as the collection shows them."""
-    faces = [persona.neutral, *(persona.neutral + units.doing(EXPRESSIONS[name]) for name in names)]
+    faces = [persona.neutral, *(persona.neutral + units.doing(EXPRESSION_UNITS[name]) for name in names)]
     return persona.synthesis(persona.weights(np.array(faces)))
 
 
@@ -35,7 +35,7 @@ def write_expression_textures(folder: Path, textures: NDArray[np.uint8], synthet
     write_still(picture, np.ascontiguousarray(np.concatenate(list(textures), axis=1)), synthetic)
     told = [
         {"name": "neutral", "units": {}},
-        *({"name": name, "units": dict(EXPRESSIONS[name])} for name in TEXTURED_EXPRESSIONS),
+        *({"name": name, "units": dict(EXPRESSION_UNITS[name])} for name in TEXTURED_EXPRESSIONS),
     ]
     size = [textures.shape[2], textures.shape[1]]
     document.write_text(json.dumps({"model": "puppet.glb", "size": size, "textures": told}, indent=1) + "\n")

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.persona.motion.deformation_transfer import DeformationTransfer
 from engine.persona.motion.mesh_units import EYE_VERTICES, lids_met, load_mesh_units
 from engine.persona.motion.performance import FRAME_SIZE
@@ -18,14 +18,14 @@ from engine.persona.texture.texture_frame import texture_frame
 
 
 def _both(unit: str, weight: float) -> dict[str, float]:
-    return {f"{unit}{side}": weight for side in SIDES}
+    return {f"{unit}{side}": weight for side in SIDE_NAMES}
 
 
 OPEN_JAW, LIPS_CLOSED = "jawOpen", "mouthClose"
 """Lips that close over an open jaw: the second says nothing alone."""
 MIN_UNIT_MOTION_EYE_DISTANCES = 0.03
 """Eye distances, two millimetres: a unit that moves nothing farther shows nothing."""
-EXPRESSIONS: Mapping[str, Mapping[str, float]] = {
+EXPRESSION_UNITS: Mapping[str, Mapping[str, float]] = {
     "smile": {**_both("mouthSmile", 0.8), **_both("cheekSquint", 0.5)},
     "laugh": {**_both("mouthSmile", 0.9), "jawOpen": 0.4, **_both("mouthUpperUp", 0.3)},
     "surprise": {"browInnerUp": 0.9, **_both("browOuterUp", 0.9), "jawOpen": 0.35, **_both("eyeWide", 0.6)},

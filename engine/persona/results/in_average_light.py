@@ -15,11 +15,11 @@ from engine.perception.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_dis
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.light.relighting import over_photo, regenerated, relit
 from engine.persona.persona import Persona
-from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
+from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 
-RIM_RAMP = (2.0, 14.0)
+MIXTURE_RAMP_PIXELS = (2.0, 14.0)
 """Pixels of a frame 194 wide from the face's rim, between which the mixture begins and is whole."""
-OPENINGS = (RIGHT_EYE, LEFT_EYE, LIPS_INNER)
+OPENING_OUTLINES = (RIGHT_EYE, LEFT_EYE, LIPS_INNER)
 OPENING_SIGMA = 0.015
 """Eye distances over which they pass into the skin."""
 
@@ -32,8 +32,10 @@ def in_average_light(persona: Persona, photo: FacePhoto) -> NDArray[np.uint8]:
     mixed = regenerated(persona, photo.number).astype(np.float32)
     lit = relit(persona, photo, mixed)
     face = persona.frame.face.astype(np.uint8)
-    inside = cv2.distanceTransform(face, cv2.DIST_L2, 3) * (REFERENCE_WIDTH / face.shape[1])
-    share = np.clip((inside - RIM_RAMP[0]) / (RIM_RAMP[1] - RIM_RAMP[0]), 0, 1).astype(np.float32)
+    inside = cv2.distanceTransform(face, cv2.DIST_L2, 3) * (REFERENCE_WIDTH_PIXELS / face.shape[1])
+    share = np.clip((inside - MIXTURE_RAMP_PIXELS[0]) / (MIXTURE_RAMP_PIXELS[1] - MIXTURE_RAMP_PIXELS[0]), 0, 1).astype(
+        np.float32
+    )
     covered = cv2.remap(share, at[..., 0], at[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
     covered = np.asarray(covered, np.float32) * (1 - _openings(photo))
     there = cv2.remap(mixed, at[..., 0], at[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
@@ -45,6 +47,7 @@ def _openings(photo: FacePhoto) -> NDArray[np.float32]:
     """(h, w) where eyes and the mouth's inside are: these stay the photograph's, since a mixture has no gaze and no teeth."""
     face, shape = photo.mesh[:, :2].astype(np.float32), photo.rgb.shape[:2]
     mask = sum(
-        (soft_polygon(face[list(contour)], (shape[0], shape[1])) for contour in OPENINGS), np.zeros(shape, np.float32)
+        (soft_polygon(face[list(contour)], (shape[0], shape[1])) for contour in OPENING_OUTLINES),
+        np.zeros(shape, np.float32),
     )
     return np.asarray(cv2.GaussianBlur(mask, (0, 0), max(0.5, OPENING_SIGMA * float(eye_distance(face)))), np.float32)

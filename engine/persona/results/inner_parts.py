@@ -22,9 +22,9 @@ from engine.face_animation.mouth.modelled.mouth_parts import (
 from engine.face_animation.skin_colour import skin_colour
 from engine.perception.landmarks import LIPS_INNER
 from engine.persona.eyes.eye_texture import eye_textures
-from engine.persona.eyes.eyeball import EYE_VERTICES, eyeball, lid_rim
+from engine.persona.eyes.eyeball import EYE_AND_IRIS_VERTICES, eyeball, lid_rim
 from engine.persona.mouth.persona_mouth import puppet_mouth
-from engine.persona.mouth.teeth_sheet import COLUMNS, teeth_sheet
+from engine.persona.mouth.teeth_sheet import SHEET_MESH_COLUMNS, teeth_sheet
 from engine.persona.puppet import Puppet
 from engine.persona.results.behind_skin import BehindSkin
 from engine.persona.results.face_units import OPEN_JAW, FaceUnits
@@ -35,7 +35,7 @@ EVEN_COLUMNS = 4
 JAW_MOVES = ("jawForward", "jawLeft", "jawRight")
 """Face units that move a jaw as it is."""
 BAG_DEEPER = 1.5
-LAYER_GAP = np.array([0, 0, 2e-3])
+LAYER_GAP_EYE_DISTANCES = np.array([0, 0, 2e-3])
 """Eye distances behind the skin at which what is tied to it begins: at one place with it, both would be shaded as one surface."""
 LID_RIM_LIGHT = 0.5
 """Of the skin's light, that the rims of lids have, which lie in their shade."""
@@ -69,7 +69,7 @@ def _eyes(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
     skins = np.concatenate([relief[None], relief + finer])
     near = np.linalg.norm(relief[:, :2], axis=1) < 1.2
     lids = skins[:, near].reshape(-1, 3)
-    balls = {side: eyeball(persona.neutral, side, lids) for side in EYE_VERTICES}
+    balls = {side: eyeball(persona.neutral, side, lids) for side in EYE_AND_IRIS_VERTICES}
     textures = eye_textures(persona, {side: ball.radius / ball.width for side, ball in balls.items()})
     shade = np.rint(LID_RIM_LIGHT * skin_colour(persona.average, persona.frame.places[:478])).astype(np.uint8)
     parts = []
@@ -77,8 +77,8 @@ def _eyes(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
         looks = {f"eyeLook{way}{side}": ball.turned(way) for way in ("In", "Out", "Up", "Down")}
         name = f"{side.lower()}_eye"
         parts.append(InnerPart(name, ball.vertices, ball.triangles, ball.uv, textures[side], looks))
-        contour = list(EYE_VERTICES[side][0])
-        rim, triangles = lid_rim(relief[contour] + LAYER_GAP)
+        contour = list(EYE_AND_IRIS_VERTICES[side][0])
+        rim, triangles = lid_rim(relief[contour] + LAYER_GAP_EYE_DISTANCES)
         moves = {unit: np.tile(moved[contour], (2, 1)) for unit, moved in zip(units.names, units.moved, strict=True)}
         flat = np.broadcast_to(shade, (8, 8, 3)).copy()
         parts.append(InnerPart(f"{name}_rim", rim, triangles, np.full((len(rim), 2), 0.5, np.float32), flat, moves))
@@ -111,7 +111,7 @@ def _mouth(puppet: Puppet, units: FaceUnits) -> list[InnerPart]:
     lying = _set_back(flesh.vertices, skin, with_jaw(flesh.vertices, TONGUE_JAW_SHARE))
     out = {"tongueOut": tongue_put_out(), **with_jaw(lying, TONGUE_JAW_SHARE)}
     triangles, uv = bag_surface()
-    lips = puppet.vertices(persona.neutral)[list(LIPS_INNER)] + LAYER_GAP
+    lips = puppet.vertices(persona.neutral)[list(LIPS_INNER)] + LAYER_GAP_EYE_DISTANCES
     bag = mouth_bag(lips, BAG_DEEPER)
     follows = {
         unit: mouth_bag(lips + moved[list(LIPS_INNER)], BAG_DEEPER) - bag
@@ -136,9 +136,9 @@ def _set_back(
 def _evenly(needed: NDArray[np.float64]) -> NDArray[np.float64]:
     """(V,) at least as much as the vertices of a sheet of teeth need, and the same along each of its columns: more the farther they are from the
     middle, and smoothly, as an arch is bent."""
-    columns = needed.reshape(-1, COLUMNS + 1).max(axis=0)
-    half = np.maximum(columns, columns[::-1])[COLUMNS // 2 :]
+    columns = needed.reshape(-1, SHEET_MESH_COLUMNS + 1).max(axis=0)
+    half = np.maximum(columns, columns[::-1])[SHEET_MESH_COLUMNS // 2 :]
     outward = np.maximum.accumulate(half)
     whole = maximum_filter1d(np.concatenate([outward[:0:-1], outward]), 2 * EVEN_COLUMNS + 1, mode="nearest")
     smooth = uniform_filter1d(whole, 2 * EVEN_COLUMNS + 1, mode="nearest")
-    return np.tile(smooth, len(needed) // (COLUMNS + 1))
+    return np.tile(smooth, len(needed) // (SHEET_MESH_COLUMNS + 1))

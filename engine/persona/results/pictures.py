@@ -17,7 +17,7 @@ from engine.persona.results.shown_expressions import ShownExpression, fitted_fac
 
 VIEW_YAWS_DEGREES = (-45.0, -20.0, 0.0, 20.0, 45.0)
 """Degrees from which the face is shown, figure 9: below zero it looks to the picture's left."""
-HEADROOM = 1.2
+PICTURE_EXTENT_RATIO = 1.2
 """Of the neutral face's extent, that a picture of it has."""
 MAX_REGENERATED = 24
 """Photographs of which the sheet of the average light shows both."""
@@ -52,7 +52,7 @@ class Studio:
     @cached_property
     def _framing(self) -> tuple[NDArray[np.float64], float]:
         low, high = self.persona.neutral.min(axis=0), self.persona.neutral.max(axis=0)
-        scale = float((np.array(self.size) / (HEADROOM * (high - low)[:2])).min())
+        scale = float((np.array(self.size) / (PICTURE_EXTENT_RATIO * (high - low)[:2])).min())
         return np.asarray((low + high) / 2, np.float64), scale
 
 

@@ -24,9 +24,9 @@ EYE_DISTANCE = 0.063
 """Metres between the middles of the eyes: people's mean, since no photograph tells how large somebody is."""
 NECK_PIVOT_EYE_DISTANCES = (0.0, -0.9, 1.3)
 """About where a head turns, in eye distances from between the eyes, in the axes of pictures."""
-ROUGHNESS = 0.5
+MOIST_ROUGHNESS = 0.5
 """Of eyes, teeth and tongue, which are moist."""
-MIN_OFFSET = 1e-4
+MIN_UNIT_OFFSET_METRES = 1e-4
 """Metres that a unit moves a vertex by, at least."""
 
 
@@ -55,8 +55,8 @@ def write_puppet(path: Path, persona: Persona, units: FaceUnits, texture: NDArra
     morphs = []
     for unit in FACE_UNITS:
         moved = np.concatenate([part.moved.get(unit, np.zeros_like(part.vertices)) for part in parts])
-        morphs.append(morph_target(unit, moved @ metres, MIN_OFFSET))
-    materials = [Material("skin"), Material("inside", atlas, alpha="MASK", roughness=ROUGHNESS)]
+        morphs.append(morph_target(unit, moved @ metres, MIN_UNIT_OFFSET_METRES))
+    materials = [Material("skin"), Material("inside", atlas, alpha="MASK", roughness=MOIST_ROUGHNESS)]
     material_of = np.repeat([0, 1], [len(parts[0].triangles), sum(len(part.triangles) for part in inside)])
     model = CharacterModel(mesh, unlit=False, morphs=morphs, materials=materials, material_of=material_of)
     write_glb(path, model, name="puppet", synthetic=synthetic)

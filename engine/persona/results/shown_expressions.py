@@ -13,22 +13,22 @@ from scipy.optimize import nnls
 from engine.perception.landmarks import FACE_OVAL
 from engine.persona.collection.coverage import MIN_PHOTOS_OF_EXPRESSION
 from engine.persona.persona import Persona
-from engine.persona.results.face_units import EXPRESSIONS, FaceUnits
+from engine.persona.results.face_units import EXPRESSION_UNITS, FaceUnits
 from engine.persona.texture.expression_weights import expression_points
 
 MIN_EXPRESSION_STRENGTH = 0.4
-"""Of an expression as `EXPRESSIONS` has it, that a photograph near it does."""
-MIN_LIKENESS = 0.4
+"""Of an expression as `EXPRESSION_UNITS` has it, that a photograph near it does."""
+MIN_EXPRESSION_COSINE = 0.4
 """Cosine between what its points do and what the expression does, of a photograph near it."""
 MIN_BEST_LIKENESS_SHARE = 0.6
 """Of its likeness to what it is most like: who smiles with narrow eyes is not angry."""
 MIN_SAME_EXPRESSION_COSINE = 0.8
 """Cosine from which on two expressions are of a kind, as surprise and an open mouth are."""
-REGIONS = (slice(0, 10), slice(31, 51))
+EXPRESSION_FACE_POINTS = (slice(0, 10), slice(31, 51))
 """Brows and lips, of the points: an expression that moves both is done by both."""
 MIN_REGION_MOTION_EYE_DISTANCES = 0.02
 """Eye distances by which an expression moves the points of a region, in the mean square's root, if it moves it."""
-UNIT_COST = 0.02
+UNIT_COST_EYE_DISTANCES = 0.02
 """Eye distances of all points together, that a unit at its full costs: what one unit tells is not told by many."""
 SPLINE_BENDING = 1e-3
 """How smooth the spline is: upper and lower lip touch, and are moved apart."""
@@ -38,7 +38,7 @@ MAX_PHOTOS = 16
 
 @dataclass(frozen=True)
 class ShownExpression:
-    """name : of `EXPRESSIONS`. photos : those near it, the strongest first. face : (478, 3) float64, in eye distances. weights : (N,)
+    """name : of `EXPRESSION_UNITS`. photos : those near it, the strongest first. face : (478, 3) float64, in eye distances. weights : (N,)
     how much each photograph counts in its texture."""
 
     name: str
@@ -48,13 +48,15 @@ class ShownExpression:
 
 
 def photos_near(persona: Persona, units: FaceUnits) -> Mapping[str, tuple[int, ...]]:
-    """The photographs near each of `EXPRESSIONS`, the strongest first."""
+    """The photographs near each of `EXPRESSION_UNITS`, the strongest first."""
     share, likeness, _ = _done(persona, units, persona.points)
     most = likeness.max(axis=0)
-    near = (share > MIN_EXPRESSION_STRENGTH) & (likeness > np.maximum(MIN_LIKENESS, MIN_BEST_LIKENESS_SHARE * most))
+    near = (share > MIN_EXPRESSION_STRENGTH) & (
+        likeness > np.maximum(MIN_EXPRESSION_COSINE, MIN_BEST_LIKENESS_SHARE * most)
+    )
     return {
         name: tuple(sorted(np.flatnonzero(one).tolist(), key=lambda photo: -strong[photo]))
-        for name, one, strong in zip(EXPRESSIONS, near, share, strict=True)
+        for name, one, strong in zip(EXPRESSION_UNITS, near, share, strict=True)
     }
 
 
@@ -67,7 +69,7 @@ def shown_expressions(persona: Persona, units: FaceUnits) -> list[ShownExpressio
             continue
         points = persona.points[list(photos[:MAX_PHOTOS])].astype(np.float64).mean(axis=0)
         _, likeness, alike = _done(persona, units, points[None])
-        own = list(EXPRESSIONS).index(name)
+        own = list(EXPRESSION_UNITS).index(name)
         if likeness[alike[own] < MIN_SAME_EXPRESSION_COSINE, 0].max() > likeness[own, 0]:
             continue
         face = fitted_face(persona, units, points)
@@ -78,14 +80,14 @@ def shown_expressions(persona: Persona, units: FaceUnits) -> list[ShownExpressio
 def _done(
     persona: Persona, units: FaceUnits, points: NDArray[np.floating]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """How much of each of `EXPRESSIONS` faces with `points` (N, 51, 2) do, (E, N), in that of its regions in which they do least of it; the
+    """How much of each of `EXPRESSION_UNITS` faces with `points` (N, 51, 2) do, (E, N), in that of its regions in which they do least of it; the
     cosine between what their points do and what it does, (E, N); and that between expressions, (E, E)."""
     rest = expression_points(persona.neutral[None])[0]
-    faces = np.array([persona.neutral + units.doing(mixture) for mixture in EXPRESSIONS.values()])
+    faces = np.array([persona.neutral + units.doing(mixture) for mixture in EXPRESSION_UNITS.values()])
     wanted = expression_points(faces) - rest
     done = points.astype(np.float64) - rest
     share = np.full((len(wanted), len(done)), np.inf)
-    for region in REGIONS:
+    for region in EXPRESSION_FACE_POINTS:
         own = np.einsum("epk,npk->en", wanted[:, region], done[:, region])
         size = (wanted[:, region] ** 2).sum(axis=(1, 2))
         moved = np.sqrt(size / wanted[:, region].shape[1]) > MIN_REGION_MOTION_EYE_DISTANCES
@@ -113,7 +115,7 @@ def fitted_units(persona: Persona, units: FaceUnits, points: NDArray[np.floating
     """The mixture of units, none above its full, that moves the neutral face's points nearest to `points` (51, 2)."""
     rest = expression_points(persona.neutral[None])
     basis = (expression_points(persona.neutral + units.moved) - rest).reshape(len(units.names), -1)
-    system = np.concatenate([basis.T, UNIT_COST * np.eye(len(basis))])
+    system = np.concatenate([basis.T, UNIT_COST_EYE_DISTANCES * np.eye(len(basis))])
     wanted = np.concatenate([(points - rest[0]).ravel(), np.zeros(len(basis))])
     weights = np.minimum(nnls(system, wanted)[0], 1)
     return {name: float(weight) for name, weight in zip(units.names, weights, strict=True) if weight > 0}

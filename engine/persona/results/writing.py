@@ -13,7 +13,7 @@ from engine.export.still import write_still
 from engine.persona.collection.coverage import MIN_PHOTOS_OF_EXPRESSION
 from engine.persona.persona import Persona
 from engine.persona.results.expression_textures import expression_textures, write_expression_textures
-from engine.persona.results.face_units import EXPRESSIONS, face_units
+from engine.persona.results.face_units import EXPRESSION_UNITS, face_units
 from engine.persona.results.pictures import Studio, angles, average_light, gallery, sheet
 from engine.persona.results.puppet_model import write_puppet
 from engine.persona.results.shown_expressions import photos_near, shown_expressions
@@ -59,7 +59,7 @@ def _tell_gallery(path: Path, names: Sequence[str], near: dict[str, int]) -> Non
         "columns": GALLERY_COLUMNS,
         "shown": [
             {"name": "neutral"},
-            *({"name": name, "photos": near[name], "units": dict(EXPRESSIONS[name])} for name in names),
+            *({"name": name, "photos": near[name], "units": dict(EXPRESSION_UNITS[name])} for name in names),
         ],
         "left_out": [
             {
@@ -67,7 +67,7 @@ def _tell_gallery(path: Path, names: Sequence[str], near: dict[str, int]) -> Non
                 "photos": near[name],
                 "why": "few" if near[name] < MIN_PHOTOS_OF_EXPRESSION else "like_another",
             }
-            for name in EXPRESSIONS
+            for name in EXPRESSION_UNITS
             if name not in names
         ],
         "photos_needed": MIN_PHOTOS_OF_EXPRESSION,

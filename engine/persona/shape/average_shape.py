@@ -13,25 +13,25 @@ from engine.imaging.filling.nearest import nearest_values
 from engine.perception.landmarks import LEFT_BROW, LEFT_EYE, LIPS_OUTER, RIGHT_BROW, RIGHT_EYE
 from engine.persona.shape.photometric_stereo import photometric_stereo
 from engine.persona.shape.screened_poisson import screened_poisson
-from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH, Appearance
+from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS, Appearance
 from engine.persona.texture.texture_frame import TextureFrame
 
 LOW_SIGMA = 8.0
 """Pixels of a frame 194 wide: slopes as wide as this are the mesh's, finer ones shading's."""
-SCREENING = 3e-3
+DEPTH_SCREENING_WEIGHT = 3e-3
 """Weight of the mesh's depth in a frame 194 wide, beside slopes."""
 RIM_SIGMA = 4.0
 """Pixels over which shading comes in: from the face's rim, from eyes and from lips."""
-FEATURE_MARGIN = 4
+FEATURE_MARGIN_PIXELS = 4
 """Pixels about eyes, brows and lips in which shading is none: they have colours of their own."""
 MIN_NORMAL_Z = 0.25
 """Of a normal's part towards the viewer: slopes steeper than one in four are not believed."""
-FEATURES = (LIPS_OUTER, RIGHT_EYE, LEFT_EYE, RIGHT_BROW, LEFT_BROW)
+FEATURE_OUTLINES = (LIPS_OUTER, RIGHT_EYE, LEFT_EYE, RIGHT_BROW, LEFT_BROW)
 
 
 def average_depth(frame: TextureFrame, seen: Appearance) -> NDArray[np.float64]:
     """(H, W) depth in pixels, away from the viewer; beside face and rim it goes on as it ends there."""
-    unit = frame.size[1] / REFERENCE_WIDTH
+    unit = frame.size[1] / REFERENCE_WIDTH_PIXELS
     mesh = _mesh_depth(frame, unit)
     skin = _skin(frame, unit)
     shape = photometric_stereo(seen, frame.interpolated(frame.normals), frame.face, skin)
@@ -40,7 +40,7 @@ def average_depth(frame: TextureFrame, seen: Appearance) -> NDArray[np.float64]:
     share = cv2.GaussianBlur(cv2.erode(skin.astype(np.float32), _disk(2 * RIM_SIGMA * unit)), (0, 0), RIM_SIGMA * unit)
     off = np.where(skin[..., None], shaded - own, 0)
     finer = off - _low(off, skin, LOW_SIGMA * unit)  # shading's in place of the mesh's
-    return screened_poisson(own + finer * np.asarray(share)[..., None], mesh, SCREENING / unit**2)
+    return screened_poisson(own + finer * np.asarray(share)[..., None], mesh, DEPTH_SCREENING_WEIGHT / unit**2)
 
 
 def _mesh_depth(frame: TextureFrame, unit: float) -> NDArray[np.float64]:
@@ -54,10 +54,10 @@ def _mesh_depth(frame: TextureFrame, unit: float) -> NDArray[np.float64]:
 
 def _skin(frame: TextureFrame, unit: float) -> NDArray[np.bool_]:
     features = np.zeros(frame.size, np.uint8)
-    for contour in FEATURES:
+    for contour in FEATURE_OUTLINES:
         hull = cv2.convexHull(np.rint(frame.places[list(contour), :2]).astype(np.int32))
         cv2.fillConvexPoly(features, hull, 1)
-    return frame.face & (np.asarray(cv2.dilate(features, _disk(FEATURE_MARGIN * unit))) == 0)
+    return frame.face & (np.asarray(cv2.dilate(features, _disk(FEATURE_MARGIN_PIXELS * unit))) == 0)
 
 
 def _slopes(normals: NDArray[np.float64]) -> NDArray[np.float64]:

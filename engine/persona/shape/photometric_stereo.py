@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.persona.texture.appearance_subspace import RANK, Appearance
+from engine.persona.texture.appearance_subspace import SUBSPACE_RANK, Appearance
 
-ALTERNATIONS = 3
+ALBEDO_ALTERNATIONS = 3
 """In which the albedo that the template is multiplied with comes from the estimate before."""
 
 
@@ -37,13 +37,13 @@ def photometric_stereo(
     """
     rows = seen.projected[:, area]
     _, vectors = np.linalg.eigh((rows @ rows.T).astype(np.float64))
-    basis = vectors[:, -RANK:].T @ rows.astype(np.float64)
+    basis = vectors[:, -SUBSPACE_RANK:].T @ rows.astype(np.float64)
     basis /= np.linalg.norm(basis, axis=1, keepdims=True)
     inside = trusted[area]
     known = np.concatenate([np.ones((1, int(area.sum()))), np.asarray(template, np.float64)[area].T])
     albedo = rows.mean(axis=0).astype(np.float64)
     mixed = known
-    for _ in range(ALTERNATIONS):
+    for _ in range(ALBEDO_ALTERNATIONS):
         wanted = (albedo * known)[:, inside]
         mixed = wanted @ np.linalg.pinv(basis[:, inside]) @ basis
         albedo = np.linalg.norm(mixed[1:], axis=0)

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-RANK = 4
+SUBSPACE_RANK = 4
 """A convex face under any light is a mixture of four pictures to within a few hundredths (R. Basri, D. W. Jacobs, PAMI 2003)."""
 MIN_PHOTOS_OF_DIMENSION = 3.0
 """In which a dimension of the subspace has to lie."""
@@ -24,15 +24,15 @@ FITTING_ROUNDS = (
     (1, 4 * RESIDUAL_SIGMA),
     (2, 3 * RESIDUAL_SIGMA),
     (3, 2 * RESIDUAL_SIGMA),
-    (RANK, RESIDUAL_SIGMA),
-    (RANK, RESIDUAL_SIGMA),
+    (SUBSPACE_RANK, RESIDUAL_SIGMA),
+    (SUBSPACE_RANK, RESIDUAL_SIGMA),
 )
 """Rank and sigma of each in which the subspace is fitted: begun with all dimensions, one would be what covers some of the faces."""
 EXPOSED_GREY = 120.0
 """Mean grey of the face to which every photograph is exposed before it is compared."""
 FINE_SIGMA, COARSE_SIGMA = 1.0, 2.0
 """Pixels of a frame 194 wide: finer residuals are noise, and pixels count with those about them."""
-REFERENCE_WIDTH = 194
+REFERENCE_WIDTH_PIXELS = 194
 """Pixels of the paper's textures, for which sigmas are told."""
 
 
@@ -103,7 +103,7 @@ def _common(vectors: NDArray[np.float64], rank: int) -> NDArray[np.float64]:
 
 
 def _believed(residual: NDArray[np.float32], sigma: float) -> NDArray[np.float32]:
-    unit = residual.shape[2] / REFERENCE_WIDTH
+    unit = residual.shape[2] / REFERENCE_WIDTH_PIXELS
     out = np.empty_like(residual)
     for one, weight in zip(residual, out, strict=True):
         off = cv2.GaussianBlur(np.abs(cv2.GaussianBlur(one, (0, 0), FINE_SIGMA * unit)), (0, 0), COARSE_SIGMA * unit)

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from engine.imaging.filling.pull_push import pull_push
 from engine.imaging.masks.colour_segmentation import (
     MIN_MIXTURE_PIXELS,
-    UNSEEDED,
+    UNSEEDED_MARK,
     ColourMixture,
     ContrastGraph,
     colour_costs,
@@ -30,7 +30,7 @@ from engine.perception.landmarks import BROW_POINTS, LEFT_EYE, LIPS_INNER, LIPS_
 from engine.persona.texture.aligned_photos import AlignedPhotos
 from engine.persona.texture.texture_frame import TextureFrame
 
-MAP_WIDTH = 72
+MAP_WIDTH_PIXELS = 72
 """Pixels of the pictures in which skin is told from what is not."""
 LIGHT_VARIANCE = 9.0
 """Levels squared (CIE Lab) that both mixtures are widened by: the same matter in another light."""
@@ -41,7 +41,7 @@ MAX_COST = 20.0
 FEATURE_MARGIN, RIM_MARGIN, CENTRE_MARGIN = 0.035, 0.02, 0.105
 """Of the frame's width: about eyes, brows and lips, which have no skin's colour; beyond the oval, where the surroundings begin; and within
 it, where the middle of the face begins, which is skin."""
-FEATHER = 0.015
+FEATHER_SIGMA_WIDTHS = 0.015
 """Of the frame's width: sigma by which the border is softened, and how far it is set back before."""
 
 
@@ -71,7 +71,7 @@ class BareSkin:
         height, width = self.frame.size
         covered = self._surroundings(colours).astype(np.uint8)
         finer = cv2.resize(covered * np.float32(255), (width, height), interpolation=cv2.INTER_LINEAR)
-        reach, sigma = round(2 * FEATHER * width), FEATHER * width
+        reach, sigma = round(2 * FEATHER_SIGMA_WIDTHS * width), FEATHER_SIGMA_WIDTHS * width
         grown = cv2.dilate((np.asarray(finer) > 127).astype(np.float32), np.ones((2 * reach + 1,) * 2))
         return np.asarray((1 - np.asarray(cv2.GaussianBlur(grown, (0, 0), sigma))) * self.frame.face, np.float32)
 
@@ -88,7 +88,7 @@ class BareSkin:
         mixtures = (skins, ColourMixture.fit(others).widened(LIGHT_VARIANCE))
         costs = np.minimum(colour_costs(mixtures, lab[area]), MAX_COST)
         costs[brow[area]] = 0  # of hair's colour, they go with what is about them
-        seeds = np.where(middle[area], 0, UNSEEDED)
+        seeds = np.where(middle[area], 0, UNSEEDED_MARK)
         labels = ContrastGraph.of(lab, area).cut(costs, np.zeros(len(costs), np.intp), seeds)
         found = np.zeros(area.shape, np.bool_)
         found[area] = labels == 1
@@ -109,7 +109,7 @@ class BareSkin:
         middle *= rows > min(float(brow[:, 1].min()) for brow in brows)
         beyond = frame.covered & (_grown(frame.face.astype(np.uint8), RIM_MARGIN * width) == 0)
         around = beyond & (rows < places[list(LIPS_INNER), 1].mean())
-        size = MAP_WIDTH, round(height * MAP_WIDTH / width)
+        size = MAP_WIDTH_PIXELS, round(height * MAP_WIDTH_PIXELS / width)
         return tuple(
             cv2.resize(one.astype(np.uint8), size, interpolation=cv2.INTER_NEAREST) > 0
             for one in (frame.covered, middle * (1 - features), around, middle, hairy)

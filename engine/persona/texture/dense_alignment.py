@@ -13,9 +13,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH, Appearance, appearance
+from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS, Appearance, appearance
 
-ITERATIONS = 2
+ALIGNMENT_ITERATIONS = 2
 SMOOTHING_SIGMA = 4.0
 """Pixels of a frame 194 wide."""
 MAX_SHIFT = 0.03
@@ -33,9 +33,9 @@ def align_densely(
     offsets = np.zeros((*seen.exposed.shape, 2), np.float32)
     flow = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM)
     flow.setFinestScale(0)
-    unit = seen.exposed.shape[2] / REFERENCE_WIDTH
+    unit = seen.exposed.shape[2] / REFERENCE_WIDTH_PIXELS
     current = seen
-    for iteration in range(ITERATIONS):
+    for iteration in range(ALIGNMENT_ITERATIONS):
         moved = np.empty_like(seen.exposed)
         for number, (photo, projected, weight) in enumerate(
             zip(current.exposed, current.projected, current.weights, strict=True)
@@ -44,7 +44,7 @@ def align_densely(
             step = _bounded(_smoothed(np.asarray(raw, np.float32), weight, SMOOTHING_SIGMA * unit))
             offsets[number] = _bounded(step + shifted(offsets[number], step))
             moved[number] = shifted(seen.exposed[number], offsets[number], cv2.INTER_CUBIC)
-            tick((iteration + (number + 1) / len(moved)) / ITERATIONS)
+            tick((iteration + (number + 1) / len(moved)) / ALIGNMENT_ITERATIONS)
         current = appearance(moved, shown, area, current.weights)
     return offsets, current
 

@@ -17,7 +17,7 @@ MIN_PHOTOS, MAX_PHOTOS = 8.0, 16.0
 """That count for an expression: the square of the weights' sum over the sum of their squares."""
 SMOOTHING_FRAMES = 2.0
 """Sigma by which weights are smoothed in time."""
-BISECTION_STEPS = 30
+WEIGHT_BISECTION_STEPS = 30
 SIGMA_RANGE = (0.01, 1000.0)
 FIRST_INNER_FIDUCIAL = 17
 """Of the 68: the jaw's say where the head is turned to, not what the face does."""
@@ -63,7 +63,7 @@ def _effective(squares: NDArray[np.float64], sigma: NDArray[np.float64]) -> NDAr
 def _sigma_for(squares: NDArray[np.float64], wanted: float) -> NDArray[np.float64]:
     """By bisection: the more photographs count, the larger sigma is."""
     low, high = (np.full(len(squares), bound) for bound in SIGMA_RANGE)
-    for _ in range(BISECTION_STEPS):
+    for _ in range(WEIGHT_BISECTION_STEPS):
         middle = np.sqrt(low * high)
         few = _effective(squares, middle) < wanted
         low, high = np.where(few, middle, low), np.where(few, high, middle)

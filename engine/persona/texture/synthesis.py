@@ -13,16 +13,16 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH
+from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 from engine.persona.texture.laplacian_pyramid import collapsed, laplacian_pyramid, levels_of
 
-ALPHA, BETA, GAMMA = 1.0, 20.0, 1.0
+DATA_WEIGHT, BETA, GAMMA = 1.0, 20.0, 1.0
 """Section 6."""
 CONFIDENCE_SIGMA = 1.5
 """Pixels of a frame 194 wide over which the response of the Laplacian is told."""
 CAP_PERCENTILE = 80
 """Of a pixel's responses in all photographs: a stronger one is a hair or an edge of light, not a finer crease."""
-REDESCENT = 2.0
+CONFIDENCE_REDESCENT_POWER = 2.0
 """The power with which the confidence falls again where a photograph has more than that, beside how much finer it is all over: a hair is left
 out, and not only held back."""
 DETAIL_FLOOR_LEVELS = 0.05
@@ -73,7 +73,7 @@ def texture_synthesis(colours: NDArray[np.uint8], belief: NDArray[np.floating]) 
         shape = (bands.shape[1], bands.shape[2])
         believed = np.array([_shrunk(one, shape) for one in belief]) + np.float32(MIN_PIXEL_BELIEF)
         if level < count - 1:
-            believed *= _confidence(bands, colours.shape[2] / REFERENCE_WIDTH)
+            believed *= _confidence(bands, colours.shape[2] / REFERENCE_WIDTH_PIXELS)
         levels.append(_level(bands, believed, GAMMA * BETA ** -(count - 1 - level)))
     return TextureSynthesis(tuple(levels))
 
@@ -103,8 +103,8 @@ def _confidence(bands: NDArray[np.float32], unit: float) -> NDArray[np.float32]:
     )
     told /= sharpness
     most = np.percentile(told, CAP_PERCENTILE, axis=0) + DETAIL_FLOOR_LEVELS
-    capped *= np.minimum(1, most / np.maximum(told, DETAIL_FLOOR_LEVELS)) ** REDESCENT
-    return np.asarray(np.maximum(capped, DETAIL_FLOOR_LEVELS) ** ALPHA, np.float32)
+    capped *= np.minimum(1, most / np.maximum(told, DETAIL_FLOOR_LEVELS)) ** CONFIDENCE_REDESCENT_POWER
+    return np.asarray(np.maximum(capped, DETAIL_FLOOR_LEVELS) ** DATA_WEIGHT, np.float32)
 
 
 def _shrunk(weights: NDArray[np.floating], shape: Sequence[int]) -> NDArray[np.float32]:

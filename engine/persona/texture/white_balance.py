@@ -7,14 +7,14 @@ from numpy.typing import NDArray
 
 MAX_CHANNEL_GAIN = 2.5
 """Of a channel, either way: what asks for more is another light, or no colour at all."""
-GREY_SPREAD = 2.0
+GREY_CHROMA_LEVELS = 2.0
 """Grey levels that the mean chroma of a photograph in black and white differs from grey, at most."""
 
 
 def is_grey(colours: NDArray[np.uint8]) -> NDArray[np.bool_]:
     """(N,) which of photographs (N, H, W, 3) are in black and white."""
     spread = np.ptp(colours[:, ::4, ::4].astype(np.int16), axis=-1)
-    return np.asarray(spread.mean(axis=(1, 2)) < GREY_SPREAD)
+    return np.asarray(spread.mean(axis=(1, 2)) < GREY_CHROMA_LEVELS)
 
 
 def balanced(colours: NDArray[np.uint8], belief: NDArray[np.floating], face: NDArray[np.bool_]) -> NDArray[np.uint8]:

@@ -39,11 +39,11 @@ RHYTHMS: Mapping[State, Rhythm] = {
 that listen or look about move by less or more slowly (idle performances, clips of `benchmarks/driver_segments`). A mouth that
 talks opens and shuts by a twentieth of the eyes' distance, five ways or more without a longer pause."""
 
-MAX_TALKING_OPENING = 0.38
+MAX_TALKING_OPENING_EYE_DISTANCES = 0.38
 """Eye distances by which a mouth that talks opens at most, but for a tenth of the time: beyond, it makes faces (the
 clips' talkers open theirs by 0.25 to 0.33, the one who makes faces by 0.53)."""
 
-MAX_SILENT_OPENING = 0.09
+MAX_SILENT_OPENING_EYE_DISTANCES = 0.09
 """Eye distances by which the mouth may move during a nod or shake: a head that speaks along is no clear gesture."""
 
 MIN_CLARITY = 0.8
@@ -124,7 +124,7 @@ def _one_kind(state: State, values: NDArray[np.floating], fps: float) -> list[Ge
     for one in swings(curve, rhythm.swing):
         if runs[-1] and one.first - runs[-1][-1].last > pause:
             runs.append([])
-        speaks = state != "talk" and np.ptp(mouth[one.first : one.last + 1]) > MAX_SILENT_OPENING
+        speaks = state != "talk" and np.ptp(mouth[one.first : one.last + 1]) > MAX_SILENT_OPENING_EYE_DISTANCES
         if one.last - one.first <= longest and not speaks:
             runs[-1].append(one)
         else:
@@ -144,8 +144,8 @@ def _alone(one: Gesture, values: NDArray[np.floating]) -> bool:
     of = dict(zip(MEASURES, values[one.first : one.last + 1].T, strict=True))
     way = {name: float(np.abs(np.diff(of[name])).sum()) for name in ("yaw", "pitch", "roll")}
     if one.state == "talk":
-        return float(np.quantile(of["mouth_open"], 0.9) - of["mouth_open"].min()) <= MAX_TALKING_OPENING
-    if np.ptp(of["mouth_open"]) > MAX_SILENT_OPENING:
+        return float(np.quantile(of["mouth_open"], 0.9) - of["mouth_open"].min()) <= MAX_TALKING_OPENING_EYE_DISTANCES
+    if np.ptp(of["mouth_open"]) > MAX_SILENT_OPENING_EYE_DISTANCES:
         return False
     own = way.pop(RHYTHMS[one.state].measure)
     return own >= MIN_AXIS_RATIO * max(way.values())

@@ -17,10 +17,15 @@ from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.perception.expression.measures import REST_SPREAD
 from engine.performances import State
-from engine.performances.catalogue import POSTER_SIDE, Strength
+from engine.performances.catalogue import POSTER_SIDE_PIXELS, Strength
 from engine.portrait.driver_segments.rest import own_rest
 from engine.portrait.driver_segments.segments import Segment, detect_segments
-from engine.portrait.driver_segments.watching import MAX_WATCHED_SIDE, WATCHED_FPS, FaceMeasurements, measure_video_face
+from engine.portrait.driver_segments.watching import (
+    MAX_WATCHED_SIDE_PIXELS,
+    WATCHED_FPS,
+    FaceMeasurements,
+    measure_video_face,
+)
 from engine.run import Run
 from engine.run_report import write_report
 
@@ -106,16 +111,18 @@ def picture(path: Path, time: float, watched: FaceMeasurements, limits: Limits) 
     """The face at a time of the video and as much around it as there is, (256, 256, 3)."""
     place = min(round(time * WATCHED_FPS), len(watched.found) - 1)
     span = (max(time - 0.25 / WATCHED_FPS, 0.0), time + 1 / WATCHED_FPS)
-    frame = next(iter(read_video(path, fps=WATCHED_FPS, trim=span, limits=limits, longest_side=MAX_WATCHED_SIDE))).rgb
+    frame = next(
+        iter(read_video(path, fps=WATCHED_FPS, trim=span, limits=limits, longest_side=MAX_WATCHED_SIDE_PIXELS))
+    ).rgb
     left, top, right, bottom = watched.boxes[place]
     half = (np.array(frame.shape[1::-1]) - 1) / 2
     reach = min((0.5 + POSTER_MARGIN_SHARE) * max(right - left, bottom - top), *half)
     centre = np.clip([(left + right) / 2, (top + bottom) / 2], reach, 2 * half - reach)
-    scale = POSTER_SIDE / (2 * reach)
-    shift = (POSTER_SIDE - 1) / 2 - scale * centre
+    scale = POSTER_SIDE_PIXELS / (2 * reach)
+    shift = (POSTER_SIDE_PIXELS - 1) / 2 - scale * centre
     moved = np.array([[scale, 0, shift[0]], [0, scale, shift[1]]])
     drawn = cv2.warpAffine(
-        frame, moved, (POSTER_SIDE, POSTER_SIDE), flags=cv2.INTER_AREA, borderMode=cv2.BORDER_REPLICATE
+        frame, moved, (POSTER_SIDE_PIXELS, POSTER_SIDE_PIXELS), flags=cv2.INTER_AREA, borderMode=cv2.BORDER_REPLICATE
     )
     return np.asarray(drawn, np.uint8)
 

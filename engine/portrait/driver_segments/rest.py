@@ -19,7 +19,7 @@ from engine.perception.expression.measures import (
 UNLIKE_REST_WEIGHT = 0.3
 """How much being unlike a resting face in general counts, against being unlike most of what this person shows."""
 
-LOWERED_LIDS_WEIGHT = 2.0
+TARGET_LOWERED_LIDS_WEIGHT = 2.0
 """How much lowered lids count, as a share of how far they are usually open."""
 
 NEIGHBOUR_SHARE = 0.04
@@ -45,7 +45,7 @@ def own_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     apart = np.sort(cdist(values / REST_SPREAD, values / REST_SPREAD), axis=1)[:, : neighbours + 1]
     unlike = np.sqrt(np.mean(((values - general_rest()) / SPREAD_BETWEEN_PEOPLE)[:, FACE_MEASURES] ** 2, axis=1))
     blinking = lid_lowering(values, np.quantile(values[:, LID_MEASURES], 0.7, axis=0))
-    best = int(np.argmin(apart.mean(axis=1) + UNLIKE_REST_WEIGHT * unlike + LOWERED_LIDS_WEIGHT * blinking))
+    best = int(np.argmin(apart.mean(axis=1) + UNLIKE_REST_WEIGHT * unlike + TARGET_LOWERED_LIDS_WEIGHT * blinking))
     nearest = np.argsort(np.linalg.norm((values - values[best]) / REST_SPREAD, axis=1))[: neighbours + 1]
     return np.asarray(np.median(values[nearest], axis=0), float)
 

@@ -18,7 +18,7 @@ from engine.perception.one_face import OneFace
 WATCHED_FPS = 12.0
 """Frames a second that are looked at: a wink has three of them, a syllable two."""
 
-MAX_WATCHED_SIDE = 640
+MAX_WATCHED_SIDE_PIXELS = 640
 """Pixels of the frames that are looked at."""
 
 BLOCK_FRAMES = 120
@@ -30,7 +30,7 @@ class FaceMeasurements:
     """A video's face, frame by frame at `WATCHED_FPS`.
 
     seconds : how long the video is. values : (N, 12) float32, `MEASURES`. found : (N,) whether there is a face.
-    boxes : (N, 4) float32 left, top, right and bottom of the face in pixels of frames with `MAX_WATCHED_SIDE`.
+    boxes : (N, 4) float32 left, top, right and bottom of the face in pixels of frames with `MAX_WATCHED_SIDE_PIXELS`.
     """
 
     seconds: float
@@ -63,7 +63,7 @@ def measure_video_face(
             block.clear()
 
     with OneFace() as follow:
-        for frame in read_video(path, fps=WATCHED_FPS, limits=limits, longest_side=MAX_WATCHED_SIDE):
+        for frame in read_video(path, fps=WATCHED_FPS, limits=limits, longest_side=MAX_WATCHED_SIDE_PIXELS):
             tick(min(len(found) / expected, 1.0))
             mesh = follow(frame.rgb)
             found.append(mesh is not None)

@@ -16,7 +16,7 @@ from engine.perception.landmarks import eye_distance
 from engine.perception.one_euro import OneEuroFilter
 from engine.perception.one_face import OneFace
 
-TRACKED_SIDE = 640
+TRACKED_SIDE_PIXELS = 640
 """Pixels: larger frames are looked at in this size. The tracker's network sees the face in 192."""
 MIN_CUTOFF_HZ, CUTOFF_PER_SPEED, DERIVATIVE_CUTOFF_HZ = 1.0, 15.0, 8.0
 """Of the one-euro filter, of meshes in eye distances: a lid that shuts goes 1.5 eye distances a second, a head at rest 0.03."""
@@ -64,7 +64,7 @@ class CameraFace:
 
 def in_tracked_size(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """A frame no larger than it is looked at."""
-    scale = TRACKED_SIDE / max(rgb.shape[:2])
+    scale = TRACKED_SIDE_PIXELS / max(rgb.shape[:2])
     if scale >= 1:
         return rgb
     return np.asarray(cv2.resize(rgb, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA), np.uint8)

@@ -13,7 +13,7 @@ from engine.face_animation.target_face import TargetFace
 from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.landmarks import FACE_OVAL, RIGID_VERTICES, eye_distance
 
-MIN_REACH, MAX_REACH = 0.35, 0.9
+MIN_REACH_EYE_DISTANCES, MAX_REACH_EYE_DISTANCES = 0.35, 0.9
 """Eye distances by which the head may go aside, or up and down: at least, and where the frame has room; beyond, shoulders would be
 drawn along."""
 ROOM_SHARE = 0.6
@@ -26,7 +26,7 @@ def reach_in_frame(target: TargetFace) -> NDArray[np.float64]:
     """(2,) eye distances by which the target's head may go aside, and up or down."""
     oval, size = target.mesh[list(FACE_OVAL), :2], np.array(target.size)
     room = np.minimum(oval.min(axis=0), size - oval.max(axis=0)) / float(eye_distance(target.mesh[:, :2]))
-    return np.asarray(np.clip(ROOM_SHARE * room, MIN_REACH, MAX_REACH), float)
+    return np.asarray(np.clip(ROOM_SHARE * room, MIN_REACH_EYE_DISTANCES, MAX_REACH_EYE_DISTANCES), float)
 
 
 def kept_in_frame(

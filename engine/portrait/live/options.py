@@ -9,7 +9,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 from engine.face_animation.acting_options import ACTING_PARTS, Part
 from engine.portrait.options import Coordinate, Face, Landmarks, PortraitOptions, named_parts
 
-MAX_LIVE_SIDE = 768
+MAX_LIVE_SIDE_PIXELS = 768
 """Pixels of a live picture's longest side, at most."""
 
 
@@ -18,7 +18,7 @@ class LiveOptions(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    longest_side: Annotated[int, Field(ge=64, le=MAX_LIVE_SIDE)] = Field(
+    longest_side: Annotated[int, Field(ge=64, le=MAX_LIVE_SIDE_PIXELS)] = Field(
         512, description="Pixels of the live picture's longest side, into which the target is fitted."
     )
     crop: Literal["none", "face", "bust"] | tuple[Coordinate, Coordinate, Coordinate, Coordinate] = Field(

@@ -30,9 +30,9 @@ MAX_YAW_RADIANS, MAX_PITCH_RADIANS = np.deg2rad((18.0, 20.0))
 """Radians by which the head may be turned aside, or up and down. Cameras stand above screens, or below them."""
 MIN_LID_OPENING = 0.13
 """Gap between an eye's lids, over its width, below which it is shut, as of a target."""
-MAX_MOUTH_OPENING = 0.12
+MAX_MOUTH_OPENING_EYE_DISTANCES = 0.12
 """Eye distances between the lips from which on the mouth is open."""
-MAX_SPEED = 1.5
+MAX_EYE_DISTANCES_PER_SECOND = 1.5
 """Eye distances a second from which on the head moves too fast: its picture is blurred."""
 BLINK_SHARE = 0.8
 """Share of how far the lids usually are open in the calm frames below which a frame blinks, and tells nothing of the rest."""
@@ -122,8 +122,8 @@ def _unrest(look: FaceCrop, speed: float) -> dict[Obstacle, float]:
     return {
         "turned": max(abs(yaw) / MAX_YAW_RADIANS, abs(pitch) / MAX_PITCH_RADIANS),
         "eyes_shut": MIN_LID_OPENING / max(float(values[LID_MEASURES].min()), 1e-3),
-        "mouth_open": mouth / MAX_MOUTH_OPENING,
-        "moving": speed / MAX_SPEED,
+        "mouth_open": mouth / MAX_MOUTH_OPENING_EYE_DISTANCES,
+        "moving": speed / MAX_EYE_DISTANCES_PER_SECOND,
     }
 
 

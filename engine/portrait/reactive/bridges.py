@@ -17,11 +17,11 @@ from engine.portrait.reactive.excursion import Pose
 
 EXIT_TOLERANCE = 0.4
 """How far an exit may be from the frames that use it, against the longest step between two frames of its clip."""
-MIN_PACE = 0.5
+MIN_PACE_SHARE = 0.5
 """Share of the longest step in all clips that a clip's own longest step counts for at least there."""
 UNSEEN_PIXELS = (0.25, 0.8)
 """Pixels by which it may be off in any case, of the head and of the furthest point: nobody sees less."""
-TAPER_SHARE = 0.5
+BRIDGE_TAPER_SHARE = 0.5
 """Share of a bridge in which it speeds up and slows down; in the middle it goes evenly."""
 MAX_BRIDGE_STEP = 0.5
 """The longest step of a bridge against the longest in all clips: a head that goes back to rest does not snap back."""
@@ -101,8 +101,8 @@ def find_exits(poses: Sequence[Pose], step: PoseDistance, pace: PoseDistance) ->
     step : the longest of the clip itself; pace : the longest of all clips of the profile.
     """
     step = PoseDistance(
-        max(step.head, MIN_PACE * pace.head, UNSEEN_PIXELS[0] / EXIT_TOLERANCE),
-        max(step.furthest, MIN_PACE * pace.furthest, UNSEEN_PIXELS[1] / EXIT_TOLERANCE),
+        max(step.head, MIN_PACE_SHARE * pace.head, UNSEEN_PIXELS[0] / EXIT_TOLERANCE),
+        max(step.furthest, MIN_PACE_SHARE * pace.furthest, UNSEEN_PIXELS[1] / EXIT_TOLERANCE),
     )
     offsets = [pose.motion.offsets for pose in poses]
     resting = [PoseDistance.between(one).against(step) <= EXIT_TOLERANCE for one in offsets]
@@ -118,7 +118,7 @@ def find_exits(poses: Sequence[Pose], step: PoseDistance, pace: PoseDistance) ->
         last = _furthest(offsets, resting, chosen, chosen, step)
         at += [len(frames) - 1] * (last - first + 1)
     far = [PoseDistance.between(offsets[frame]).against(pace) for frame in frames]
-    steps = [one / (MAX_BRIDGE_STEP * (1 - TAPER_SHARE / 2)) for one in far]
+    steps = [one / (MAX_BRIDGE_STEP * (1 - BRIDGE_TAPER_SHARE / 2)) for one in far]
     lengths = tuple(int(np.clip(np.ceil(one) - 1, MIN_BRIDGE_FRAMES, MAX_BRIDGE_FRAMES)) for one in steps)
     return ExitBridges(tuple(frames), lengths, tuple(at))
 
@@ -152,6 +152,6 @@ def ease_in_out(t: NDArray[np.floating]) -> NDArray[np.float64]:
     (the integral of a cosine-tapered window)."""
     late = t > 0.5
     u = np.where(late, 1 - t, t)
-    begins = 0.5 * (u - TAPER_SHARE / (2 * np.pi) * np.sin(2 * np.pi * u / TAPER_SHARE))
-    way = np.where(u < TAPER_SHARE / 2, begins, u - TAPER_SHARE / 4) / (1 - TAPER_SHARE / 2)
+    begins = 0.5 * (u - BRIDGE_TAPER_SHARE / (2 * np.pi) * np.sin(2 * np.pi * u / BRIDGE_TAPER_SHARE))
+    way = np.where(u < BRIDGE_TAPER_SHARE / 2, begins, u - BRIDGE_TAPER_SHARE / 4) / (1 - BRIDGE_TAPER_SHARE / 2)
     return np.asarray(np.where(late, 1 - way, way), float)

@@ -9,16 +9,16 @@ from pathlib import Path
 from engine.package_data import package_data
 from engine.portrait.reactive.document import Profile
 
-PACKAGE = "engine.portrait.reactive"
-SCRIPT = "player/reactive-portrait.js"
+BUNDLE_PACKAGE = "engine.portrait.reactive"
+SCRIPT_FILE = "player/reactive-portrait.js"
 """The built web component: `make setup` puts it there from web/reactive."""
-PAGE = "page.html"
+PAGE_FILE = "page.html"
 """A page that shows the profile where profiles are at home, with places for what this one is."""
 
 
 def player() -> Path:
     """The built web component. Raises `IncompleteInstallation` where it is not there."""
-    return package_data(PACKAGE, SCRIPT)
+    return package_data(BUNDLE_PACKAGE, SCRIPT_FILE)
 
 
 def write_bundle(path: Path, folder: Path, profile: Profile) -> None:
@@ -48,7 +48,7 @@ def demonstration(profile: Profile) -> str:
         for name, state in profile.states.items()
         if name != profile.initial
     )
-    page = package_data(PACKAGE, PAGE).read_text()
+    page = package_data(BUNDLE_PACKAGE, PAGE_FILE).read_text()
     for place, value in (("{{width}}", str(width)), ("{{height}}", str(height)), ("{{buttons}}", buttons)):
         page = page.replace(place, value)
     return page

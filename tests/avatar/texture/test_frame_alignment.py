@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from engine.avatar.texture.alignment import LARGEST_SHIFT, aligned
+from engine.avatar.texture.alignment import MAX_SHIFT_SIDES, aligned
 from engine.avatar.texture.view_samples import sample_views
 from engine.avatar.texture.views import FrameView
 from engine.geometry.camera import Camera
@@ -82,7 +82,7 @@ def test_a_frame_that_shows_something_else_moves_no_further_than_is_allowed_and_
     views = [ball.view(camera) for camera in cameras()]
     views[3] = ball.view(cameras()[3], lambda points: waves(1.7 * points + 0.4))
     found = aligned(ball.surface, views, np.ones((len(views), 3)))
-    assert found[3].shift is not None and np.abs(found[3].shift.nodes).max() <= LARGEST_SHIFT * SIDE + 1e-3
+    assert found[3].shift is not None and np.abs(found[3].shift.nodes).max() <= MAX_SHIFT_SIDES * SIDE + 1e-3
     for number in {*range(len(views))} - {3}:
         assert np.median(np.abs(moved(ball, found[number]))) < 0.3
 

@@ -15,7 +15,7 @@ from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.avatar.texture.template_texture.placing import place_lids
 from engine.body.rig import HUMAN_RIG, Rig
 from engine.body.template import load_rig, load_template
-from engine.performances.modelling.eyes import EYEBALL_RADIUS
+from engine.performances.modelling.eyes import EYEBALL_RADIUS_METRES
 from engine.render.texture_bake import texel_raster
 
 
@@ -32,7 +32,7 @@ def surface(rig: Rig) -> TemplateSurface:
 def eyeball(count: int = 4000) -> Eyeballs:
     """Places all over a ball."""
     places = np.random.default_rng(0).normal(size=(count, 3))
-    places *= EYEBALL_RADIUS / np.linalg.norm(places, axis=1, keepdims=True)
+    places *= EYEBALL_RADIUS_METRES / np.linalg.norm(places, axis=1, keepdims=True)
     return Eyeballs(places, np.zeros(count, np.intp), np.zeros((count, 3), np.float32))
 
 
@@ -108,13 +108,13 @@ def test_a_persons_eyes_have_their_colours_and_keep_the_pupil() -> None:
 
 @pytest.mark.parametrize("iris", [0.0052, 0.0068])
 def test_an_iris_is_as_large_as_it_was_measured(iris: float) -> None:
-    places = 0.013 * eyeball().places / EYEBALL_RADIUS
+    places = 0.013 * eyeball().places / EYEBALL_RADIUS_METRES
     eyes = Eyeballs.of(places, 0.013, iris, np.zeros(len(places), np.intp), np.zeros((len(places), 3), np.float32))
     off, ahead = np.hypot(places[:, 0], places[:, 1]), places[:, 2] > 0
     lightness = painted_eyes(eyes).mean(1)
     assert lightness[ahead & (off < iris - 0.0008)].max() < 130
     assert lightness[ahead & (off > iris + 0.0012)].min() > 140
-    np.testing.assert_allclose(np.linalg.norm(eyes.places, axis=1), EYEBALL_RADIUS)
+    np.testing.assert_allclose(np.linalg.norm(eyes.places, axis=1), EYEBALL_RADIUS_METRES)
 
 
 def test_teeth_are_light_at_their_edges_and_gum_at_their_roots(surface: TemplateSurface) -> None:

@@ -14,7 +14,7 @@ from engine.body.face.face_capture import (
     capture_face_units,
     face_unit_model,
 )
-from engine.body.face.face_mesh_points import LOWER_LIP, UPPER_LIP, face_mesh_points
+from engine.body.face.face_mesh_points import LOWER_LIP_VERTICES, UPPER_LIP_VERTICES, face_mesh_points
 from engine.body.template import Template, load_template
 from engine.perception.head_pose import canonical_face
 
@@ -48,7 +48,7 @@ def held(mesh: NDArray[np.float64]) -> NDArray[np.float64]:
 def test_the_lower_lip_goes_with_the_jaw_and_the_upper_one_does_not(template: Template) -> None:
     points = face_mesh_points(template, load_body_space())
     jaw = np.linalg.norm(template.face_units.displacement({"jawOpen": 1.0}), axis=1)[points.template]
-    assert jaw[np.isin(points.mesh, LOWER_LIP)].min() > jaw[np.isin(points.mesh, UPPER_LIP)].max()
+    assert jaw[np.isin(points.mesh, LOWER_LIP_VERTICES)].min() > jaw[np.isin(points.mesh, UPPER_LIP_VERTICES)].max()
 
 
 def test_each_broad_unit_alone_is_found_as_the_strongest(model: FaceUnitModel) -> None:

@@ -13,7 +13,7 @@ from engine.body.fitting.body_fitting import fit_body
 from engine.body.fitting.first_guess import first_guess
 from engine.body.fitting.observation import DIRECTED_LIMBS, Crossing, Observation
 from engine.body.fitting.posing import FITTED_JOINTS, SHAPE_COEFFICIENTS, forward, rotation_matrices
-from engine.body.fitting.residuals import CROSSING_DEPTH
+from engine.body.fitting.residuals import CROSSING_DEPTH_METRES
 from engine.body.landmarks import landmark_model
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
@@ -109,7 +109,7 @@ def test_of_crossed_forearms_that_is_before_the_other_which_is_said_to_be(front:
         np.mean([found[SPACE.names.index(f"{side}{name}"), 2] for name in ("ForeArm", "Hand")])
         for side in ("Left", "Right")
     ]
-    assert middle[front] - middle[1 - front] > CROSSING_DEPTH - 0.02
+    assert middle[front] - middle[1 - front] > CROSSING_DEPTH_METRES - 0.02
     assert fit.reprojection < 0.015 * np.ptp(pixels[:, 1])
 
 

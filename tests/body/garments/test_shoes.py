@@ -9,7 +9,7 @@ from scipy.spatial import ConvexHull
 
 from engine.avatar.registration.footwear import in_shoes
 from engine.avatar.registration.models import HumanModels, load_models
-from engine.body.garments.shoes import LENGTH, WIDTH
+from engine.body.garments.shoes import SHOE_LENGTH_RATIO, SHOE_WIDTH_RATIO
 from engine.geometry.surface import face_normals, triangle_areas
 
 
@@ -23,8 +23,8 @@ def test_shoes_stand_where_feet_stood_and_have_no_toes(models: HumanModels) -> N
     shoes = in_shoes(models.skin, models.feet, bare)
     for mask, cap in zip(models.feet.masks, models.feet.caps, strict=True):
         assert shoes[mask, 1].min() == pytest.approx(bare[mask, 1].min(), abs=0.001)
-        assert np.ptp(shoes[mask, 2]) / np.ptp(bare[mask, 2]) == pytest.approx(LENGTH, abs=0.03)
-        assert np.ptp(shoes[mask, 0]) / np.ptp(bare[mask, 0]) == pytest.approx(WIDTH, abs=0.08)
+        assert np.ptp(shoes[mask, 2]) / np.ptp(bare[mask, 2]) == pytest.approx(SHOE_LENGTH_RATIO, abs=0.03)
+        assert np.ptp(shoes[mask, 0]) / np.ptp(bare[mask, 0]) == pytest.approx(SHOE_WIDTH_RATIO, abs=0.08)
         assert _hollow(shoes[cap.inside]) < 0.004 < _hollow(bare[cap.inside])  # between toes it is deep
         assert (shoes[mask, 1] < bare[mask, 1].min() + 0.004).mean() > 0.1  # the sole, of all that is foot
     elsewhere = ~(models.feet.masks[0] | models.feet.masks[1])

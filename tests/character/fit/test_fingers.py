@@ -13,7 +13,7 @@ from engine.character.fit.hands import turn_hands
 from engine.character.fit.head import joint_axes
 from engine.character.fit.template_fit import FittedBody, load_human
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import FINGERS
+from engine.geometry.joint_names import FINGER_NAMES
 
 FOCAL, CENTRE, PLACE = 2200.0, (499.5, 499.5), np.array([0, 0.1, -3.0])
 NOBODY = np.zeros(SHAPE_COEFFICIENTS, np.float32)
@@ -56,8 +56,8 @@ def curled(angle: float, spread: float = 0.0) -> dict[str, np.ndarray]:
     """Turns of the left hand, which shows its back or palm to the viewer, and of its fingers."""
     model = load_human().hands[0]
     turns = {"LeftForeArm": np.array([0.9, 0, 0]), "LeftHand": np.array([0.7, 0, 0])}
-    for finger, axis in zip(FINGERS[1:], model.bend[1:], strict=True):
-        aside = (FINGERS.index(finger) - 2.4) * spread * model.spread
+    for finger, axis in zip(FINGER_NAMES[1:], model.bend[1:], strict=True):
+        aside = (FINGER_NAMES.index(finger) - 2.4) * spread * model.spread
         turns[f"LeftHand{finger}1"] = (Rotation.from_rotvec(aside) * Rotation.from_rotvec(angle * axis)).as_rotvec()
         turns |= {f"LeftHand{finger}{k}": angle * axis for k in (2, 3)}
     return turns

@@ -21,7 +21,7 @@ from engine.media.excerpt import Excerpt
 from engine.media.image import read_image
 from engine.media.video import read_video
 from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
-from engine.perception.face_track.held_face import EASE_BACK
+from engine.perception.face_track.held_face import EASE_BACK_FRAMES
 from engine.perception.face_track.periphery import PeripheryTracker
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.faces import FaceTracker, find_faces
@@ -137,9 +137,11 @@ def test_when_it_comes_back_it_eases_back(vanished, track: FaceTrack) -> None:
     """No step is a jump, and after the easing it is where it is seen."""
     found, _, shift = vanished
     centre = found.meshes[..., :2].mean(axis=1)
-    steps = np.linalg.norm(np.diff(centre, axis=0), axis=1)[BLANK_FRAMES.start - 1 : BLANK_FRAMES.stop + EASE_BACK]
+    steps = np.linalg.norm(np.diff(centre, axis=0), axis=1)[
+        BLANK_FRAMES.start - 1 : BLANK_FRAMES.stop + EASE_BACK_FRAMES
+    ]
     assert steps.max() < 0.25 * MOVED_PIXELS
-    after = slice(BLANK_FRAMES.stop + EASE_BACK + 1, len(found))
+    after = slice(BLANK_FRAMES.stop + EASE_BACK_FRAMES + 1, len(found))
     expected = track.meshes[after, :, :2] + np.array([1.0, 0.0]) * shift[after, None, None]
     unit = float(eye_distance(track.meshes[0, :, :2]))
     assert np.linalg.norm(found.meshes[after, :, :2] - expected, axis=-1).mean() < 0.04 * unit
@@ -152,7 +154,7 @@ def test_its_looks_hold_and_ease_with_it(vanished) -> None:
     last = track.crop(BLANK_FRAMES.start - 1)
     for frame in range(BLANK_FRAMES.start, BLANK_FRAMES.stop):
         np.testing.assert_array_equal(track.crop(frame), last)
-    for frame in range(BLANK_FRAMES.stop, BLANK_FRAMES.stop + EASE_BACK + 1):
+    for frame in range(BLANK_FRAMES.stop, BLANK_FRAMES.stop + EASE_BACK_FRAMES + 1):
         seen = find_faces(track.crop(frame))
         assert len(seen) == 1
         assert np.linalg.norm(seen[0][:, :2] - track.in_crop(frame), axis=1).mean() < 2.5

@@ -3,7 +3,7 @@
 import numpy as np
 from textured_sphere import CENTRE, RADIUS, ring
 
-from engine.geometry.multiview.view_selection import BEST_ANGLE, chosen_sources, shared_sight
+from engine.geometry.multiview.view_selection import BEST_ANGLE_DEGREES, chosen_sources, shared_sight
 
 CAMERAS = ring(36)  # ten degrees apart
 
@@ -17,7 +17,14 @@ def sphere() -> tuple[np.ndarray, np.ndarray]:
 def test_views_at_the_best_angle_share_most_and_those_from_behind_nothing() -> None:
     score = shared_sight(CAMERAS, *sphere())
     assert score[0, 0] == 0
-    assert int(np.argmax(score[0])) in {round(BEST_ANGLE / 10), 36 - round(BEST_ANGLE / 10), 2, 3, 33, 34}
+    assert int(np.argmax(score[0])) in {
+        round(BEST_ANGLE_DEGREES / 10),
+        36 - round(BEST_ANGLE_DEGREES / 10),
+        2,
+        3,
+        33,
+        34,
+    }
     assert score[0, 18] < 0.01
     assert score.max() <= 1
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.registration.point_noise import CONTRADICTION, SURFACE_REACH, point_noise
+from engine.geometry.registration.point_noise import CONTRADICTION_METRES, SURFACE_REACH_METRES, point_noise
 
 SIDE = 41
 
@@ -36,5 +36,5 @@ def test_points_that_face_another_way_contradict_and_where_there_are_none_nothin
     points = np.random.default_rng(1).uniform(-0.5, 0, (20000, 3)) * [1, 0, 1]
     found = point_noise(vertices, triangles, points, np.tile([0.0, -1.0, 0.0], (len(points), 1)), 0.2)
     there = (vertices[:, [0, 2]] < -0.06).all(1)
-    assert np.allclose(found[there], CONTRADICTION)
-    assert np.allclose(found[(vertices[:, [0, 2]] > 0.06).any(1)], SURFACE_REACH)
+    assert np.allclose(found[there], CONTRADICTION_METRES)
+    assert np.allclose(found[(vertices[:, [0, 2]] > 0.06).any(1)], SURFACE_REACH_METRES)

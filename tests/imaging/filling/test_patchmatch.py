@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from engine.imaging.filling.patchmatch import (
-    MAX_SHIFT,
-    PATCH_RADIUS,
-    PATCH_SIDE,
+    MAX_COLOUR_SHIFT_GREY_LEVELS,
+    PATCH_RADIUS_PIXELS,
+    PATCH_SIDE_PIXELS,
     SHIFT_COST,
     PatchField,
     colour_image,
@@ -27,7 +27,9 @@ def noise(seed: int = 0) -> np.ndarray:
 
 
 def patch(image: np.ndarray, y: int, x: int) -> np.ndarray:
-    return image[y - PATCH_RADIUS : y + PATCH_RADIUS + 1, x - PATCH_RADIUS : x + PATCH_RADIUS + 1]
+    return image[
+        y - PATCH_RADIUS_PIXELS : y + PATCH_RADIUS_PIXELS + 1, x - PATCH_RADIUS_PIXELS : x + PATCH_RADIUS_PIXELS + 1
+    ]
 
 
 def distance(image: np.ndarray, weight: np.ndarray, one: tuple[int, int], other: tuple[int, int]) -> float:
@@ -35,7 +37,7 @@ def distance(image: np.ndarray, weight: np.ndarray, one: tuple[int, int], other:
     w = patch(weight, *one)[..., None]
     difference = patch(image, *one) - patch(image, *other)
     mean = (w * difference).sum((0, 1)) / w.sum()
-    shifted = difference - np.clip(mean, -MAX_SHIFT, MAX_SHIFT)
+    shifted = difference - np.clip(mean, -MAX_COLOUR_SHIFT_GREY_LEVELS, MAX_COLOUR_SHIFT_GREY_LEVELS)
     whole, left = ((w * d**2).sum() / w.sum() for d in (difference, shifted))
     return float(left + SHIFT_COST * (whole - left))
 
@@ -56,7 +58,10 @@ def test_centres_are_those_whose_whole_patch_is_usable() -> None:
     found = valid_centres(usable)
     for y in range(HEIGHT):
         for x in range(WIDTH):
-            whole = PATCH_RADIUS <= y < HEIGHT - PATCH_RADIUS and PATCH_RADIUS <= x < WIDTH - PATCH_RADIUS
+            whole = (
+                PATCH_RADIUS_PIXELS <= y < HEIGHT - PATCH_RADIUS_PIXELS
+                and PATCH_RADIUS_PIXELS <= x < WIDTH - PATCH_RADIUS_PIXELS
+            )
             assert found[y, x] == (whole and patch(usable, y, x).all())
 
 
@@ -65,7 +70,7 @@ def test_a_distance_is_what_is_left_after_a_shift_of_colour_that_costs_some(brig
     image = noise()
     image[:, 15:] += brighter
     weight = np.random.default_rng(2).uniform(0.1, 1, (HEIGHT, WIDTH)).astype(np.float32)
-    target = np.zeros((4, PATCH_SIDE, 8), np.float32)
+    target = np.zeros((4, PATCH_SIDE_PIXELS, 8), np.float32)
     planes = colour_planes(image)
     for one, other in (((5, 6), (17, 24)), ((12, 4), (9, 22)), ((8, 8), (8, 9))):
         mass = take_target(planes, weight, *one, target)

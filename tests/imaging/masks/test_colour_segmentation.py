@@ -13,7 +13,7 @@ from engine.geometry.graph_cut import energy
 from engine.imaging.masks.colour_segmentation import (
     MIN_MIXTURE_PIXELS,
     MIN_VARIANCE,
-    UNSEEDED,
+    UNSEEDED_MARK,
     ColourMixture,
     ContrastGraph,
     colour_costs,
@@ -128,7 +128,7 @@ def test_two_labels_with_seeds_are_cut_as_well_as_can_be(seed: int) -> None:
     area = np.ones((3, 4), np.bool_)
     graph = ContrastGraph.of(rng.uniform(0, 255, (3, 4, 3)), area)
     costs = rng.uniform(0, 20, (12, 2))
-    seeds = np.full(12, UNSEEDED)
+    seeds = np.full(12, UNSEEDED_MARK)
     seeds[[1, 10]] = 0, 1
     allowed = [np.array(labels) for labels in product(range(2), repeat=12) if labels[1] == 0 and labels[10] == 1]
     best = min(energy(costs, graph.edges, graph.weights, labels) for labels in allowed)
@@ -140,7 +140,7 @@ def test_two_labels_with_seeds_are_cut_as_well_as_can_be(seed: int) -> None:
 def test_a_seed_of_another_label_has_no_say() -> None:
     """Its own label, either of them, costs the same: its neighbours decide."""
     graph = ContrastGraph.of(np.full((3, 3, 3), 80.0), np.ones((3, 3), np.bool_))
-    seeds = np.full(9, UNSEEDED)
+    seeds = np.full(9, UNSEEDED_MARK)
     seeds[4] = 2
     for label in (0, 1):
         costs = np.zeros((9, 2))

@@ -205,7 +205,7 @@ def test_what_all_names_have_in_common_says_nothing(skeleton: Skeleton, habit: s
     """All joints are found, fingers too; beside them stand the nodes that such files have above and below."""
     walk = built_in("walk", skeleton)
     turns = rotation.identity(len(skeleton.names))
-    motion = renamed(told_by(skeleton, walk, turns, rotation.IDENTITY, 1.0, prefix=""), HABITS[habit])
+    motion = renamed(told_by(skeleton, walk, turns, rotation.IDENTITY_QUATERNION, 1.0, prefix=""), HABITS[habit])
     mapping = map_joints(motion)
     assert {ours: motion.names.index(theirs) for ours, theirs in mapping.items()} == {
         ours: index for index, ours in enumerate(skeleton.names)
@@ -227,7 +227,9 @@ def test_names_of_any_kind_come_to_an_end(names: list[list[str]]) -> None:
 
 def test_what_names_said_is_kept_where_the_shape_has_to_help(skeleton: Skeleton) -> None:
     walk = built_in("walk", skeleton)
-    motion = told_by(skeleton, walk, rotation.identity(len(skeleton.names)), rotation.IDENTITY, 1.0, prefix="")
+    motion = told_by(
+        skeleton, walk, rotation.identity(len(skeleton.names)), rotation.IDENTITY_QUATERNION, 1.0, prefix=""
+    )
     nameless = ("UpLeg", "Leg", "Foot", "ToeBase")
     odd = renamed(motion, lambda name, index: f"bone{index}" if name.endswith(nameless) else name)
     mapping = map_joints(odd)
@@ -237,7 +239,9 @@ def test_what_names_said_is_kept_where_the_shape_has_to_help(skeleton: Skeleton)
 
 def test_joints_that_turn_for_nothing_are_told_of(skeleton: Skeleton) -> None:
     walk = built_in("walk", skeleton)
-    motion = told_by(skeleton, walk, rotation.identity(len(skeleton.names)), rotation.IDENTITY, 1.0, prefix="")
+    motion = told_by(
+        skeleton, walk, rotation.identity(len(skeleton.names)), rotation.IDENTITY_QUATERNION, 1.0, prefix=""
+    )
     assert lost_warning(motion, map_joints(motion)) is None
     tails = [f"tail {k}" for k in range(15)]
     frames = len(motion.rotations)

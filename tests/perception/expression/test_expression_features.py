@@ -8,8 +8,8 @@ from made_face import opened, placed
 from numpy.typing import NDArray
 
 from engine.perception.expression.features import (
-    CHUNK_FRAMES,
     EXPRESSION_FEATURES,
+    TURNED_CHUNK_FRAMES,
     frontalise,
     lip_asymmetry,
     measure_expression,
@@ -43,7 +43,7 @@ def test_a_mouth_opened_by_a_known_length_is_open_by_it_and_nothing_else_has_mov
 
 
 def test_faces_measured_in_several_goes_are_those_measured_alone(rest: NDArray) -> None:
-    many = np.repeat(rest[None], CHUNK_FRAMES + 2, axis=0)
+    many = np.repeat(rest[None], TURNED_CHUNK_FRAMES + 2, axis=0)
     many[-1] = opened(rest, 0.2)
     together = measure_expression(many)
     assert len(together) == len(many)

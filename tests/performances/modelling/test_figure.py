@@ -6,7 +6,7 @@ import pytest
 from engine.geometry.surface import triangulate
 from engine.performances.modelling.eyes import (
     CORNEA_RADIUS,
-    EYEBALL_RADIUS,
+    EYEBALL_RADIUS_METRES,
     IRIS_RADIUS,
     build_eyeball,
     colour_of_eye,
@@ -91,8 +91,8 @@ def test_rigid_motions_are_found_again() -> None:
 
 
 def test_the_cornea_bulges_by_as_much_as_its_curvature_says() -> None:
-    assert profile(np.array([0.5]))[0] == EYEBALL_RADIUS
-    rim = np.sqrt(EYEBALL_RADIUS**2 - IRIS_RADIUS**2)
+    assert profile(np.array([0.5]))[0] == EYEBALL_RADIUS_METRES
+    rim = np.sqrt(EYEBALL_RADIUS_METRES**2 - IRIS_RADIUS**2)
     height = rim + CORNEA_RADIUS - np.sqrt(CORNEA_RADIUS**2 - IRIS_RADIUS**2)
     assert profile(np.array([1.0]))[0] == pytest.approx(height)
     cosines = np.linspace(0.3, 1, 500)
@@ -100,7 +100,9 @@ def test_the_cornea_bulges_by_as_much_as_its_curvature_says() -> None:
 
 
 def test_the_pupil_is_black_and_the_white_is_white() -> None:
-    front = np.array([[0, 0, float(profile(np.array([1.0]))[0])], [0.010, 0, np.sqrt(EYEBALL_RADIUS**2 - 0.010**2)]])
+    front = np.array(
+        [[0, 0, float(profile(np.array([1.0]))[0])], [0.010, 0, np.sqrt(EYEBALL_RADIUS_METRES**2 - 0.010**2)]]
+    )
     albedo, cornea = colour_of_eye(front, np.tile([0.0, 0.0, 1.0], (2, 1)))
     assert albedo[0].max() < 0.02 and cornea[0] == 1
     assert albedo[1].min() > 0.35 and cornea[1] == 0

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from engine.perception.head_pose import canonical_face
-from engine.persona.collection.coverage import EXPRESSIONS, rare, shown_expressions, shown_sides
+from engine.persona.collection.coverage import COVERED_EXPRESSIONS, rare, shown_expressions, shown_sides
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ def moved(vertices: list[int], by: tuple[float, float]) -> np.ndarray:
 def test_an_expression_is_counted_as_what_it_is(expression: str, mesh: np.ndarray) -> None:
     faces = [*[Face(at_rest())] * 7, Face(mesh), Face(mesh)]
     found = shown_expressions(faces)  # type: ignore[arg-type]
-    assert found == dict.fromkeys(EXPRESSIONS, 0) | {expression: 2}
+    assert found == dict.fromkeys(COVERED_EXPRESSIONS, 0) | {expression: 2}
 
 
 def test_sides_are_counted() -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from engine.media.image import read_image
 from engine.perception.identity.backend import face_descriptor
-from engine.persona.collection.photo_face import LONGEST_SIDE, as_looked_at, faces_of
+from engine.persona.collection.photo_face import LOOKED_AT_SIDE_PIXELS, as_looked_at, faces_of
 
 SAMPLE = Path(__file__).resolve().parents[3] / "web/public/samples/eileen-collins.jpg"
 
@@ -40,7 +40,11 @@ def test_blur_is_of_the_face_and_not_of_the_files_size(picture: np.ndarray) -> N
 
 
 def test_a_large_photograph_is_shrunk_and_a_small_one_left() -> None:
-    assert as_looked_at(np.zeros((2400, 3200, 3), np.uint8)).shape == (LONGEST_SIDE * 3 // 4, LONGEST_SIDE, 3)
+    assert as_looked_at(np.zeros((2400, 3200, 3), np.uint8)).shape == (
+        LOOKED_AT_SIDE_PIXELS * 3 // 4,
+        LOOKED_AT_SIDE_PIXELS,
+        3,
+    )
     assert as_looked_at(np.zeros((40, 30, 3), np.uint8)).shape == (40, 30, 3)
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from engine.media.image import read_image
 from engine.persona.persona import Persona
-from engine.persona.results.face_units import EXPRESSIONS, FaceUnits
+from engine.persona.results.face_units import EXPRESSION_UNITS, FaceUnits
 from engine.persona.results.pictures import VIEW_YAWS_DEGREES, Studio, angles, average_light, regenerated
 from engine.persona.results.writing import GALLERY_COLUMNS, PICTURE_SIZE, write_results
 
@@ -66,7 +66,7 @@ def test_what_is_written_is_told(persona: Persona, tmp_path: Path) -> None:
     near = write_results(tmp_path, persona, average, GREEN, True)
     told = json.loads((tmp_path / "gallery.json").read_text())
     names = [one["name"] for one in told["shown"]]
-    assert names[0] == "neutral" and {*names[1:], *(one["name"] for one in told["left_out"])} == set(EXPRESSIONS)
+    assert names[0] == "neutral" and {*names[1:], *(one["name"] for one in told["left_out"])} == set(EXPRESSION_UNITS)
     assert all(near[name] >= told["photos_needed"] for name in names[1:])
     assert all((one["photos"] < told["photos_needed"]) == (one["why"] == "few") for one in told["left_out"])
     rows = -(-len(names) // GALLERY_COLUMNS)

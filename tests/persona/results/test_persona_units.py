@@ -7,14 +7,14 @@ import numpy as np
 from engine.body.template import FACE_UNITS
 from engine.perception.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE
 from engine.persona.persona import Persona
-from engine.persona.results.face_units import EXPRESSIONS, FaceUnits
+from engine.persona.results.face_units import EXPRESSION_UNITS, FaceUnits
 from engine.persona.texture.expression_weights import expression_points
 
 
 def test_units_have_arkits_names_but_for_what_a_face_mesh_does_not_show(units: FaceUnits) -> None:
     left_out = set(FACE_UNITS) - set(units.names)
     assert left_out == {"tongueOut", *(f"eyeLook{to}{side}" for to in ("In", "Out") for side in ("Left", "Right"))}
-    assert {unit for mixture in EXPRESSIONS.values() for unit in mixture} <= set(units.names)
+    assert {unit for mixture in EXPRESSION_UNITS.values() for unit in mixture} <= set(units.names)
 
 
 def test_this_persons_lids_meet(persona: Persona, units: FaceUnits) -> None:
@@ -38,7 +38,7 @@ def test_this_persons_lips_close_over_an_open_jaw(persona: Persona, units: FaceU
 
 def test_expressions_are_unlike_each_other(persona: Persona, units: FaceUnits) -> None:
     rest = expression_points(persona.neutral[None])[0]
-    faces = np.array([persona.neutral + units.doing(mixture) for mixture in EXPRESSIONS.values()])
+    faces = np.array([persona.neutral + units.doing(mixture) for mixture in EXPRESSION_UNITS.values()])
     done = (expression_points(faces) - rest).reshape(len(faces), -1)
     done /= np.linalg.norm(done, axis=1, keepdims=True)
     alike = done @ done.T - np.eye(len(done))

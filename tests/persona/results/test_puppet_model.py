@@ -19,7 +19,7 @@ from engine.persona.results.expression_textures import (
     expression_textures,
     write_expression_textures,
 )
-from engine.persona.results.face_units import EXPRESSIONS, FaceUnits
+from engine.persona.results.face_units import EXPRESSION_UNITS, FaceUnits
 from engine.persona.results.inner_parts import inner_parts
 from engine.persona.results.inside_atlas import inside_atlas
 from engine.persona.results.puppet_model import EYE_DISTANCE, write_puppet
@@ -105,7 +105,7 @@ def test_textures_of_expressions_lie_side_by_side(persona: Persona, units: FaceU
     picture, document = write_expression_textures(tmp_path, textures, True)
     told = json.loads(document.read_text())
     assert [one["name"] for one in told["textures"]] == ["neutral", *TEXTURED_EXPRESSIONS]
-    assert told["textures"][1]["units"] == EXPRESSIONS[TEXTURED_EXPRESSIONS[0]]
+    assert told["textures"][1]["units"] == EXPRESSION_UNITS[TEXTURED_EXPRESSIONS[0]]
     width, height = told["size"]
     sheet = read_image(picture).rgb
     assert sheet.shape == (height, width * len(told["textures"]), 3) and picture.stat().st_size < 3_000_000

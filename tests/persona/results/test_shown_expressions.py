@@ -9,14 +9,14 @@ import pytest
 
 from engine.persona.collection.coverage import MIN_PHOTOS_OF_EXPRESSION
 from engine.persona.persona import Persona
-from engine.persona.results.face_units import EXPRESSIONS, FaceUnits
+from engine.persona.results.face_units import EXPRESSION_UNITS, FaceUnits
 from engine.persona.results.shown_expressions import fitted_face, fitted_units, photos_near, shown_expressions
 from engine.persona.texture.expression_weights import expression_points
 
 
 def doing(persona: Persona, units: FaceUnits, names: list[str]) -> Persona:
     """The persona with points as if its photographs showed these expressions."""
-    faces = [persona.neutral + (units.doing(EXPRESSIONS[name]) if name else 0) for name in names]
+    faces = [persona.neutral + (units.doing(EXPRESSION_UNITS[name]) if name else 0) for name in names]
     count = len(names)
     points = expression_points(np.array(faces)).astype(np.float32)
     return replace(persona, colours=persona.colours[:count], belief=persona.belief[:count], points=points)
@@ -44,7 +44,7 @@ def test_enough_photographs_of_an_expression_show_it_and_fewer_do_not(persona: P
 
 
 def test_frowns_in_smiling_photographs_are_no_anger(persona: Persona, units: FaceUnits) -> None:
-    squinting = {**EXPRESSIONS["smile"], "browDownLeft": 0.6, "browDownRight": 0.6}
+    squinting = {**EXPRESSION_UNITS["smile"], "browDownLeft": 0.6, "browDownRight": 0.6}
     faces = np.repeat((persona.neutral + units.doing(squinting))[None], len(persona), axis=0)
     known = replace(persona, points=expression_points(faces).astype(np.float32))
     assert "anger" not in {one.name for one in shown_expressions(known, units)}

@@ -9,7 +9,7 @@ import pytest
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LIPS_INNER, mouth_opening
 from engine.persona.texture.aligned_photos import align_photos
-from engine.persona.texture.template_shape import OPENING, template_shape
+from engine.persona.texture.template_shape import TEMPLATE_MOUTH_OPENING, template_shape
 from engine.persona.texture.texture_frame import TextureFrame, texture_frame
 
 SIZE = (122, 97)
@@ -81,7 +81,7 @@ def test_the_template_opens_its_mouth_as_the_person_does() -> None:
         one[lower, 1] += drop
         meshes.append(one)
     found = template_shape(np.array(meshes))
-    assert mouth_opening(found) == pytest.approx(OPENING, abs=0.03)
+    assert mouth_opening(found) == pytest.approx(TEMPLATE_MOUTH_OPENING, abs=0.03)
     still = np.ones(478, np.bool_)
     still[lower] = False
     assert np.abs(found - closed)[still].max() < 0.02

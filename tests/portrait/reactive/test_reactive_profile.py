@@ -22,7 +22,7 @@ from engine.media.image import read_image
 from engine.package_data import package_folder
 from engine.performances import performance, video
 from engine.portrait import KIND, PortraitOptions
-from engine.portrait.reactive.bundle import PACKAGE, SCRIPT
+from engine.portrait.reactive.bundle import BUNDLE_PACKAGE, SCRIPT_FILE
 from engine.portrait.reactive.document import Profile, schema
 from engine.portrait.reactive.states import choose_states
 from engine.run import Progress, Run
@@ -61,7 +61,7 @@ def brightness(path: Path) -> Frames:
 @pytest.fixture(scope="module")
 def made(small, media, tmp_path_factory) -> Made:
     """The idle state, and a driver of the user's own, 24 frames in which a mouth opens."""
-    if not (package_folder(PACKAGE) / SCRIPT).is_file():
+    if not (package_folder(BUNDLE_PACKAGE) / SCRIPT_FILE).is_file():
         pytest.fail("the player is not built: run `make setup`")
     out = tmp_path_factory.mktemp("profile")
     progress: list[Progress] = []

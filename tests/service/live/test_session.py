@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from service.live.outlet import Outlet
-from service.live.process import EVENT, LiveOrder
+from service.live.process import EVENT_TAG, LiveOrder
 from service.live.session import LiveSession
 from service.settings import Settings
 
@@ -20,7 +20,7 @@ class Echo:
 
     def __init__(self) -> None:
         self._said: asyncio.Queue[tuple[bytes, bytes] | None] = asyncio.Queue()
-        self._said.put_nowait((EVENT, b'{"event": "ready"}'))
+        self._said.put_nowait((EVENT_TAG, b'{"event": "ready"}'))
 
     def send(self, kind: bytes, data: bytes) -> bool:
         self._said.put_nowait((kind, data))

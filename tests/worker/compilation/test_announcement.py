@@ -14,7 +14,7 @@ from service.ids import new_id
 from service.job_records import jobs as repository
 from service.jobs import leases
 from service.tables.jobs import Job
-from worker.compilation.announcement import MESSAGE, STAGE, announce, take_back
+from worker.compilation.announcement import PREPARING_MESSAGE, PREPARING_STAGE, announce, take_back
 
 
 @pytest.fixture
@@ -52,7 +52,12 @@ def test_they_are_told_once_and_it_is_taken_back_once(context: Context) -> None:
     job_id = waiting(context, stage="rest", fraction=0.25, message="resting", eta_seconds=3.0)
     announce(context, ["tiny"])
     announce(context, ["tiny"])
-    assert progress(context, job_id) == {"stage": STAGE, "fraction": 0.25, "message": MESSAGE, "eta_seconds": None}
+    assert progress(context, job_id) == {
+        "stage": PREPARING_STAGE,
+        "fraction": 0.25,
+        "message": PREPARING_MESSAGE,
+        "eta_seconds": None,
+    }
     assert told(context, job_id) == 1
     take_back(context, ["tiny"])
     take_back(context, ["tiny"])
@@ -68,7 +73,7 @@ def test_where_one_of_their_kind_runs_they_wait_for_their_turn(context: Context)
     behind = waiting(context)
     announce(context, ["tiny", "other"])
     assert progress(context, behind) == {}
-    assert progress(context, other)["stage"] == STAGE
+    assert progress(context, other)["stage"] == PREPARING_STAGE
 
 
 def test_what_others_serve_and_what_runs_is_left_alone(context: Context) -> None:

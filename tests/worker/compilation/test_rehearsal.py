@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 from running import Running, eventually
 
-from worker.compilation.announcement import MESSAGE, STAGE
+from worker.compilation.announcement import PREPARING_MESSAGE, PREPARING_STAGE
 
 Start = Callable[..., Running]
-TOLD = {"stage": STAGE, "fraction": 0.0, "message": MESSAGE, "eta_seconds": None}
+TOLD = {"stage": PREPARING_STAGE, "fraction": 0.0, "message": PREPARING_MESSAGE, "eta_seconds": None}
 SHOWN = TOLD | {"stages": []}
 TAKEN_BACK = {"stage": None, "fraction": 0.0, "message": "", "eta_seconds": None}
 
@@ -35,7 +35,7 @@ def test_who_waits_is_told_until_it_is_over_and_it_is_not_done_again(
 ) -> None:
     running = start(kinds="rehearsing_kind:KIND")
     job_id = running.submit(picture)["id"]
-    eventually(lambda: running.job(job_id)["progress"]["stage"] == STAGE, "it is told")
+    eventually(lambda: running.job(job_id)["progress"]["stage"] == PREPARING_STAGE, "it is told")
     assert running.job(job_id)["status"] == "queued" and running.job(job_id)["progress"] == SHOWN
     eventually(lambda: running.processes("worker.compilation.rehearsal") != [], "it is at it")
     figures = running.client.get("/metrics").text
@@ -56,7 +56,7 @@ def test_kinds_that_are_ready_do_not_wait_for_those_that_are_not(
 ) -> None:
     running = start(kinds="tiny_kind:KIND,rehearsing_kind:OTHER")
     waits = running.submit(picture, kind="other")["id"]
-    eventually(lambda: running.job(waits)["progress"]["stage"] == STAGE, "it is told")
+    eventually(lambda: running.job(waits)["progress"]["stage"] == PREPARING_STAGE, "it is told")
     running.until(running.submit(picture)["id"], "succeeded")
     assert running.job(waits)["status"] == "queued"
     before = running.processes("worker.job_process.child")

@@ -13,11 +13,11 @@ from scipy.interpolate import PchipInterpolator
 
 from engine.avatar.landmarks.spatial import LID_LANDMARKS
 
-ROUND_ENDS = 0.12
+ROUND_ENDS_WIDTH_SHARE = 0.12
 """Of the width at either corner, over which rims keep the template's rounding: landmarks of lids meet there in a point."""
-WITHOUT_INNER_CORNER = 0.8
+OUTLINE_WIDTH_SHARE = 0.8
 """Of the width from the outer corner, within which the template's rims are the outline; farther in is flesh."""
-OUTLINE_SHARES = np.linspace(ROUND_ENDS, 1 - ROUND_ENDS, 9)
+OUTLINE_SHARES = np.linspace(ROUND_ENDS_WIDTH_SHARE, 1 - ROUND_ENDS_WIDTH_SHARE, 9)
 """Shares of the width at which outlines are compared."""
 
 
@@ -72,7 +72,7 @@ def outline_of_rim(rim: NDArray[np.floating], inner: NDArray[np.floating]) -> Ey
     at, tip = np.asarray(rim, np.float64), np.asarray(inner, np.float64)
     outer = at[np.argmax(at[:, 0])]
     share = (outer[0] - at[:, 0]) / (outer[0] - tip[0])
-    own = (share > 0) & (share < WITHOUT_INNER_CORNER)
+    own = (share > 0) & (share < OUTLINE_WIDTH_SHARE)
     above = at[:, 1] > outer[1] + share * (tip[1] - outer[1])
     by_share = np.argsort(share)
     upper, lower = (at[[k for k in by_share if own[k] and above[k] == side]] for side in (True, False))

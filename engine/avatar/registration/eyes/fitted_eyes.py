@@ -23,15 +23,15 @@ from engine.geometry.registration.rigid import Similarity, fit_similarity
 
 BALL_RADII = (0.012, 0.0175)
 """Metres: least and greatest radius of an eyeball. The least is a human one's; the template's lids are wide, and so is its eyeball."""
-IRIS_RADIUS, IRIS_RADII = 0.00585, (0.0052, 0.0072)
+IRIS_RADIUS_METRES, IRIS_RADIUS_RANGE_METRES = 0.00585, (0.0052, 0.0072)
 """Metres: the radius of a human iris, and between which one is believed that is measured."""
-MAX_OFF = np.array([0.003, 0.002])
+MAX_EYEBALL_OFFSET_METRES = np.array([0.003, 0.002])
 """Metres, outwards and up, by which an eyeball stands off its usual place between the lids at most: what is more is a gaze."""
 HORIZON_RADII = 0.94
 """Radii off the axis of gaze beyond which an eyeball's surface falls too steeply for lids to lie on it."""
 LID_RINGS = 7
 """Rings of vertices about a rim that go with it: over fewer lids are crumpled that stand elsewhere than the fit has left them."""
-SOCKET_REACH = 1.3
+SOCKET_REACH_RADII = 1.3
 """Radii of the template's eyeball about its middle within which skin that is not seen is its socket ..."""
 SOCKET_RADII = 0.93
 """... and where it is put: in the eyeball, so that it shows neither between this and the lids nor through these."""
@@ -61,7 +61,7 @@ def with_sockets(template: Template, skin: Skin, vertices: NDArray[np.float64]) 
         middle, radius = sphere(ball)
         away = template.vertices[inner] - middle
         far = np.linalg.norm(away, axis=1)
-        near = far < SOCKET_REACH * radius
+        near = far < SOCKET_REACH_RADII * radius
         within_ball = middle + SOCKET_RADII * radius * away[near] / far[near, None]
         out[inner[near]] = fit_similarity(ball, vertices[at])(within_ball)
     return out
@@ -138,7 +138,7 @@ def with_eyes(
         turned = (ball - own_middle) / own_radius * [OUTWARD_SIGNS[eye.part], 1, 1] @ eye.axes
         out[template.vertices_of(eye.part)] = np.array([*middle_across, depth]) @ eye.axes + radius * turned
     out[skin.vertices] = _lids(template, skin, before, out, head, {eye.part: eye.rim for eye in eyes}, rims)
-    return FittedEyes(out, _iris_radius(seen) if measured else IRIS_RADIUS, measured)
+    return FittedEyes(out, _iris_radius(seen) if measured else IRIS_RADIUS_METRES, measured)
 
 
 def _eye(
@@ -175,7 +175,7 @@ def _off_usual_place(eyes: list[_Eye]) -> list[NDArray[np.float64]]:
         if eye.iris is None:
             return [np.zeros(2)] * len(eyes)
         off.append(np.asarray(eye.iris - eye.usual_middle()))
-    return [np.clip(np.mean(off, 0), -MAX_OFF, MAX_OFF)] * len(eyes)
+    return [np.clip(np.mean(off, 0), -MAX_EYEBALL_OFFSET_METRES, MAX_EYEBALL_OFFSET_METRES)] * len(eyes)
 
 
 def _ahead(off: NDArray[np.float64], radius: float) -> NDArray[np.float64]:
@@ -187,7 +187,7 @@ def _ahead(off: NDArray[np.float64], radius: float) -> NDArray[np.float64]:
 def _iris_radius(seen: NDArray[np.floating]) -> float:
     """Metres, of irises in landmarks (2, 21, 3): half of how far their sides are apart, which lids do not hide."""
     sides = seen[:, LID_LANDMARKS + 1] - seen[:, LID_LANDMARKS + 3]
-    return float(np.clip(np.linalg.norm(sides, axis=1).mean() / 2, *IRIS_RADII))
+    return float(np.clip(np.linalg.norm(sides, axis=1).mean() / 2, *IRIS_RADIUS_RANGE_METRES))
 
 
 def _lids(

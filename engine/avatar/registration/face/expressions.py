@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.avatar.registration.eyes.blinking import BLINKS, before_the_eye, meeting_rims
+from engine.avatar.registration.eyes.blinking import BLINK_UNITS, before_the_eye, meeting_rims
 from engine.avatar.registration.face.face_parts import head_change
 from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import FACE_UNITS, Template
@@ -49,7 +49,7 @@ def transferred_units(template: Template, skin: Skin, rest: NDArray[np.floating]
         moved = np.zeros_like(offsets)
         for part, vertices in parts.items():
             moved[vertices] = placed[part].offsets(offsets[vertices])
-        if name in BLINKS:
+        if name in BLINK_UNITS:
             _blink(template, skin, own, name, moved)
         else:
             moved[patch.vertices] = patch(offsets)
@@ -62,10 +62,10 @@ def _blink(template: Template, skin: Skin, rest: NDArray[np.float64], name: str,
     along smoothly. What lies beyond stays: the template's own blink moves as much as it has of skin below its brows, and a person's
     brows may be there."""
     rims = meeting_rims(template, skin, name)
-    eyeball = rest[template.vertices_of(BLINKS[name])]
+    eyeball = rest[template.vertices_of(BLINK_UNITS[name])]
     own = rest[skin.vertices]
     told = skin.index_of(rims.vertices)
-    loop = np.flatnonzero(skin.regions[f"{BLINKS[name]}_rim"])
+    loop = np.flatnonzero(skin.regions[f"{BLINK_UNITS[name]}_rim"])
     moved = np.zeros_like(own)
     moved[told] = rims.met(eyeball, rest) - own[told]
     width = float(np.ptp(own[loop], axis=0).max())

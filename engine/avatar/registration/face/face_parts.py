@@ -18,19 +18,19 @@ from engine.render.rasteriser import depth_map
 
 MOUTH_PARTS = ("upper_teeth", "lower_teeth", "tongue")
 """What lies in the mouth, and is placed as one: teeth meet as they do in the template."""
-MOUTH_SURROUNDINGS = 0.045
+MOUTH_SURROUNDINGS_METRES = 0.045
 """Metres of the template about the middle of the teeth within which visible skin says how large they are, and how deep they lie."""
-LIPS_MEET = (62, 66)
+LIPS_MEETING_FACE_POINTS = (62, 66)
 """Face landmarks: the middle of the lips' inner edges."""
 INCISOR_DEPTH_METRES = 0.02
 """Metres of the template behind the foremost of the teeth within which they are incisors."""
-INCISORS_SHOWN = 0.004
+SHOWN_INCISORS_METRES = 0.004
 """Metres by which the edge of the upper incisors lies below where the lips meet: what shows of them as lips part."""
-TEETH_DEPTH = 0.002
+TEETH_DEPTH_METRES = 0.002
 """Metres that teeth lie behind the visible skin at rest, at least ..."""
-EXPRESSION_DEPTH = 0.0005
+EXPRESSION_DEPTH_METRES = 0.0005
 """... and seen from the front, behind what any face unit of the mouth makes of it."""
-FRONT_PIXEL = 0.0005
+FRONT_PIXEL_METRES = 0.0005
 """Metres between the places at which that is looked at."""
 MOUTH_UNITS = (
     *("jawForward", "jawLeft", "jawRight", "mouthFunnel", "mouthLeft", "mouthPucker", "mouthRight", "mouthRollLower"),
@@ -41,11 +41,11 @@ SIDED_MOUTH_UNITS = (
     "mouthUpperUp",
 )
 """Face units that press skin against teeth; of the latter both sides do."""
-TONGUE_HEIGHT = 0.6
+TONGUE_HEIGHT_SHARE = 0.6
 """Of the template's tongue's, which fills a mouth that opens."""
-BACK_STEP, MAX_BACK = 0.0005, 0.03
+SETBACK_STEP_METRES, MAX_SETBACK_METRES = 0.0005, 0.03
 """Metres by which they are set back at a time, and at most."""
-SKIN_FOLLOWERS = 4
+FOLLOWED_SKIN_VERTICES = 4
 """Vertices of the skin whose motion, weighted by nearness, a vertex of no such part follows."""
 
 
@@ -55,7 +55,7 @@ def place_parts(
     """All the template's vertices (V, 3) for the `fitted` skin (S, 3), from `model` (V, 3), the whole template before the fit.
 
     Skin is as it was fitted; what is in the mouth is the template's own, as the face is turned and the skin about it is large,
-    its upper incisors `INCISORS_SHOWN` below the lip, behind the lips; and what is left (eyeballs, lashes, cages of cloth,
+    its upper incisors `SHOWN_INCISORS_METRES` below the lip, behind the lips; and what is left (eyeballs, lashes, cages of cloth,
     joints' cubes) goes with the nearest skin.
     """
     before, after = np.asarray(model, np.float64), np.asarray(fitted, np.float64)
@@ -68,7 +68,7 @@ def place_parts(
     mouth = placed(own) - back * head.rotation[:, 2]
     tongue, up = template.vertices_of("tongue"), head.rotation[:, 1]
     height = (mouth[tongue] - mouth[tongue].mean(0)) @ up
-    mouth[tongue] += (TONGUE_HEIGHT - 1) * height[:, None] * up
+    mouth[tongue] += (TONGUE_HEIGHT_SHARE - 1) * height[:, None] * up
     out[inside] = _behind_lips(skin, after, mouth[inside], head)
     out[skin.vertices] = after
     return out
@@ -87,14 +87,14 @@ def _in_mouth(
     teeth = own[np.concatenate([template.vertices_of(part) for part in ("upper_teeth", "lower_teeth")])]
     upper = own[template.vertices_of("upper_teeth")]
     shown = ~skin.regions["inner"] & skin.regions["head"]
-    near = shown & (np.linalg.norm(own[skin.vertices] - teeth.mean(0), axis=1) < MOUTH_SURROUNDINGS)
+    near = shown & (np.linalg.norm(own[skin.vertices] - teeth.mean(0), axis=1) < MOUTH_SURROUNDINGS_METRES)
     around = fit_similarity(own[skin.vertices[near]], after[near])
     linear = around.scale * head.rotation
     incisors = upper[upper[:, 2] > upper[:, 2].max() - INCISOR_DEPTH_METRES]
     edge = np.array([teeth[:, 0].mean(), incisors[:, 1].min(), incisors[:, 2].max()])
-    lip = after[skin.face_points[list(LIPS_MEET)]].mean(0)
+    lip = after[skin.face_points[list(LIPS_MEETING_FACE_POINTS)]].mean(0)
     _, up, ahead = head.rotation.T
-    goal = lip - INCISORS_SHOWN * up
+    goal = lip - SHOWN_INCISORS_METRES * up
     depth = (around(edge) - goal) @ ahead
     return Similarity(linear, goal + depth * ahead - linear @ edge)
 
@@ -109,7 +109,7 @@ def _back_in_expressions(
     parts = triangulate(template.quads[template.faces(*MOUTH_PARTS)]).astype(np.int32)
     hull = skin.triangles[skin.visible & skin.regions["face"][skin.triangles].all(1)]
     inside = placed(template.vertices.astype(np.float64))
-    axes = head.rotation.T / FRONT_PIXEL  # to aside, up and ahead, in pixels
+    axes = head.rotation.T / FRONT_PIXEL_METRES  # to aside, up and ahead, in pixels
     rest = inside[parts].reshape(-1, 3) @ axes.T
     corner = np.floor(rest.min(0))
     height, width = np.ceil(rest.max(0) - corner).astype(int)[1::-1] + 1
@@ -124,7 +124,7 @@ def _back_in_expressions(
             depths.append(depth_map(seen.astype(np.float32), triangles, (height, width)))
         both = np.isfinite(depths[0]) & np.isfinite(depths[1])
         through = float((depths[0][both] - depths[1][both]).max(initial=-np.inf))
-        back = max(back, through * FRONT_PIXEL + EXPRESSION_DEPTH)
+        back = max(back, through * FRONT_PIXEL_METRES + EXPRESSION_DEPTH_METRES)
     return back
 
 
@@ -141,13 +141,13 @@ def _mouth_poses(template: Template) -> Iterator[NDArray[np.float32]]:
 def _behind_lips(
     skin: Skin, fitted: NDArray[np.float64], points: NDArray[np.float64], head: Similarity
 ) -> NDArray[np.float64]:
-    """The points (N, 3) set back into the head, all alike, until all are `TEETH_DEPTH` behind the visible skin."""
+    """The points (N, 3) set back into the head, all alike, until all are `TEETH_DEPTH_METRES` behind the visible skin."""
     hull = skin.triangles[skin.visible]
     backwards = -head.rotation[:, 2]
-    for back in np.arange(0, MAX_BACK, BACK_STEP):
+    for back in np.arange(0, MAX_SETBACK_METRES, SETBACK_STEP_METRES):
         placed = points + back * backwards
         inside = winding_numbers(placed, fitted, hull) > 0.5
-        if inside.all() and closest_points(placed, fitted, hull).distance.min() > TEETH_DEPTH:
+        if inside.all() and closest_points(placed, fitted, hull).distance.min() > TEETH_DEPTH_METRES:
             break
     return np.asarray(placed)
 
@@ -156,7 +156,7 @@ def _carried_by_skin(
     before: NDArray[np.float64], skin_before: NDArray[np.float64], skin_after: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Each vertex (V, 3) moved as the nearest vertices of the skin."""
-    distance, near = cKDTree(skin_before).query(before, k=SKIN_FOLLOWERS)
+    distance, near = cKDTree(skin_before).query(before, k=FOLLOWED_SKIN_VERTICES)
     weights = 1 / np.maximum(distance, 1e-6)
     weights /= weights.sum(1, keepdims=True)
     moved = (skin_after - skin_before)[near]

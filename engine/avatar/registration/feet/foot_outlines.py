@@ -16,7 +16,7 @@ from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, dis
 from engine.render.rasteriser import rasterise
 from engine.render.sampling import bilinear
 
-OUTLINE_REACH = 0.12
+OUTLINE_REACH_METRES = 0.12
 """Metres around a foot within which its outline may be."""
 COVER_PIXELS = 2
 """From what else a view shows of the body, within which an outline is not the foot's alone."""
@@ -68,7 +68,7 @@ def foot_sights(
     """What silhouettes have about a foot's places (F, 3), beside the rest of the `body` (S, 3), its `triangles` (T, 3) without the
     foot's."""
     corners = np.stack(
-        np.meshgrid(*np.stack([foot.min(0) - OUTLINE_REACH, foot.max(0) + OUTLINE_REACH], 1)), -1
+        np.meshgrid(*np.stack([foot.min(0) - OUTLINE_REACH_METRES, foot.max(0) + OUTLINE_REACH_METRES], 1)), -1
     ).reshape(-1, 3)
     found = []
     for one in silhouettes:

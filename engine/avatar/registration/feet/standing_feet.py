@@ -22,11 +22,11 @@ from engine.body.fitting.least_squares import levenberg_marquardt
 from engine.geometry.closest_points import closest_points
 from engine.geometry.deformation.handles import handles
 from engine.geometry.deformation.laplacian_deformation import LaplacianDeformation
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.point_cloud import PointCloud
 from engine.geometry.surface import face_normals
 
-BENT_HEIGHT = 0.6
+BENT_KNEE_HEIGHT_SHARE = 0.6
 """Of the height of the knee, up to which a leg is bent towards its foot."""
 ANKLE_SIGMA = 0.015
 """Metres on the ground by which the ankle is off where the coarse fit has it, usually ..."""
@@ -40,11 +40,11 @@ SIZE_SIGMAS = (0.05, 0.04, 0.08)
 """Shares by which a foot is longer, wider and higher than is usual for the body."""
 POINT_SIGMA_METRES = 0.004
 """Metres by which points are off, at least; they are as far as they lie from the foot, root mean square, and all alike: ..."""
-INDEPENDENT_POINTS = 8.0
+INDEPENDENT_FOOT_POINTS = 8.0
 """... they count as so many independent ones, at most."""
 MATCHING_GATES_METRES = (0.04, 0.04, 0.03, 0.03, 0.025, 0.02, 0.015, 0.015, 0.012, 0.012)
 """Metres within which points are matched, from round to round."""
-MIN_FACING = 0.4
+MIN_FACING_COSINE = 0.4
 """The cosine between the normals of a point and of the foot there, at least."""
 FLOOR_REACH_METRES = 0.008
 """Metres above the sole up to which points may be the floor's."""
@@ -53,7 +53,7 @@ OUTLINE_SIGMA = 0.002
 HIDDEN_SHARE, HIDDEN_GATE = 0.5, 0.5
 """... up to so much of the way from the ankle to the tip trousers may hide them: there, within the person's silhouette, they are
 matched within so much of the gate; ..."""
-INDEPENDENT_OUTLINES = 12.0
+INDEPENDENT_OUTLINE_POINTS = 12.0
 """... so many points of them count as independent: a few in each of the frames."""
 MAX_MATCHED_POINTS = 1500
 """Of a foot, that are matched in one round."""
@@ -102,7 +102,7 @@ def with_feet(
     joints = np.asarray(models.space.joints(coefficients), np.float64)
     whole = skin.regions["lower_feet"]
     moved, places, turns = body.vertices.copy(), body.joints.copy(), body.rotations.copy()
-    for side, mask in zip(SIDES, models.feet.masks, strict=True):
+    for side, mask in zip(SIDE_NAMES, models.feet.masks, strict=True):
         foot = _foot(models, side, np.flatnonzero(mask & whole), rest, joints)
         ankle, toes = (models.space.names.index(f"{side}{name}") for name in ("Foot", "ToeBase"))
         start = _start(foot, places[ankle], turns[ankle])
@@ -114,8 +114,8 @@ def with_feet(
         places[[ankle, toes]] = foot.moved(joints[[ankle, toes]] - ground, found[None])[0]
         turns[[ankle, toes]] = _about_vertical(found[3])
     knee = joints[models.space.names.index("LeftLeg"), 1]
-    legs = np.isin(np.array(models.rig.names)[skin.bones[:, 0]], [f"{side}Leg" for side in SIDES])
-    bent = ((legs & (bare[:, 1] < BENT_HEIGHT * knee)) | skin.regions["feet"]) & ~whole
+    legs = np.isin(np.array(models.rig.names)[skin.bones[:, 0]], [f"{side}Leg" for side in SIDE_NAMES])
+    bent = ((legs & (bare[:, 1] < BENT_KNEE_HEIGHT_SHARE * knee)) | skin.regions["feet"]) & ~whole
     deformation = LaplacianDeformation(body.vertices, skin.triangles, handles(len(moved), np.flatnonzero(~bent)))
     return replace(body, vertices=deformation(moved[~bent]), joints=places, rotations=turns)
 
@@ -212,7 +212,7 @@ def _outlines_term(
     if not weights.any():
         return None
     sigma = max(float(np.sqrt((weights * now**2).sum() / weights.sum())), OUTLINE_SIGMA)
-    scale = np.sqrt(weights * min(1.0, INDEPENDENT_OUTLINES / weights.sum())) / sigma
+    scale = np.sqrt(weights * min(1.0, INDEPENDENT_OUTLINE_POINTS / weights.sum())) / sigma
     return lambda parameters: off(parameters) * scale
 
 
@@ -232,12 +232,12 @@ def _matched(
     points = cloud[numbers[:: max(1, len(numbers) // MAX_MATCHED_POINTS)]]
     nearest = closest_points(points.points, vertices, foot.triangles)
     normals = face_normals(vertices, foot.triangles)[nearest.triangle]
-    used = (nearest.distance < gate) & ((normals * points.normals).sum(1) > MIN_FACING)
+    used = (nearest.distance < gate) & ((normals * points.normals).sum(1) > MIN_FACING_COSINE)
     if not used.any():
         return None
     own = np.einsum("mk,mkc->mc", nearest.barycentrics, foot.places[foot.triangles[nearest.triangle]])[used]
     weights = (1 - (nearest.distance[used] / gate) ** 2) ** 2
-    weights *= min(1.0, INDEPENDENT_POINTS / weights.sum())
+    weights *= min(1.0, INDEPENDENT_FOOT_POINTS / weights.sum())
     sigma = max(float(np.sqrt((nearest.distance[used] ** 2).mean())), POINT_SIGMA_METRES)
     return own, normals[used], points.points[used].astype(np.float64), np.sqrt(weights) / sigma
 

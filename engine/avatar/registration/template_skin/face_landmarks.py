@@ -15,11 +15,11 @@ from engine.perception.landmarks import fiducials
 
 FRONT_COSINE = 0.1
 """Of the angle between a normal and straight ahead, beyond which a vertex is seen from the front, as landmarks of faces are."""
-UPPER_BORDER, LOWER_BORDER = (49, 50, 51, 52, 53), (55, 56, 57, 58, 59)
+UPPER_LIP_BORDER_POINTS, LOWER_LIP_BORDER_POINTS = (49, 50, 51, 52, 53), (55, 56, 57, 58, 59)
 """Landmarks on the border of the lips' red, above and below ..."""
-UPPER_LINE, LOWER_LINE = (61, 62, 63), (65, 66, 67)
+UPPER_LIP_LINE_POINTS, LOWER_LIP_LINE_POINTS = (61, 62, 63), (65, 66, 67)
 """... and where the lips meet. The canonical face's lips are not as high as the template's."""
-LINE_REACH = 0.002
+LINE_REACH_METRES = 0.002
 """Metres across within which vertices of a line are one place of it: the foremost is seen."""
 
 
@@ -46,10 +46,10 @@ def landmark_vertices(
     border = red & ahead & (neighbours(triangles, len(red)) @ (~red).astype(np.float64) > 0)
     middle = float(mean[np.concatenate(touching), 1].mean())
     for landmarks, line in (
-        (UPPER_BORDER, np.flatnonzero(border & (mean[:, 1] > middle))),
-        (LOWER_BORDER, np.flatnonzero(border & (mean[:, 1] < middle))),
-        (UPPER_LINE, touching[0]),
-        (LOWER_LINE, touching[1]),
+        (UPPER_LIP_BORDER_POINTS, np.flatnonzero(border & (mean[:, 1] > middle))),
+        (LOWER_LIP_BORDER_POINTS, np.flatnonzero(border & (mean[:, 1] < middle))),
+        (UPPER_LIP_LINE_POINTS, touching[0]),
+        (LOWER_LIP_LINE_POINTS, touching[1]),
     ):
         for landmark in landmarks:
             found[landmark] = _foremost(mean, line, float(known[landmark, 0]))
@@ -59,5 +59,5 @@ def landmark_vertices(
 def _foremost(places: NDArray[np.float64], line: NDArray[np.intp], across: float) -> int:
     """Of the vertices of a `line`, those that lie `across` (x, metres), the one that is farthest ahead."""
     off = np.abs(places[line, 0] - across)
-    near = line[off < off.min() + LINE_REACH]
+    near = line[off < off.min() + LINE_REACH_METRES]
     return int(near[np.argmax(places[near, 2])])

@@ -13,9 +13,9 @@ from scipy.sparse.csgraph import connected_components
 from engine.body.template import Template
 from engine.geometry.adjacency import edge_table
 
-UPPER_LID = 0.25
+UPPER_LID_MIN_HEIGHT_RADII = 0.25
 """Radii of the eyeball above its middle beyond which what is near to it is of the upper lid."""
-RIM_RADII_RANGE = 1.02, 1.08
+LID_RIM_RADII = 1.02, 1.08
 """Radii of the eyeball about its middle between which the lid's rim lies there."""
 
 
@@ -32,7 +32,12 @@ def lid_rim(template: Template, part: str) -> NDArray[np.intp]:
     skin = np.unique(quads)
     away = (template.vertices[skin] - middle) / radius
     reach = np.linalg.norm(away, axis=1)
-    above = (away[:, 1] > UPPER_LID) & (away[:, 2] > 0) & (reach > RIM_RADII_RANGE[0]) & (reach < RIM_RADII_RANGE[1])
+    above = (
+        (away[:, 1] > UPPER_LID_MIN_HEIGHT_RADII)
+        & (away[:, 2] > 0)
+        & (reach > LID_RIM_RADII[0])
+        & (reach < LID_RIM_RADII[1])
+    )
     if not above.any():
         raise ValueError(f"no lid lies about {part}")
     first = int(skin[above][np.argmax(away[above, 2])])

@@ -12,7 +12,7 @@ from engine.geometry.closest_points import closest_points
 from engine.geometry.deformation.handles import surface_points
 from engine.geometry.surface import face_normals, vertex_normals
 
-MAX_LIP_GAP = 0.001
+MAX_LIP_GAP_METRES = 0.001
 """Metres between the lips of the mean body, within which they touch: along one line on each, where the template leaves a slit."""
 FACING_COSINE = -0.2
 """Between their normals, below which they face each other."""
@@ -42,7 +42,7 @@ def lip_contact(
         opposite = triangles[other[triangles].all(1)]
         nearest = closest_points(places[own], places, opposite)
         facing = (normals[own] * face_normals(places, opposite)[nearest.triangle]).sum(1) < FACING_COSINE
-        touching = np.flatnonzero((nearest.distance < MAX_LIP_GAP) & facing)
+        touching = np.flatnonzero((nearest.distance < MAX_LIP_GAP_METRES) & facing)
         points = surface_points(opposite, nearest.triangle[touching], nearest.barycentrics[touching], len(places))
         rows = np.arange(len(touching))
         here = sp.csr_array((np.ones(len(touching)), (rows, own[touching])), (len(touching), len(places)))

@@ -21,13 +21,13 @@ from engine.body.rig import Rig
 from engine.body.template import Template, vertex_mask
 from engine.geometry.adjacency import edge_table, neighbours
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.surface import triangulate
 from engine.render.rasteriser import rasterise
 
 FACE_RADII = np.array([0.085, 0.106, 0.106])
 """Metres about the tip of the nose, x, y and z, within which the head is face."""
-VISIBILITY_VIEWS, VIEW_DISTANCE, VIEW_SIZE = 120, 0.6, 700
+HEAD_VIEW_COUNT, HEAD_VIEW_DISTANCE_METRES, HEAD_VIEW_PIXELS = 120, 0.6, 700
 """From how many sides, from how far away (metres), and how large (pixels), a head is looked at to find what is seen of it."""
 LIP_UNITS = ("mouthRollLower", "mouthRollUpper", "mouthFunnel", "mouthPucker", "mouthPressLeft", "mouthPressRight")
 """Face units that move lips and the skin above and below, where a moustache or a beard grows ..."""
@@ -35,17 +35,17 @@ LID_UNITS = ("eyeBlinkLeft", "eyeBlinkRight")
 EYE_PARTS = ("left_eye", "right_eye")
 LID_RINGS = 3
 """Rings of vertices about the rims of lids that are close to them."""
-MIN_UNIT_MOTION = 0.002
+MIN_UNIT_MOTION_METRES = 0.002
 """... by more than this, in metres."""
-JAW_DROP = 0.008
+JAW_DROP_METRES = 0.008
 """Metres by which what hangs on the jaw goes down as it opens."""
-NIPPLE_BOX = np.array([[-0.25, 1.0, 0.03], [0.25, 1.6, 1.0]])
-FINE_EDGE = 0.009
+NIPPLE_BOX_METRES = np.array([[-0.25, 1.0, 0.03], [0.25, 1.6, 1.0]])
+FINE_EDGE_METRES = 0.009
 """Vertices of the trunk whose edges are shorter in the mean, metres, are nipples (or the navel), which no clothes show."""
 
-MIN_WHOLE = 0.99
+MIN_HAND_WEIGHT = 0.99
 """What joints of a hand share at least in a vertex that the forearm does not bend."""
-LOWER_FOOT = 0.2
+LOWER_FOOT_LENGTH_SHARE = 0.2
 """Of a foot's length: so far above the ground it is the lower foot."""
 
 
@@ -95,7 +95,7 @@ def load_skin(template: Template, space: BodySpace, rig: Rig) -> Skin:
     regions = _regions(template, space.mean[vertices], vertices, triangles, strongest)
     regions["head"] = head
     of_hands = np.char.find(np.array(rig.names), "Hand") >= 0
-    regions["whole_hands"] = (rig.weights[vertices] * of_hands[rig.bones[vertices]]).sum(1) > MIN_WHOLE
+    regions["whole_hands"] = (rig.weights[vertices] * of_hands[rig.bones[vertices]]).sum(1) > MIN_HAND_WEIGHT
     shown = np.zeros(len(vertices), np.bool_)
     shown[triangles[seen]] = True
     regions["inner"] = ~shown
@@ -104,7 +104,7 @@ def load_skin(template: Template, space: BodySpace, rig: Rig) -> Skin:
         regions[f"{part}_rim"] = rim
         regions[f"{part}_lids"] = grown(rim, triangles, LID_RINGS) & shown
         regions["lids"] |= regions[f"{part}_lids"]
-    lower = template.face_units.dense(("jawOpen",))[0, vertices, 1] < -JAW_DROP
+    lower = template.face_units.dense(("jawOpen",))[0, vertices, 1] < -JAW_DROP_METRES
     contact = lip_contact(mean, triangles, regions["lips"] & shown, lower)
     touching = np.unique(contact.indices[contact.data == 1])
     lips = touching[~lower[touching]], touching[lower[touching]]
@@ -130,25 +130,25 @@ def _regions(
 ) -> dict[str, NDArray[np.bool_]]:
     def moved_by(units: tuple[str, ...]) -> NDArray[np.bool_]:
         fields = template.face_units.dense(units)[:, vertices]
-        return np.asarray(np.linalg.norm(fields, axis=2).max(0) > MIN_UNIT_MOTION)
+        return np.asarray(np.linalg.norm(fields, axis=2).max(0) > MIN_UNIT_MOTION_METRES)
 
     joined = np.unique(
         np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), 1), axis=0
     )
     lengths = np.linalg.norm(mean[joined[:, 0]] - mean[joined[:, 1]], axis=1).repeat(2)
     edge = np.bincount(joined.ravel(), lengths) / np.bincount(joined.ravel())
-    trunk = ((mean > NIPPLE_BOX[0]) & (mean < NIPPLE_BOX[1])).all(1)
+    trunk = ((mean > NIPPLE_BOX_METRES[0]) & (mean < NIPPLE_BOX_METRES[1])).all(1)
     trunk &= np.isin(
         strongest, ["Spine", "Spine1", "Spine2", "LeftShoulder", "RightShoulder", "LeftArm", "RightArm", "Hips"]
     )
-    feet = np.isin(strongest, [f"{side}{bone}" for side in SIDES for bone in ("Foot", "ToeBase")])
+    feet = np.isin(strongest, [f"{side}{bone}" for side in SIDE_NAMES for bone in ("Foot", "ToeBase")])
     return {
         "lips": moved_by(LIP_UNITS) | (vertex_mask(template, "lips")[vertices] > 0.5),
         "lids": moved_by(LID_UNITS),
         "hands": np.char.find(strongest, "Hand") >= 0,
         "feet": feet,
-        "lower_feet": feet & (mean[:, 1] < mean[feet, 1].min() + LOWER_FOOT * np.ptp(mean[feet, 2])),
-        "hidden_by_cloth": grown(trunk & (edge < FINE_EDGE), triangles, 2),
+        "lower_feet": feet & (mean[:, 1] < mean[feet, 1].min() + LOWER_FOOT_LENGTH_SHARE * np.ptp(mean[feet, 2])),
+        "hidden_by_cloth": grown(trunk & (edge < FINE_EDGE_METRES), triangles, 2),
     }
 
 
@@ -178,15 +178,15 @@ def _visible(template: Template, space: BodySpace, triangles: NDArray[np.integer
     eyes = triangulate(template.quads[template.faces("left_eye", "right_eye")])
     everything = np.concatenate([triangles, eyes]).astype(np.int32)
     middle = space.mean[template.vertices_of("left_eye")].mean(0).astype(np.float64) * [0, 1, 1]
-    half = (VIEW_SIZE - 1) / 2
-    lens = Camera((0.0, 0.0, 0.0), VIEW_SIZE * 1.6, (half, half), (VIEW_SIZE, VIEW_SIZE))
+    half = (HEAD_VIEW_PIXELS - 1) / 2
+    lens = Camera((0.0, 0.0, 0.0), HEAD_VIEW_PIXELS * 1.6, (half, half), (HEAD_VIEW_PIXELS, HEAD_VIEW_PIXELS))
     seen = np.zeros(len(everything), np.bool_)
-    for k in range(VISIBILITY_VIEWS):  # along a spiral of equal areas
-        rise = 0.98 * (1 - (2 * k + 1) / VISIBILITY_VIEWS)
+    for k in range(HEAD_VIEW_COUNT):  # along a spiral of equal areas
+        rise = 0.98 * (1 - (2 * k + 1) / HEAD_VIEW_COUNT)
         turn = k * np.pi * (3 - np.sqrt(5))
         level = np.sqrt(1 - rise**2)
         aside = np.array([level * np.sin(turn), rise, level * np.cos(turn)])
-        camera = lens.aimed(middle + VIEW_DISTANCE * aside, middle)
+        camera = lens.aimed(middle + HEAD_VIEW_DISTANCE_METRES * aside, middle)
         found = rasterise(camera.project(space.mean), everything, camera.size, perspective=True).triangle
         seen[found[found >= 0]] = True
     return seen[: len(triangles)]

@@ -14,19 +14,19 @@ from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.imaging.histogram_matching import from_lab, to_lab
 from engine.render.rasteriser import Raster
 
-CHEEK_RADIUS = 0.022
+CHEEK_RADIUS_METRES = 0.022
 """Metres about the middles of cheeks and nose within which a face is bare skin: below the lids, above the lips."""
-SKIN_HUES = (15.0, 85.0)
+SKIN_HUE_RANGE_DEGREES = (15.0, 85.0)
 """Degrees in CIELAB's a and b between which skin lies, of whatever tone; in warm and in cold light."""
-MIN_CHROMA = 5.0
+MIN_HUE_CHROMA = 5.0
 """In CIELAB, below which a colour has no hue."""
 MIN_FACE_SHARE = 0.5
 """Of what a face shows there that has to be of such hues: else a mask or a helmet covers it."""
-SKIN_DISTANCE = 14.0
+MAX_SKIN_COLOUR_DISTANCE = 14.0
 """In CIELAB, lightness by half (shading), within which a colour is like the person's skin."""
 MIN_HAND_SHARE = 0.2
 """Of what frames show of a hand that has to be like the face's skin for the hand's own tone to be believed."""
-GLOVE_SEEN, GLOVE_SPREAD, GLOVE_DISTANCE = 0.3, 8.0, 12.0
+MIN_GLOVE_SHARE, MAX_GLOVE_COLOUR_SPREAD, MIN_GLOVE_COLOUR_DISTANCE = 0.3, 8.0, 12.0
 """A glove is seen on so much of a hand at least, in colours whose median distance from their middle is below so much, and so far
 from those of the sleeve: what is like the sleeve is a sleeve, seen beside the hand."""
 
@@ -43,7 +43,7 @@ def face_skin(
     middles = surface.rest[surface.triangles].mean(1)
     own = surface.of("body") & ~surface.mouth & (middles[:, 2] > mouth[2])
     beside = np.min([np.hypot(*(middles - spot)[:, :2].T) for spot in spots], axis=0)
-    texels = PartTexels.of(raster, own & (beside < CHEEK_RADIUS)).texels
+    texels = PartTexels.of(raster, own & (beside < CHEEK_RADIUS_METRES)).texels
     colours = texture.reshape(-1, 3)[texels[seen.ravel()[texels]]]
     if not len(colours):
         return colours
@@ -76,7 +76,9 @@ def like_skin(lab: NDArray[np.floating], tone: NDArray[np.floating]) -> NDArray[
 
 def skin_likeness(lab: NDArray[np.floating], tone: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) in [0, 1]: the same, not as yes or no; nothing from twice the distance on."""
-    return np.clip(2 - np.linalg.norm((lab - tone) * [0.5, 1, 1], axis=1) / SKIN_DISTANCE, 0, 1).astype(np.float64)
+    return np.clip(2 - np.linalg.norm((lab - tone) * [0.5, 1, 1], axis=1) / MAX_SKIN_COLOUR_DISTANCE, 0, 1).astype(
+        np.float64
+    )
 
 
 def toned(colours: NDArray[np.floating], tone: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -89,13 +91,21 @@ def toned(colours: NDArray[np.floating], tone: NDArray[np.floating]) -> NDArray[
 def _of_skin_s_hue(colours: NDArray[np.uint8]) -> NDArray[np.bool_]:
     lab = to_lab(colours)
     hue = np.degrees(np.arctan2(lab[:, 2], lab[:, 1]))
-    return np.asarray((hue > SKIN_HUES[0]) & (hue < SKIN_HUES[1]) & (np.hypot(lab[:, 1], lab[:, 2]) > MIN_CHROMA))
+    return np.asarray(
+        (hue > SKIN_HUE_RANGE_DEGREES[0])
+        & (hue < SKIN_HUE_RANGE_DEGREES[1])
+        & (np.hypot(lab[:, 1], lab[:, 2]) > MIN_HUE_CHROMA)
+    )
 
 
 def _glove(told: NDArray[np.float32], texels: int, sleeve: NDArray[np.float32] | None) -> bool:
-    if len(told) < max(GLOVE_SEEN * texels, 1):
+    if len(told) < max(MIN_GLOVE_SHARE * texels, 1):
         return False
     middle = np.median(told, 0)
-    if np.median(np.linalg.norm(told - middle, axis=1)) > GLOVE_SPREAD:
+    if np.median(np.linalg.norm(told - middle, axis=1)) > MAX_GLOVE_COLOUR_SPREAD:
         return False
-    return sleeve is None or not len(sleeve) or float(np.linalg.norm(middle - np.median(sleeve, 0))) > GLOVE_DISTANCE
+    return (
+        sleeve is None
+        or not len(sleeve)
+        or float(np.linalg.norm(middle - np.median(sleeve, 0))) > MIN_GLOVE_COLOUR_DISTANCE
+    )

@@ -22,17 +22,17 @@ from engine.geometry.deformation.cotangent_laplacian import cotangent_laplacian
 from engine.geometry.surface import triangle_areas
 from engine.imaging.histogram_matching import to_lab
 
-FINGER_WIDTH = 0.016
+FINGER_WIDTH_METRES = 0.016
 """Metres: the width of a finger ..."""
 FINGER_PIXELS = (5.0, 9.0)
 """... and the pixels across it of a frame that shows no detail of hands yet, and of one that shows all that a painted hand has."""
-TONE_LENGTH = 0.008
+TONE_LENGTH_METRES = 0.008
 """Metres over which the difference of filmed and painted colours is a matter of tone, and not of detail."""
-RIM_LENGTH = 0.004
+RIM_LENGTH_METRES = 0.004
 """Metres over which details pass from filmed to painted ones."""
 SLEEVE_RING_METRES = 0.005
 """Metres along the hand in which it is looked whether a sleeve covers it ..."""
-CUFF_SLANT = 0.005
+CUFF_SLANT_METRES = 0.005
 """... and by how much a cuff reaches farther on one side."""
 UNSEEN_AREA_WEIGHT = 1e-4
 """Of an area that frames do not show, against one that they do: what holds a tone where they show nothing."""
@@ -90,7 +90,7 @@ def joined_hand(
     skin = shown & like_skin(to_lab(_means(filmed, number, len(hand.faces))), tone)
     sleeve = shown & ~skin & (hand.along < _sleeve_length(hand, shown, skin))
     few, enough = FINGER_PIXELS
-    sharp = np.clip((resolution[hand.faces] * FINGER_WIDTH - few) / (enough - few), 0, 1)
+    sharp = np.clip((resolution[hand.faces] * FINGER_WIDTH_METRES - few) / (enough - few), 0, 1)
     stiff = cotangent_laplacian(hand.vertices, hand.triangles)
     detail = _details(hand, stiff, skin | sleeve, np.where(sleeve, 1.0, sharp))
     whole = hand.spread(hand.areas)
@@ -98,7 +98,7 @@ def joined_hand(
         stiff,
         hand.spread(hand.areas * shown) + UNSEEN_AREA_WEIGHT * whole,
         hand.spread(hand.areas * sleeve),
-        RIM_LENGTH,
+        RIM_LENGTH_METRES,
     )
     like = skin_likeness(to_lab(filmed), tone) * skin[number]
     change = _change_of_tone(hand, stiff, texels, number, np.asarray(filmed, np.float64) - painted, like)
@@ -127,7 +127,7 @@ def _change_of_tone(
     mass = np.bincount(corners.ravel(), told.ravel(), size)
     pulls = np.stack([np.bincount(corners.ravel(), (told * off[:, [k]]).ravel(), size) for k in range(3)], 1)
     return _smooth(
-        laplacian, mass + UNSEEN_AREA_WEIGHT * hand.spread(areas), np.asarray(pulls, np.float64), TONE_LENGTH
+        laplacian, mass + UNSEEN_AREA_WEIGHT * hand.spread(areas), np.asarray(pulls, np.float64), TONE_LENGTH_METRES
     )
 
 
@@ -137,8 +137,8 @@ def _details(
     """(V,) the share of filmed details: none at the rim of what is `trusted` (T,), and where frames are not `sharp` (T,)."""
     areas = hand.areas
     whole = hand.spread(areas)
-    inside = _smooth(laplacian, whole, hand.spread(areas * trusted), RIM_LENGTH)
-    return np.clip(2 * inside - 1, 0, 1) * _smooth(laplacian, whole, hand.spread(areas * sharp), RIM_LENGTH)
+    inside = _smooth(laplacian, whole, hand.spread(areas * trusted), RIM_LENGTH_METRES)
+    return np.clip(2 * inside - 1, 0, 1) * _smooth(laplacian, whole, hand.spread(areas * sharp), RIM_LENGTH_METRES)
 
 
 def _means(colours: NDArray[np.number], number: NDArray[np.intp], count: int) -> NDArray[np.float64]:
@@ -153,7 +153,7 @@ def _sleeve_length(hand: HandSurface, shown: NDArray[np.bool_], skin: NDArray[np
     ring = np.maximum(hand.along / SLEEVE_RING_METRES, 0).astype(np.intp)
     seen = np.bincount(ring, hand.areas * shown)
     bare = np.flatnonzero((np.bincount(ring, hand.areas * skin) >= seen / 2) & (seen > 0))
-    return float(SLEEVE_RING_METRES * (bare[0] if len(bare) else len(seen)) + CUFF_SLANT)
+    return float(SLEEVE_RING_METRES * (bare[0] if len(bare) else len(seen)) + CUFF_SLANT_METRES)
 
 
 def _smooth(

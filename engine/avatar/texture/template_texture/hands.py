@@ -9,16 +9,16 @@ from numpy.typing import NDArray
 
 from engine.body.hands import bending_axes, finger_landmarks
 from engine.body.rig import Rig
-from engine.geometry.joint_names import FINGERS, Side
+from engine.geometry.joint_names import FINGER_NAMES, Side
 from engine.media.tone_mapping import srgb_code
 from engine.perception.hands import HAND_JOINTS
 from engine.performances.modelling.skin import BASE_REFLECTANCE, BLOOD_ABSORBANCE, MELANIN_ABSORBANCE
 
 BACK_BLOOD, BACK_MELANIN = 0.30, 0.30
 """Pigments of the hand's back, in the units of `engine.performances.modelling.skin`."""
-NAIL_LENGTH, NAIL_WIDTH = 0.52, 0.72
+NAIL_LENGTH, NAIL_WIDTH_SHARE = 0.52, 0.72
 """Of a fingertip's last phalanx: how much of its length, and of its width, the nail takes."""
-CREASE_WIDTH = 0.0009
+CREASE_WIDTH_METRES = 0.0009
 """Metres: standard deviation across a crease at a joint."""
 
 FINGER_ROOT_PIGMENT = 0.2
@@ -58,7 +58,7 @@ def hand_bones(rig: Rig, rest: NDArray[np.floating], side: Side) -> HandBones:
     ).astype(np.float64)
     bend, _ = bending_axes(places)
     phalanges = []
-    for number, finger in enumerate(FINGERS):
+    for number, finger in enumerate(FINGER_NAMES):
         chain = finger_landmarks(finger)
         for k in range(3):
             start, end = places[chain[k]], places[chain[k + 1]]
@@ -89,9 +89,9 @@ def painted_hand(
         length = np.linalg.norm(bone.end - bone.start)
         towards = normals[own] @ bone.back
         from_joint = along[own] * length
-        crease = np.exp(-0.5 * (from_joint / CREASE_WIDTH) ** 2)
+        crease = np.exp(-0.5 * (from_joint / CREASE_WIDTH_METRES) ** 2)
         for shift, depth in ((-0.0028, 0.5), (0.0026, 0.5), (-0.0052, 0.25)) if bone.number == 2 else ():
-            folds = np.exp(-0.5 * ((from_joint - shift) / CREASE_WIDTH) ** 2)
+            folds = np.exp(-0.5 * ((from_joint - shift) / CREASE_WIDTH_METRES) ** 2)
             crease = np.maximum(crease, depth * folds * (towards > 0))
         melanin[own] += 0.14 * crease * (0.5 + 0.5 * np.abs(towards))
         knuckle = np.exp(-0.5 * (from_joint / 0.006) ** 2) * _ramp(towards, 0.1, 0.7)
@@ -149,7 +149,7 @@ def _nail(
     """Where a nail is, and its rim, (n,) each in [0, 1]: rounded at its root, on the finger's back; `across` in half widths."""
     root = 1.0 - NAIL_LENGTH
     to_root = np.clip((along - root) / 0.22, 0, 1)
-    half = NAIL_WIDTH * np.sqrt(np.maximum(1 - (1 - to_root) ** 2, 0))
+    half = NAIL_WIDTH_SHARE * np.sqrt(np.maximum(1 - (1 - to_root) ** 2, 0))
     inside = half - np.abs(across)
     on = _ramp(inside, -0.03, 0.03) * _ramp(towards, 0.1, 0.25) * (along > root)
     rim = np.exp(-0.5 * (inside / 0.08) ** 2) * _ramp(towards, -0.05, 0.2) * (along > root - 0.05) * (along < 0.97)

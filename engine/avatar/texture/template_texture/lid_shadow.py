@@ -13,17 +13,17 @@ from engine.render.sampling import bilinear
 
 LIGHT_DIRECTION_COUNT = 24
 """Directions from which light comes, evenly over the half of the sky before the face, more of it from above."""
-LIGHT_DISTANCE, LIGHT_PICTURE, LIGHT_WIDTH = 0.5, 240, 0.06
+LIGHT_DISTANCE, LIGHT_PICTURE_PIXELS, LIGHT_PICTURE_METRES = 0.5, 240, 0.06
 """Metres to a light, and the pixels and the metres at the eye that its picture of the face is wide."""
 OCCLUSION_TOLERANCE_METRES = 8e-4
 """Metres behind the surface at which a point still has a light."""
-FROM_ABOVE = 0.3
+LEVEL_LIGHT_SHARE = 0.3
 """What light from level with the eye counts beside that from straight above, less that."""
 MIN_LIGHT_SHARE = 0.5
 """What is left of the light where none of the sky is seen: skin lets some through, and the ball shines back."""
-LASH_SHADE, LASH_REACH = 0.45, 0.0016
+LASH_SHADOW_SHARE, LASH_SHADOW_METRES = 0.45, 0.0016
 """Of the light, what lashes take right beneath the upper lid, and metres below it at which they take a third of that."""
-HIDDEN_SHADOW_FADE_METRES, SEEN_STEP = 0.0015, 16
+HIDDEN_SHADOW_FADE_METRES, SEEN_POINT_STEP = 0.0015, 16
 """Metres over which a shadow ends where lids hide an eyeball, and each how many of the seen points are asked for the nearest."""
 SHADOW_END_LENGTHS = 4.0
 """Such lengths away nothing is left of a shadow."""
@@ -37,12 +37,15 @@ def lid_shadow(surface: ChartedSurface, points: NDArray[np.float64], gaze: NDArr
     """(N,) what an eyeball's colours at `points` (N, 3) are multiplied by: 1 where as much light comes as on average over what lids
     leave to be seen, from which the colours are, or more; it goes over to 1 where lids hide it, since that shows when the eye turns. `gaze` (3,): where it looks, a unit vector; y is up."""
     middle = points.mean(0)
-    half = (LIGHT_PICTURE - 1) / 2
+    half = (LIGHT_PICTURE_PIXELS - 1) / 2
     lens = Camera(
-        (0.0, 0.0, 0.0), LIGHT_PICTURE * LIGHT_DISTANCE / LIGHT_WIDTH, (half, half), (LIGHT_PICTURE, LIGHT_PICTURE)
+        (0.0, 0.0, 0.0),
+        LIGHT_PICTURE_PIXELS * LIGHT_DISTANCE / LIGHT_PICTURE_METRES,
+        (half, half),
+        (LIGHT_PICTURE_PIXELS, LIGHT_PICTURE_PIXELS),
     )
     near = surface.triangles[
-        (np.linalg.norm(surface.vertices - middle, axis=1) < LIGHT_WIDTH)[surface.triangles].all(1)
+        (np.linalg.norm(surface.vertices - middle, axis=1) < LIGHT_PICTURE_METRES)[surface.triangles].all(1)
     ]
     total = np.zeros(len(points))
     normals = points - middle
@@ -53,13 +56,13 @@ def lid_shadow(surface: ChartedSurface, points: NDArray[np.float64], gaze: NDArr
         depth = np.where(np.isfinite(depth), depth, 2 * LIGHT_DISTANCE).astype(np.float32)
         pixels = camera.project(points)
         lit = pixels[:, 2] <= bilinear(depth[..., None], pixels)[:, 0] + OCCLUSION_TOLERANCE_METRES
-        total += lit * np.maximum(normals @ direction, 0) * (direction[1] + FROM_ABOVE)
+        total += lit * np.maximum(normals @ direction, 0) * (direction[1] + LEVEL_LIGHT_SHARE)
     seen = total > MIN_SEEN_LIGHT_SHARE * total.max()
     if not seen.any():
         return np.ones(len(points), np.float32)
     shade = MIN_LIGHT_SHARE + (1 - MIN_LIGHT_SHARE) * total / total.max()
     out = np.minimum(shade / shade[seen].mean(), 1)
-    known = np.flatnonzero(seen)[::SEEN_STEP]
+    known = np.flatnonzero(seen)[::SEEN_POINT_STEP]
     away, nearest = cKDTree(points[known]).query(
         points[~seen], distance_upper_bound=SHADOW_END_LENGTHS * HIDDEN_SHADOW_FADE_METRES
     )
@@ -84,9 +87,9 @@ def lash_shadow(
     share = np.arange(RIM_STEPS) / RIM_STEPS
     line = (loop[:, None] + share[:, None] * (np.roll(loop, -1, 0) - loop)[:, None]).reshape(-1, 2)
     upper = line[line[:, 1] >= np.interp(line[:, 0], ends[:, 0], ends[:, 1])]
-    away = cKDTree(upper).query(seen, distance_upper_bound=SHADOW_END_LENGTHS * LASH_REACH)[0]
+    away = cKDTree(upper).query(seen, distance_upper_bound=SHADOW_END_LENGTHS * LASH_SHADOW_METRES)[0]
     ahead = (points - middle) @ gaze > 0
-    return np.asarray(np.where(ahead, 1 - LASH_SHADE * np.exp(-away / LASH_REACH), 1), np.float32)
+    return np.asarray(np.where(ahead, 1 - LASH_SHADOW_SHARE * np.exp(-away / LASH_SHADOW_METRES), 1), np.float32)
 
 
 def _sky(gaze: NDArray[np.float64]) -> NDArray[np.float64]:

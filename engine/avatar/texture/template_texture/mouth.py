@@ -15,9 +15,9 @@ ENAMEL_COLOUR, DENTINE_COLOUR, GUM_COLOUR = (
 TONGUE_COLOUR, TONGUE_ROOT = np.array([184, 104, 104.0]), np.array([104, 48, 50.0])
 LINING_COLOUR, THROAT_COLOUR = np.array([142, 66, 66.0]), np.array([36, 12, 14.0])
 """sRGB, as things look in a mouth, which is dark: textures are shown without its shade."""
-CROWN_SHARE = 0.62
+JAW_CROWN_SHARE = 0.62
 """Of a jaw's height from the edge of the teeth, how much is crowns; the rest is gum."""
-GAP_WIDTH = 0.00022
+GAP_WIDTH_METRES = 0.00022
 """Metres: half the dark gap between two teeth."""
 LINING_DARKENING_METRES = 0.055
 """Metres behind the lips at which the mouth's lining has become as dark as the throat."""
@@ -37,11 +37,11 @@ def painted_teeth(places: NDArray[np.floating], upper: bool) -> NDArray[np.float
     tooth = np.clip(np.searchsorted(borders, along, side="right") - 1, 0, len(widths) - 1)
     phase = (along - borders[tooth]) / widths[tooth]
     to_gap = np.minimum(phase, 1 - phase) * widths[tooth]
-    crown = CROWN_SHARE * (1 - 0.22 * (2 * phase - 1) ** 2)  # gums are scalloped about each tooth
+    crown = JAW_CROWN_SHARE * (1 - 0.22 * (2 * phase - 1) ** 2)  # gums are scalloped about each tooth
     on_gum = _ramp(height, crown - 0.03, crown + 0.03)[:, None]
-    body = _ramp(height, 0.0, 1.1 * CROWN_SHARE)[:, None]
+    body = _ramp(height, 0.0, 1.1 * JAW_CROWN_SHARE)[:, None]
     enamel = ENAMEL_COLOUR + body * (DENTINE_COLOUR - ENAMEL_COLOUR)
-    enamel = enamel * (1 - 0.35 * np.exp(-0.5 * (to_gap / GAP_WIDTH) ** 2))[:, None]
+    enamel = enamel * (1 - 0.35 * np.exp(-0.5 * (to_gap / GAP_WIDTH_METRES) ** 2))[:, None]
     return np.asarray(enamel + on_gum * (GUM_COLOUR - enamel), np.float32)
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from engine.geometry.texture_atlas import TextureAtlas
 from engine.render.rasteriser import Raster, rasterise
 
-SUPERSAMPLING = 4
+TEXEL_SUPERSAMPLING = 4
 """Places along a side of a texel of which a fine part's colour is the mean."""
 
 
@@ -24,17 +24,17 @@ class PartTexels:
 
     @staticmethod
     def fine(atlas: TextureAtlas, part: NDArray[np.bool_], size: int) -> PartTexels:
-        """As `of`, for a texture of `size` texels a side, each there up to `SUPERSAMPLING` x `SUPERSAMPLING` times, evenly spread over it: for
+        """As `of`, for a texture of `size` texels a side, each there up to `TEXEL_SUPERSAMPLING` x `TEXEL_SUPERSAMPLING` times, evenly spread over it: for
         parts whose pattern is finer than the texels."""
         corners = atlas.corners[part]
         flat = np.zeros((len(atlas.uv), 3), np.float32)
         low = np.floor(atlas.uv[corners.ravel()].min(0) * size).astype(int)
         high = np.ceil(atlas.uv[corners.ravel()].max(0) * size).astype(int)
-        flat[:, :2] = (atlas.uv * size - low) * SUPERSAMPLING - 0.5
-        columns, rows = (high - low) * SUPERSAMPLING
+        flat[:, :2] = (atlas.uv * size - low) * TEXEL_SUPERSAMPLING - 0.5
+        columns, rows = (high - low) * TEXEL_SUPERSAMPLING
         raster = rasterise(flat, corners, (int(rows), int(columns)))
         at = np.nonzero(raster.triangle >= 0)
-        texels = (at[0] // SUPERSAMPLING + low[1]) * size + at[1] // SUPERSAMPLING + low[0]
+        texels = (at[0] // TEXEL_SUPERSAMPLING + low[1]) * size + at[1] // TEXEL_SUPERSAMPLING + low[0]
         triangles = np.flatnonzero(part)[raster.triangle[at]]
         return PartTexels(texels.astype(np.int64), triangles.astype(np.intp), raster.barycentrics[at])
 

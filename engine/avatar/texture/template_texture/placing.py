@@ -20,27 +20,27 @@ from engine.avatar.texture.template_texture.mouth import painted_lining, painted
 from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.avatar.texture.views import FrameView
 from engine.body.rig import Rig
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.surface import vertex_normals
 from engine.imaging.histogram_matching import to_lab
 from engine.performances.modelling.eyes import IRIS_RADIUS
 from engine.render.rasteriser import Raster
 
-SOCKET_LIGHT = 0.35
+SOCKET_LIGHT_SHARE = 0.35
 """Of the light on an eyeball, what its socket has where it shows between this and the lids."""
-ABOUT_EYE = 0.5
+LOWER_LID_SKIN_EYE_WIDTHS = 0.5
 """Widths of an eye from the rim of its lower lid within which the skin below has the lids' colour, in the median ..."""
-LID_FADING = 0.2
+UPPER_LID_SKIN_EYE_WIDTHS = 0.2
 """... and from the upper's rim to where shut lids have that of the skin above, which is in the shade of the brow."""
-LASH_SHADE, LASH_WIDTH = 0.5, 0.0007
+SHUT_LASH_SHADE_SHARE, SHUT_LASH_WIDTH_METRES = 0.5, 0.0007
 """Of the light, what lashes take along a shut lid's rim, and metres over which that fades."""
 RIM_STEPS = 8
 """Places between two vertices of a rim from which it is measured."""
-WRIST_LENGTH, CUFF_LENGTH = 0.03, 0.004
+WRIST_LENGTH_METRES, CUFF_LENGTH_METRES = 0.03, 0.004
 """Metres past the wrist over which what the arm's colours are filled with becomes the hand's: along bare skin, and where a sleeve ends."""
 SLEEVE_WINDOW_METRES = (-0.025, 0.0)
 """Metres past the wrist between which it is looked what the arm wears ..."""
-ARM_RADIUS = 0.08
+ARM_RADIUS_METRES = 0.08
 """... and about it."""
 
 
@@ -87,7 +87,7 @@ def place_eyes(
         colours = persons_eyes(painted_eyes(eyes), eyes, iris, white)
         texels.put(texture, colours * shadow[:, None])
     socket = PartTexels.of(raster, surface.sockets)
-    dark = SOCKET_LIGHT * np.median(colours[eyes.off_axis > IRIS_RADIUS], axis=0)
+    dark = SOCKET_LIGHT_SHARE * np.median(colours[eyes.off_axis > IRIS_RADIUS], axis=0)
     socket.put(texture, np.broadcast_to(dark, (len(socket.texels), 3)))
     return bool(len(iris) and len(white))
 
@@ -106,15 +106,15 @@ def place_lids(
         loop = cKDTree(np.concatenate([rim + k / RIM_STEPS * (np.roll(rim, -1, 0) - rim) for k in range(RIM_STEPS)]))
         width = float(np.ptp(rim, axis=0).max())
         middles = places[surface.triangles].mean(1)
-        near = np.isfinite(loop.query(middles, distance_upper_bound=ABOUT_EYE * width)[0])
+        near = np.isfinite(loop.query(middles, distance_upper_bound=LOWER_LID_SKIN_EYE_WIDTHS * width)[0])
         about = PartTexels.of(raster, skin & near & (middles[:, 1] < rim[:, 1].mean()))
         lids = PartTexels.of(raster, folded)
         if not len(about.texels) or not len(lids.texels):
             continue
         tone = np.median(flat[about.texels], axis=0)
         away = loop.query(lids.blend(places, surface.triangles))[0]
-        share = np.clip(away / (LID_FADING * width), 0, 1)[:, None]
-        skin_light = (1 - LASH_SHADE * np.exp(-away / LASH_WIDTH))[:, None]
+        share = np.clip(away / (UPPER_LID_SKIN_EYE_WIDTHS * width), 0, 1)[:, None]
+        skin_light = (1 - SHUT_LASH_SHADE_SHARE * np.exp(-away / SHUT_LASH_WIDTH_METRES))[:, None]
         lids.put(texture, skin_light * (tone + share * (flat[lids.texels] - tone)))
 
 
@@ -128,15 +128,15 @@ def place_hands(
     seen = (raster.triangle >= 0) & (resolution[raster.triangle] > 0)
     face = face_skin(texture, seen, surface, raster)
     middles = surface.rest[surface.triangles].mean(1)
-    for side in SIDES:
+    for side in SIDE_NAMES:
         texels = PartTexels.of(raster, surface.hands[side])
         if not len(texels.texels):
             continue
         bones = hand_bones(rig, surface.rest, side)
         places = texels.blend(surface.rest, surface.triangles)
-        hand = past_wrist(bones, places, CUFF_LENGTH) == 1
+        hand = past_wrist(bones, places, CUFF_LENGTH_METRES) == 1
         own, shown = flat[texels.texels], resolution[texels.triangles] > 0
-        about = np.linalg.norm(middles - bones.wrist, axis=1) < 2 * ARM_RADIUS
+        about = np.linalg.norm(middles - bones.wrist, axis=1) < 2 * ARM_RADIUS_METRES
         arm = PartTexels.of(raster, surface.of("body") & about)
         sleeve = flat[arm.texels[_before_wrist(bones, arm.blend(surface.rest, surface.triangles))]]
         tone = hand_tone(face, own[hand], shown[hand], sleeve)
@@ -148,7 +148,7 @@ def place_hands(
         alone = HandSurface.of(surface.rest, surface.triangles, surface.hands[side], bones)
         joined = joined_hand(alone, texels, own, painted, resolution, tone)
         bare = len(sleeve) and like_skin(to_lab(sleeve), tone).mean() > 0.5
-        share = past_wrist(bones, places, WRIST_LENGTH if bare else CUFF_LENGTH)[:, None]
+        share = past_wrist(bones, places, WRIST_LENGTH_METRES if bare else CUFF_LENGTH_METRES)[:, None]
         texels.put(texture, own + share * (joined - own))
 
 
@@ -157,4 +157,6 @@ def _before_wrist(bones: HandBones, places: NDArray[np.float64]) -> NDArray[np.b
     offset = places - bones.wrist
     along = offset @ bones.along
     beside = np.linalg.norm(offset - along[:, None] * bones.along, axis=1)
-    return np.asarray((along > SLEEVE_WINDOW_METRES[0]) & (along < SLEEVE_WINDOW_METRES[1]) & (beside < ARM_RADIUS))
+    return np.asarray(
+        (along > SLEEVE_WINDOW_METRES[0]) & (along < SLEEVE_WINDOW_METRES[1]) & (beside < ARM_RADIUS_METRES)
+    )

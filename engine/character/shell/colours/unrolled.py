@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from engine.body.parts import BODY_PARTS
 from engine.character.fit.template_fit import load_human
 from engine.character.shell.template_mesh import TemplateMesh, template_mesh
-from engine.geometry.joint_names import SIDES
+from engine.geometry.joint_names import SIDE_NAMES
 from engine.imaging.filling.nearest import nearest_in
 from engine.render.rasteriser import Raster, rasterise
 
@@ -78,7 +78,7 @@ def unrolled_parts() -> tuple[UnrolledPart, ...]:
         / ROW_METRES
     )
     found.append(replace(trunk, yoke=yoke))
-    for side in SIDES:
+    for side in SIDE_NAMES:
         arm = [joint[side + name] for name in ("Arm", "ForeArm", "Hand", "HandMiddle1", "HandMiddle3")]
         centre = _axis(arm, 0, x)
         up, fore = y - centre[:, 1], z - centre[:, 2]

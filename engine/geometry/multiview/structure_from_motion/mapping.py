@@ -17,27 +17,27 @@ from engine.geometry.multiview.structure_from_motion.poses import Pose, relative
 from engine.geometry.multiview.structure_from_motion.tracks import PairMatches, Tracks, join_tracks
 from engine.geometry.multiview.structure_from_motion.triangulation import triangulate
 
-MAX_ERROR = 3.0
+MAX_ERROR_PIXELS = 3.0
 """Pixels that an observation may be off, of pictures 1000 pixels long."""
-MAX_FIRST_ERROR = 8.0
+MAX_FIRST_ERROR_PIXELS = 8.0
 """Pixels that an observation by a camera that was not adjusted yet may be off, of pictures 1000 pixels long."""
-MIN_RAY_ANGLE = np.radians(2.0)
+MIN_RAY_ANGLE_RADIANS = np.radians(2.0)
 """Radians between two rays to a point, at least; below, its distance says little."""
 MIN_KNOWN_POINTS = 15
 """Known points by which a camera joins, at least."""
-FIRST_ANGLE = np.radians(6.0)
+MIN_FIRST_PAIR_RADIANS = np.radians(6.0)
 """Median angle of the points of the first two pictures: their distance has to be sure."""
-FIRST_TRIED = 30
+MAX_FIRST_PAIRS = 30
 """Pairs of pictures, those with most matches first, of which one may begin."""
-GLOBAL_GROWTH = 1.25
+GLOBAL_ADJUSTMENT_GROWTH = 1.25
 """By what the number of cameras grows until all are adjusted again."""
-LOCAL_CAMERAS = 6
+LOCAL_CAMERA_COUNT = 6
 """Cameras adjusted when one joins: it, and those that share most points with it."""
 MAX_BEGINNINGS = 3
 """Beginnings that are tried while the cameras are not enough."""
-ENOUGH_CAMERAS = 0.9
+ENOUGH_CAMERAS_SHARE = 0.9
 """Share of the pictures."""
-FOCAL_CAMERAS, DISTORTION_CAMERAS = 4, 10
+MIN_FOCAL_CAMERAS, MIN_DISTORTION_CAMERAS = 4, 10
 """Cameras from which the focal length, and the distortion, can be told."""
 
 
@@ -103,9 +103,9 @@ def reconstruct(
         tried |= found.registered
         if best is None or found.registered.sum() > best.registered.sum():
             best = found
-        if best.registered.sum() >= ENOUGH_CAMERAS * len(features):
+        if best.registered.sum() >= ENOUGH_CAMERAS_SHARE * len(features):
             break
-        if not lens.known and best.registered.sum() > FOCAL_CAMERAS:
+        if not lens.known and best.registered.sum() > MIN_FOCAL_CAMERAS:
             lens = replace(lens, parameters=best.bundle.lenses[0] * [1, 0, 0])
     return best
 
@@ -118,7 +118,7 @@ def _grow(growing: _Mapping, beginnings: Sequence[PairMatches], tick: Callable[[
     while growing.join_next():
         count = int(growing.registered.sum())
         tick(count / len(growing.registered))
-        if count >= GLOBAL_GROWTH * adjusted_at or count <= FOCAL_CAMERAS + 1:
+        if count >= GLOBAL_ADJUSTMENT_GROWTH * adjusted_at or count <= MIN_FOCAL_CAMERAS + 1:
             growing.adjust_all()
             adjusted_at = count
         else:
@@ -146,8 +146,8 @@ class _Mapping:
             np.full((tracks.count, 3), np.nan),
         )
         extent = float(pixels.max()) if len(pixels) else 1.0
-        self.max_error = MAX_ERROR * extent / 1000
-        self.max_first_error = MAX_FIRST_ERROR * extent / 1000
+        self.max_error = MAX_ERROR_PIXELS * extent / 1000
+        self.max_first_error = MAX_FIRST_ERROR_PIXELS * extent / 1000
         self.registered = np.zeros(count, np.bool_)
         self.kept = np.zeros(len(self.seen), np.bool_)
         self.refused = np.zeros(count, np.intp)  # points known when a camera could not join
@@ -167,7 +167,7 @@ class _Mapping:
     def begin(self, pairs: Sequence[PairMatches]) -> bool:
         """The first two cameras: of the pairs with most matches the one with most that agree, under a wide enough angle."""
         best: tuple[float, PairMatches, Pose] | None = None
-        for pair in sorted(pairs, key=lambda one: -len(one.matches))[:FIRST_TRIED]:
+        for pair in sorted(pairs, key=lambda one: -len(one.matches))[:MAX_FIRST_PAIRS]:
             shared = self._shared(pair)
             pose = relative_pose(
                 self.flat[shared[:, 0]], self.flat[shared[:, 1]], self.max_first_error / 4 / self.focal
@@ -175,7 +175,7 @@ class _Mapping:
             if pose is None:
                 continue
             angle = self._median_angle(pose, shared)
-            score = int(pose.agreed.sum()) * min(1.0, angle / FIRST_ANGLE) ** 2
+            score = int(pose.agreed.sum()) * min(1.0, angle / MIN_FIRST_PAIR_RADIANS) ** 2
             if best is None or score > best[0]:
                 best = score, pair, pose
         if best is None:
@@ -222,7 +222,7 @@ class _Mapping:
         starts = np.flatnonzero(np.r_[True, np.diff(track) > 0, True]).astype(np.intp)
         found = triangulate(
             *((self.bundle.rotations, self.bundle.translations), self.seen.camera[chosen], self.flat[chosen]),
-            *(starts, self.max_error / self.focal, MIN_RAY_ANGLE),
+            *(starts, self.max_error / self.focal, MIN_RAY_ANGLE_RADIANS),
         )
         points = self.bundle.points.copy()
         points[track[starts[:-1]]] = found.points
@@ -235,7 +235,7 @@ class _Mapping:
         mine[self.seen.point[self.kept & (self.seen.camera == image)]] = True
         shared = np.bincount(self.seen.camera[self.kept & mine[self.seen.point]], minlength=len(self.registered))
         free = np.zeros(len(self.registered), np.bool_)
-        free[np.argsort(-shared, kind="stable")[:LOCAL_CAMERAS]] = True
+        free[np.argsort(-shared, kind="stable")[:LOCAL_CAMERA_COUNT]] = True
         free &= self.registered & (shared > 0)
         beheld = np.zeros(self.tracks.count, np.bool_)
         beheld[self.seen.point[self.kept & free[self.seen.camera]]] = True
@@ -249,8 +249,8 @@ class _Mapping:
     def adjust_all(self, most_steps: int = 8) -> None:
         """All cameras, points, and as much of the lens as so many cameras tell; then what agrees is chosen anew."""
         count = int(self.registered.sum())
-        focal = count >= FOCAL_CAMERAS and not self.lens.known
-        distortion = count >= DISTORTION_CAMERAS and not self.lens.known
+        focal = count >= MIN_FOCAL_CAMERAS and not self.lens.known
+        distortion = count >= MIN_DISTORTION_CAMERAS and not self.lens.known
         freedom = Freedom(self.registered, (focal, distortion, distortion))
         self.bundle = adjust(self.bundle, self.seen[self.kept], freedom, most_steps=most_steps, converged=1e-4).bundle
         self._flatten()

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from engine.geometry.multiview.bundle import Bundle, reprojection_errors, undistorted
 from engine.geometry.multiview.bundle_adjustment import Freedom, PosePrior, adjust
-from engine.geometry.multiview.structure_from_motion.mapping import MIN_RAY_ANGLE, Reconstruction
+from engine.geometry.multiview.structure_from_motion.mapping import MIN_RAY_ANGLE_RADIANS, Reconstruction
 from engine.geometry.multiview.structure_from_motion.triangulation import triangulate
 
-MAX_ERRORS = (8.0, 5.0, 3.0, 3.0)
+MAX_ROUND_ERRORS_PIXELS = (8.0, 5.0, 3.0, 3.0)
 """Pixels that an observation may be off in each round, of pictures 1000 pixels long."""
 MIN_VISIBLE_POINTS = 25
 """Points of the part by which a camera is solved; with fewer it stays where it was."""
@@ -52,7 +52,7 @@ def refine(
     candidates = np.flatnonzero(part[found.seen.point] & found.registered[found.seen.camera])
     if not len(candidates):
         return Refinement(replace(found, agreed=agreed), moved)
-    for max_error in MAX_ERRORS:
+    for max_error in MAX_ROUND_ERRORS_PIXELS:
         bundle, agreed = _with_points(found, bundle, candidates, max_error * length / 1000)
         counts = np.bincount(found.seen.camera[agreed], minlength=len(moved))
         moved = found.registered & (counts >= min_seen)
@@ -60,7 +60,7 @@ def refine(
             return Refinement(replace(found, agreed=agreed), moved)
         bundle = adjust(bundle, found.seen[agreed], Freedom(moved, prior=prior), most_steps=10, converged=1e-4).bundle
     kept = np.flatnonzero(agreed)
-    agreed[kept] = reprojection_errors(bundle, found.seen[kept]) <= MAX_ERRORS[-1] * length / 1000
+    agreed[kept] = reprojection_errors(bundle, found.seen[kept]) <= MAX_ROUND_ERRORS_PIXELS[-1] * length / 1000
     return Refinement(replace(found, bundle=bundle, agreed=agreed), moved)
 
 
@@ -73,7 +73,7 @@ def _with_points(
     flat = undistorted(found.seen.pixels[candidates], bundle.lenses[0], bundle.centres[0])
     solved = triangulate(
         *((bundle.rotations, bundle.translations), found.seen.camera[candidates], np.nan_to_num(flat, nan=1e6)),
-        *(starts, max_error / float(bundle.lenses[0, 0]), MIN_RAY_ANGLE),
+        *(starts, max_error / float(bundle.lenses[0, 0]), MIN_RAY_ANGLE_RADIANS),
     )
     points = np.full_like(bundle.points, np.nan)
     points[track[starts[:-1]]] = solved.points

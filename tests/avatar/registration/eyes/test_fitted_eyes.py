@@ -12,7 +12,7 @@ from engine.avatar.registration.eyes.eye_outline import outline_of_rim
 from engine.avatar.registration.eyes.eyeballs import LID_GAP_METRES, sphere
 from engine.avatar.registration.eyes.fitted_eyes import (
     INNER_CORNER_LANDMARKS,
-    IRIS_RADIUS,
+    IRIS_RADIUS_METRES,
     OUTWARD_SIGNS,
     FittedEyes,
     with_eyes,
@@ -83,7 +83,7 @@ def test_lids_lie_on_the_ball_however_it_was_fitted(models: HumanModels, person:
     head = head_change(skin, person.vertices[skin.vertices], vertices[skin.vertices])
     found = with_eyes(models.template, skin, person.vertices, vertices, head, UNSEEN)
     assert not found.measured
-    assert found.iris == IRIS_RADIUS
+    assert found.iris == IRIS_RADIUS_METRES
     shown = found.vertices[skin.vertices[skin.regions["face"] & ~skin.regions["inner"]]]
     for part in EYE_PARTS:
         middle, radius = sphere(found.vertices[models.template.vertices_of(part)])

@@ -8,9 +8,9 @@ from known_person import KnownPerson
 from scipy.spatial.transform import Rotation
 
 from engine.avatar.registration.face.face_parts import (
-    INCISORS_SHOWN,
     MOUTH_PARTS,
-    TEETH_DEPTH,
+    SHOWN_INCISORS_METRES,
+    TEETH_DEPTH_METRES,
     head_change,
     place_parts,
 )
@@ -45,7 +45,7 @@ def test_upper_incisors_end_below_where_the_lips_meet(models: HumanModels, fitte
     teeth = back(fitted.rest[template.vertices_of("upper_teeth")].astype(np.float64))
     lips = back(fitted.rest[skin.vertices[skin.face_points[[62, 66]]]].astype(np.float64)).mean(0)
     front = teeth[:, 2] > teeth[:, 2].max() - 0.015
-    assert teeth[front, 1].min() - lips[1] == pytest.approx(-INCISORS_SHOWN, abs=0.0015)
+    assert teeth[front, 1].min() - lips[1] == pytest.approx(-SHOWN_INCISORS_METRES, abs=0.0015)
 
 
 @pytest.mark.parametrize(
@@ -73,7 +73,7 @@ def test_teeth_are_behind_the_lips_in_both_poses(models: HumanModels, fitted: Fi
     for vertices in (fitted.vertices, fitted.rest.astype(np.float64)):
         own, hull = vertices[skin.vertices], skin.triangles[skin.visible]
         assert winding_numbers(vertices[inside], own, hull).min() > 0.5
-        assert closest_points(vertices[inside], own, hull).distance.min() > TEETH_DEPTH - 1e-5
+        assert closest_points(vertices[inside], own, hull).distance.min() > TEETH_DEPTH_METRES - 1e-5
 
 
 def test_teeth_that_would_stick_out_are_set_back(models: HumanModels, person: KnownPerson) -> None:
