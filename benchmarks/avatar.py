@@ -40,7 +40,7 @@ from engine.store import StageStore
 
 HEAD_SHARE = 0.87
 """Of the height: from there up it is the head."""
-ALIGNMENT_GATE = 0.03
+ALIGNMENT_GATE_METRES = 0.03
 """Metres within which points of what was made are laid on the truth."""
 ALIGNMENT_ROUNDS = 12
 """How often they are laid on it."""
@@ -86,7 +86,7 @@ def onto_truth(
     true = np.array([truth.person_camera("body", frame).eye for frame in cameras])
     first = fit_rigid(mine, true)
     placed = first(vertices)
-    turn = rigid_onto_surface(placed, surface.vertices, surface.triangles, ALIGNMENT_GATE, ALIGNMENT_ROUNDS)
+    turn = rigid_onto_surface(placed, surface.vertices, surface.triangles, ALIGNMENT_GATE_METRES, ALIGNMENT_ROUNDS)
     return Similarity(turn.linear @ first.linear, turn(first.shift))
 
 

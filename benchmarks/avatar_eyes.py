@@ -30,15 +30,15 @@ from engine.avatar.landmarks.spatial import LID_LANDMARKS
 from engine.geometry.camera import Camera
 from engine.perception.faces import find_faces
 
-FRAME_STEP = 2
+ASKED_FRAME_STEP = 2
 """Each so many frames of the head's film are asked."""
-FRAME_SCALE = 2.0
+FRAME_ENLARGEMENT = 2.0
 """By how much larger than the film's frames they are drawn."""
-MAX_TURN = 0.35
+MAX_NOSE_OFFSET_SHARE = 0.35
 """Of half the distance between the eyes' outer corners, what the nose may stand off their middle."""
-NOSE_TIP, RIGHT_CORNER, LEFT_CORNER = 1, 33, 263
+NOSE_TIP_VERTEX, RIGHT_EYE_CORNER_VERTEX, LEFT_EYE_CORNER_VERTEX = 1, 33, 263
 """Vertices of the face mesh."""
-BACKGROUND = 110
+BACKGROUND_GREY_LEVEL = 110
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Drawn:
 
     def seen(self, camera: Camera) -> NDArray[np.uint8]:
         """(H, W, 3) from a camera."""
-        picture = np.full((*camera.size, 3), BACKGROUND, np.uint8)
+        picture = np.full((*camera.size, 3), BACKGROUND_GREY_LEVEL, np.uint8)
         draw_over(picture, empty_depths(camera), self.mesh, self.vertices, camera)
         return picture
 
@@ -78,9 +78,13 @@ def _face(picture: NDArray[np.uint8]) -> NDArray[np.float64] | None:
 
 
 def _frontal(mesh: NDArray[np.float64]) -> bool:
-    across = mesh[LEFT_CORNER] - mesh[RIGHT_CORNER]
-    off = (mesh[NOSE_TIP] - (mesh[LEFT_CORNER] + mesh[RIGHT_CORNER]) / 2) @ across / (across @ across)
-    return bool(abs(off) < MAX_TURN / 2)
+    across = mesh[LEFT_EYE_CORNER_VERTEX] - mesh[RIGHT_EYE_CORNER_VERTEX]
+    off = (
+        (mesh[NOSE_TIP_VERTEX] - (mesh[LEFT_EYE_CORNER_VERTEX] + mesh[RIGHT_EYE_CORNER_VERTEX]) / 2)
+        @ across
+        / (across @ across)
+    )
+    return bool(abs(off) < MAX_NOSE_OFFSET_SHARE / 2)
 
 
 def _measures(mine: NDArray[np.float64], true: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -129,7 +133,7 @@ def avatar_drawn(out: Path, truth: Truth) -> Drawn:
 def head_cameras(truth: Truth) -> list[Camera]:
     """True cameras of the head's film, in the axes of the person."""
     count = len(truth.films["head"].cameras)
-    return [truth.person_camera("head", k).scaled(FRAME_SCALE) for k in range(0, count, FRAME_STEP)]
+    return [truth.person_camera("head", k).scaled(FRAME_ENLARGEMENT) for k in range(0, count, ASKED_FRAME_STEP)]
 
 
 def main() -> None:

@@ -39,7 +39,7 @@ from engine.render.character import draw_character, prepare_character
 from engine.run import Run
 from engine.store import StageStore
 
-ELBOW_SHIFT = 0.02
+ELBOW_SHIFT_SHARE = 0.02
 """By how much of the picture's height a revision moves an elbow."""
 
 
@@ -91,7 +91,7 @@ def _person(photo: Path, options: CharacterOptions, kept: StageStore) -> Person:
 def _revisions(options: CharacterOptions, skeleton: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
     width, height = skeleton["size"]
     x, y = skeleton["joints"]["LeftElbow"]["place"]
-    radius = ELBOW_SHIFT * height
+    radius = ELBOW_SHIFT_SHARE * height
     x, y = min(max(x, 0), width - 1), min(max(y, 0), height - 1 - radius)  # it may lie outside
     yield "joint", {"joints": {**options.joints, "LeftElbow": (x, y + radius)}}
     yield "label", {"label_strokes": ({"path": ((x, y),), "radius": radius, "part": "left_arm"},)}

@@ -38,7 +38,7 @@ from engine.render.outline import facings, mark_outline
 from engine.render.rasteriser import draw_into
 from engine.render.texturing import colour_inside, colour_samples, corner_table
 
-FPS = 30.0
+FILM_FPS = 30.0
 """Frames a second of the film."""
 STAGE_FUNCTIONS: Mapping[str, tuple[Any, ...]] = {
     "posed": (skin,),
@@ -81,7 +81,7 @@ def encode(frames: list[NDArray[np.uint8]], folder: Path) -> tuple[float, float,
     """(processor seconds, seconds, bytes) of writing a video."""
     height, width = frames[0].shape[:2]
     path, worked, started = folder / "film.mp4", time.process_time(), time.perf_counter()
-    with VideoWriter(VideoTarget(path, (width, height), FPS)) as writer:
+    with VideoWriter(VideoTarget(path, (width, height), FILM_FPS)) as writer:
         for frame in frames:
             writer.write(frame)
     return time.process_time() - worked, time.perf_counter() - started, path.stat().st_size
@@ -94,7 +94,7 @@ def measure(photo: Path, seconds: float, folder: Path) -> tuple[list[list[str]],
     shadow = ground_shadow(background.shadow, woken.character, woken.fitted)
     height, width = woken.figure.rgb.shape[:2]
     camera = picture_camera(woken.character, woken.fitted, (height, width))
-    choice = MotionChoice("walk", None, (), seconds, FPS)
+    choice = MotionChoice("walk", None, (), seconds, FILM_FPS)
     clip = choose_motion(woken.character, lambda second: camera, woken.character.pictured, choice).film
     size = film_size((width, height), (1280, 720) if width > height else (720, 1280))
 
@@ -107,7 +107,7 @@ def measure(photo: Path, seconds: float, folder: Path) -> tuple[list[list[str]],
         frames = list(drawn())
     worked, alone, size_bytes = encode(frames, folder)
     whole = time.process_time(), time.perf_counter()
-    with VideoWriter(VideoTarget(folder / "whole.mp4", size, FPS)) as writer:
+    with VideoWriter(VideoTarget(folder / "whole.mp4", size, FILM_FPS)) as writer:
         for frame in drawn():
             writer.write(frame)
     cost, took = time.process_time() - whole[0], time.perf_counter() - whole[1]

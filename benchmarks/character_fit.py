@@ -31,7 +31,7 @@ from PIL import Image
 from benchmarks.character_figures.steps import options_for, pictures
 from benchmarks.presentation.contact_sheet import Picture, Row, at_height, contact_sheet, write_sheet
 from benchmarks.presentation.tables import machine, mean_row, table
-from benchmarks.scan_studio.people.rigged_people import ENDS
+from benchmarks.scan_studio.people.rigged_people import BONE_END_JOINTS
 from benchmarks.scan_studio.photographed import Truth, cases, feet, photograph
 from engine.character.figure.figure import Choice, Figure, find_figure
 from engine.character.figure.silhouette import Silhouette, cut_out
@@ -45,12 +45,12 @@ from engine.media.limits import Limits
 from engine.perception.body import BODY_LANDMARKS
 from engine.render.rasteriser import rasterise
 
-LIMBS = {"arms": "Arm", "forearms": "ForeArm", "thighs": "UpLeg", "shins": "Leg"}
-COMPARED = ("Arm", "ForeArm", "Hand", "Leg", "Foot")
+LIMB_JOINTS = {"arms": "Arm", "forearms": "ForeArm", "thighs": "UpLeg", "shins": "Leg"}
+COMPARED_JOINTS = ("Arm", "ForeArm", "Hand", "Leg", "Foot")
 """Joints of each side whose places are compared."""
-BESIDE = 0.05
+FOOT_MARGIN_SHARE = 0.05
 """How far beside a foot's landmarks its own part of a mask may reach, as a share of the height."""
-SHEET_HEIGHT = 420
+SHEET_HEIGHT_PIXELS = 420
 
 Stages = tuple[Figure, Silhouette]
 
@@ -99,10 +99,10 @@ def of_truth(fitted: FittedBody, truth: Truth) -> list[float | None]:
     """A row of the first table."""
     laid = lay(fitted)
     row: list[float | None] = []
-    for joint in LIMBS.values():
+    for joint in LIMB_JOINTS.values():
         off = []
         for side in SIDE_NAMES:
-            first, end = f"{side}{joint}", ENDS[f"{side}{joint}"]
+            first, end = f"{side}{joint}", BONE_END_JOINTS[f"{side}{joint}"]
             a, b = truth.joints[end] - truth.joints[first], laid.joints[end] - laid.joints[first]
             off.append(float(np.degrees(np.arccos(np.clip(a @ b / np.linalg.norm(a) / np.linalg.norm(b), -1, 1)))))
         row.append(float(np.mean(off)))
@@ -111,7 +111,7 @@ def of_truth(fitted: FittedBody, truth: Truth) -> list[float | None]:
     away = [
         np.linalg.norm(scale * (laid.joints[f"{side}{joint}"] - hips) - (truth.joints[f"{side}{joint}"] - true_hips))
         for side in SIDE_NAMES
-        for joint in COMPARED
+        for joint in COMPARED_JOINTS
     ]
     mask = truth.alpha > 0.5
     height = float(np.ptp(np.flatnonzero(mask.any(1))))
@@ -153,7 +153,7 @@ def mask_soles(figure: Figure, mask: NDArray[np.bool_]) -> tuple[float, float]:
         sure.append(float(figure.confidence[marks].min()) > 0.3)
     soles = []
     for one, other in ((0, 1), (1, 0)):
-        own = (away[one] < away[other]) & (away[one] < BESIDE * height) & sure[one]
+        own = (away[one] < away[other]) & (away[one] < FOOT_MARGIN_SHARE * height) & sure[one]
         lowest = float(rows[own].max()) if own.any() else np.nan
         soles.append(np.nan if lowest > mask.shape[0] - 3 else lowest)
     return soles[0], soles[1]
@@ -177,7 +177,7 @@ def overlay(figure: Figure, silhouette: Silhouette, fitted: FittedBody) -> Pictu
     rows, columns = bounding_box(silhouette.alpha > 0.5)
     rim = (rows.stop - rows.start) // 12
     whole = shown[max(0, rows.start - rim) : rows.stop + rim, max(0, columns.start - rim) : columns.stop + rim]
-    return at_height(np.asarray(whole, np.uint8), SHEET_HEIGHT)
+    return at_height(np.asarray(whole, np.uint8), SHEET_HEIGHT_PIXELS)
 
 
 def stored(path: Path, make: Callable[[], object]) -> object:
@@ -221,7 +221,7 @@ def main() -> None:
         sheet.append(Row([overlay(figure, silhouette, fitted)], name))
         return fitted
 
-    head = ["", *LIMBS, "limbs", "joints cm", "left foot %", "right foot %", "IoU"]
+    head = ["", *LIMB_JOINTS, "limbs", "joints cm", "left foot %", "right foot %", "IoU"]
     digits: tuple[int, ...] = (0, 0, 0, 0, 1, 1, 1, 1, 3)
     rows: list[list[str]] = []
     values: list[list[float | None]] = []
@@ -253,7 +253,7 @@ def main() -> None:
         across = 8
         lines = [Row([one.pictures[0] for one in sheet[k : k + across]], ", ".join(one.title for one in sheet[k : k + across]))
                  for k in range(0, len(sheet), across)]  # fmt: skip
-        write_sheet(asked.sheet, contact_sheet(lines, (SHEET_HEIGHT, SHEET_HEIGHT * 3 // 4)))
+        write_sheet(asked.sheet, contact_sheet(lines, (SHEET_HEIGHT_PIXELS, SHEET_HEIGHT_PIXELS * 3 // 4)))
 
 
 def _report(

@@ -36,14 +36,14 @@ from engine.media.limits import Limits
 
 PERSON_SHARE = 0.85
 """Share of the picture's height, or width, that a cut-out takes."""
-TOLERANCE = 0.004
+BOUNDARY_TOLERANCE_SHARE = 0.004
 """Of the boundary, as a share of the person's height."""
-GAP = 0.035
+GAP_HALF_WIDTH_SHARE = 0.035
 """Half the width of gaps, as a share of the person's height: what a disk of this radius closes."""
-NARROWEST = 0.004
+MIN_GAP_HALF_WIDTH_SHARE = 0.004
 """Half the width of the narrowest gaps that count."""
-PAPER, WALL = 250, (196, 190, 180)
-SHADOW_AWAY, SHADOW_SOFT, SHADOW_DARK = (0.06, 0.015), 0.012, 0.5
+PAPER_GREY_LEVEL, WALL_RGB = 250, (196, 190, 180)
+SHADOW_OFFSET_SHARES, SHADOW_SIGMA_SHARE, SHADOW_BRIGHTNESS = (0.06, 0.015), 0.012, 0.5
 """A cast shadow: how far it lies from the person along x and y and how soft it is, as shares of the picture's height, and what of
 the light is missing."""
 
@@ -82,8 +82,8 @@ def cut_outs() -> Iterator[tuple[str, NDArray[np.uint8], NDArray[np.float32]]]:
 def known_masks() -> Iterator[KnownMask]:
     """All pictures: each cut-out in three of the places, and the people of `character_truth` where they stand."""
     rooms = places(PICTURE_SIZE)
-    plain = np.full((*PICTURE_SIZE, 3), PAPER, np.uint8)
-    wall = np.broadcast_to(np.array(WALL, np.uint8), plain.shape).copy()
+    plain = np.full((*PICTURE_SIZE, 3), PAPER_GREY_LEVEL, np.uint8)
+    wall = np.broadcast_to(np.array(WALL_RGB, np.uint8), plain.shape).copy()
     grounds = [*rooms.items(), ("paper", plain), ("wall, shadow", wall)]
     for k, (name, rgb, alpha) in enumerate(cut_outs()):
         for j in range(3):
@@ -112,11 +112,13 @@ def lay_into(
     shown[top : top + size[1], left : left + size[0]] = colour
     lit = np.ones((height, width, 1), np.float32)
     if "shadow" in place:
-        move = np.array([[1, 0, SHADOW_AWAY[0] * height], [0, 1, SHADOW_AWAY[1] * height]], np.float32)
-        cast = cv2.GaussianBlur(cv2.warpAffine(whole, move, (width, height)), (0, 0), SHADOW_SOFT * height)
-        lit = 1 - SHADOW_DARK * cast[..., None]
+        move = np.array(
+            [[1, 0, SHADOW_OFFSET_SHARES[0] * height], [0, 1, SHADOW_OFFSET_SHARES[1] * height]], np.float32
+        )
+        cast = cv2.GaussianBlur(cv2.warpAffine(whole, move, (width, height)), (0, 0), SHADOW_SIGMA_SHARE * height)
+        lit = 1 - SHADOW_BRIGHTNESS * cast[..., None]
     picture = shown + (1 - whole[..., None]) * ground * lit
-    dark = (lit[..., 0] < 1 - SHADOW_DARK / 2) & (whole < 0.02)
+    dark = (lit[..., 0] < 1 - SHADOW_BRIGHTNESS / 2) & (whole < 0.02)
     return KnownMask(name, place, np.clip(picture + 0.5, 0, 255).astype(np.uint8), whole, dark)
 
 
@@ -126,7 +128,7 @@ def score(found: NDArray[np.bool_], known: KnownMask) -> MaskScore:
     gaps = enclosed(true)
     return MaskScore(
         iou=float((found & true).sum() / (found | true).sum()),
-        boundary=boundary_score(found, true, TOLERANCE * mask_height(true)),
+        boundary=boundary_score(found, true, BOUNDARY_TOLERANCE_SHARE * mask_height(true)),
         gaps=float((~found)[gaps].mean()) if gaps.any() else float("nan"),
         shadow=float(found[known.shadow].mean()) if known.shadow.any() else float("nan"),
     )
@@ -146,8 +148,10 @@ def boundary_score(found: NDArray[np.bool_], true: NDArray[np.bool_], tolerance:
 def enclosed(true: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """The gaps (H, W) between somebody's limbs: background that closing takes in, and that is no crease."""
     tall = mask_height(true)
-    closed = cv2.morphologyEx(true.astype(np.uint8), cv2.MORPH_CLOSE, _disk(GAP * tall)) > 0
-    return np.asarray(cv2.morphologyEx((closed & ~true).astype(np.uint8), cv2.MORPH_OPEN, _disk(NARROWEST * tall)) > 0)
+    closed = cv2.morphologyEx(true.astype(np.uint8), cv2.MORPH_CLOSE, _disk(GAP_HALF_WIDTH_SHARE * tall)) > 0
+    return np.asarray(
+        cv2.morphologyEx((closed & ~true).astype(np.uint8), cv2.MORPH_OPEN, _disk(MIN_GAP_HALF_WIDTH_SHARE * tall)) > 0
+    )
 
 
 def _disk(radius: float) -> NDArray[np.uint8]:

@@ -34,8 +34,8 @@ from benchmarks.known_truth.scanned_bodies import texture_painter
 from benchmarks.presentation.contact_sheet import Row, at_height, contact_sheet, write_sheet
 from benchmarks.presentation.tables import machine, mean_row, table
 from benchmarks.scan_studio.people.pictured_poses import POSES
-from benchmarks.scan_studio.people.rigged_people import ENDS, METRES, held_pose, read_rigged
-from benchmarks.scan_studio.people.scanned_people import RIGGED
+from benchmarks.scan_studio.people.rigged_people import BONE_END_JOINTS, T_POSE_HEIGHT_METRES, held_pose, read_rigged
+from benchmarks.scan_studio.people.scanned_people import RIGGED_PEOPLE
 from benchmarks.shared_media import media
 from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.character.fit.rest_skeleton import rest_skeleton
@@ -52,19 +52,19 @@ from engine.motion.library import CLIPS, built_in
 from engine.render.character import draw_character, prepare_character
 from engine.render.rasteriser import rasterise
 
-VIEWS = tuple(range(0, 360, 45))
+VIEW_YAW_DEGREES = tuple(range(0, 360, 45))
 """Degrees from the front."""
-MOMENTS = 12
+MOMENTS_PER_CLIP = 12
 """Of a clip."""
-SIDE = 320
+VIEW_SIDE_PIXELS = 320
 """Pixels of a view's height and width."""
-WITHIN = 3
+COLOUR_SEARCH_PIXELS = 3
 """Pixels in which the nearest colour is looked for."""
-TIMES_THE_AREA = 4.0
+MAX_AREA_RATIO = 4.0
 """Times its pictured area from which a triangle is stretched."""
-FOREIGN = 20.0
+MIN_FOREIGN_COLOUR_DISTANCE = 20.0
 """CIE Lab units from which a colour is none of the person's."""
-COUNTED = ("readyplayer.me", "soldier")
+COUNTED_PEOPLE = ("readyplayer.me", "soldier")
 """Who counts in means."""
 
 
@@ -88,8 +88,8 @@ class Played:
         return distances + [100 * share for share in (self.apart, self.stretched, self.foreign)]
 
 
-HEAD = ("IoU", "front", "side", "back", "colour", "of the back", "apart %", "stretched %", "foreign %")
-DIGITS = (3, 3, 3, 3, 1, 1, 2, 2, 2)
+COLUMN_TITLES = ("IoU", "front", "side", "back", "colour", "of the back", "apart %", "stretched %", "foreign %")
+COLUMN_DIGITS = (3, 3, 3, 3, 1, 1, 2, 2, 2)
 
 
 class Player:
@@ -97,7 +97,7 @@ class Player:
 
     def __init__(self, mesh: SkinnedMesh, clip: Clip):
         self.mesh, self.clip, self.subject = mesh, in_place(clip), prepare_character(mesh)
-        self.scale = METRES / float(np.ptp(mesh.vertices[:, 1]))
+        self.scale = T_POSE_HEIGHT_METRES / float(np.ptp(mesh.vertices[:, 1]))
         self.hips = mesh.skeleton.index("Hips")
 
     def posed(self, share: float) -> NDArray[np.float32]:
@@ -115,9 +115,14 @@ class Player:
 
 def camera_at(degrees: int) -> Camera:
     """Level, and as far away as a picture is taken from."""
-    turn, middle = np.radians(degrees), np.array([0.0, METRES / 2, 0.0])
-    plain = Camera((0, 0, 0), 2.4 * SIDE, ((SIDE - 1) / 2, (SIDE - 1) / 2), (SIDE, SIDE))
-    return plain.aimed(middle + 3 * METRES * np.array([np.sin(turn), 0.0, np.cos(turn)]), middle)
+    turn, middle = np.radians(degrees), np.array([0.0, T_POSE_HEIGHT_METRES / 2, 0.0])
+    plain = Camera(
+        (0, 0, 0),
+        2.4 * VIEW_SIDE_PIXELS,
+        ((VIEW_SIDE_PIXELS - 1) / 2, (VIEW_SIDE_PIXELS - 1) / 2),
+        (VIEW_SIDE_PIXELS, VIEW_SIDE_PIXELS),
+    )
+    return plain.aimed(middle + 3 * T_POSE_HEIGHT_METRES * np.array([np.sin(turn), 0.0, np.cos(turn)]), middle)
 
 
 def play(truth: Player, made: Player, pictured: NDArray[np.float32]) -> Played:
@@ -125,10 +130,10 @@ def play(truth: Player, made: Player, pictured: NDArray[np.float32]) -> Played:
     areas = _areas(pictured, made.mesh.triangles)
     own = _lab(truth.mesh.texture[::8, ::8].reshape(-1, 1, 3)).reshape(-1, 3)
     found: list[tuple[int, float, float, float, float, float]] = []
-    for moment in range(MOMENTS):
-        a, b = truth.posed(moment / MOMENTS), made.posed(moment / MOMENTS)
-        large = _areas(b, made.mesh.triangles) > TIMES_THE_AREA * np.maximum(areas, 1e-8)
-        for degrees in VIEWS:
+    for moment in range(MOMENTS_PER_CLIP):
+        a, b = truth.posed(moment / MOMENTS_PER_CLIP), made.posed(moment / MOMENTS_PER_CLIP)
+        large = _areas(b, made.mesh.triangles) > MAX_AREA_RATIO * np.maximum(areas, 1e-8)
+        for degrees in VIEW_YAW_DEGREES:
             camera = camera_at(degrees)
             true, drawn = (draw_character(one.subject, at, camera) for one, at in ((truth, a), (made, b)))
             mask, shown = true.alpha > 0.5, drawn.alpha > 0.5
@@ -147,7 +152,7 @@ def play(truth: Player, made: Player, pictured: NDArray[np.float32]) -> Played:
     at = values[:, 0]
 
     def mean(column: int, *degrees: int) -> float:
-        return float(values[np.isin(at, degrees or VIEWS), column].mean())
+        return float(values[np.isin(at, degrees or VIEW_YAW_DEGREES), column].mean())
 
     return Played(
         *(mean(1), mean(1, 0, 45, 315), mean(1, 90, 270), mean(1, 135, 180, 225)),
@@ -170,9 +175,9 @@ def _colour_distance(
     first, second = _lab(true), _lab(drawn)
     second[~shown] = 1e3
     nearest = np.full(where.sum(), np.inf)
-    for y in range(-WITHIN, WITHIN + 1):
-        for x in range(-WITHIN, WITHIN + 1):
-            if x * x + y * y <= WITHIN**2:
+    for y in range(-COLOUR_SEARCH_PIXELS, COLOUR_SEARCH_PIXELS + 1):
+        for x in range(-COLOUR_SEARCH_PIXELS, COLOUR_SEARCH_PIXELS + 1):
+            if x * x + y * y <= COLOUR_SEARCH_PIXELS**2:
                 moved = np.roll(second, (y, x), (0, 1))
                 nearest = np.minimum(nearest, np.linalg.norm(moved[where] - first[where], axis=-1))
     return float(nearest.mean()) if len(nearest) else float("nan")
@@ -188,7 +193,7 @@ def _foreign(colours: NDArray[np.uint8], own: NDArray[np.float32]) -> float:
     bins = np.unique((own // 4).astype(int), axis=0) * 4 + 2
     some = _lab(colours[::4][None])[0]
     away = np.min([np.linalg.norm(some - one, axis=1) for one in bins], axis=0)
-    return float((away > FOREIGN).mean())
+    return float((away > MIN_FOREIGN_COLOUR_DISTANCE).mean())
 
 
 def template_of(woken: Woken) -> SkinnedMesh:
@@ -233,7 +238,7 @@ def limbs_off(truth: NDArray[np.float32], skeleton: SkinnedMesh, woken: Woken) -
     rest = character.mesh.skeleton.heads
     made = np.einsum("jab,jb->ja", transforms[:, :3, :3], rest) + transforms[:, :3, 3]
     off = []
-    for name, end in ENDS.items():
+    for name, end in BONE_END_JOINTS.items():
         if "Hand" in name or end not in skeleton.skeleton.names:
             continue
         a = truth[skeleton.skeleton.index(end)] - truth[skeleton.skeleton.index(name)]
@@ -245,7 +250,7 @@ def limbs_off(truth: NDArray[np.float32], skeleton: SkinnedMesh, woken: Woken) -
 def cases(only: str) -> Iterator[tuple[str, str, str]]:
     """Who, how, and where."""
     spots = list(places(PICTURE_SIZE))
-    for number, (who, how) in enumerate((who, how) for who in RIGGED for how in POSES):
+    for number, (who, how) in enumerate((who, how) for who in RIGGED_PEOPLE for how in POSES):
         if only in f"{who}: {how}":
             yield who, how, spots[number % len(spots)]
 
@@ -274,7 +279,7 @@ def main() -> None:
             f"{who}: {how}",
             vertices,
             mesh.triangles,
-            METRES,
+            T_POSE_HEIGHT_METRES,
             texture_painter(mesh.uv, mesh.triangles, [mesh.texture], [len(mesh.triangles)]),
         )
         picture = draw_into(person, spots[where])
@@ -284,7 +289,7 @@ def main() -> None:
             try:
                 woken = wake(photo, {"back_texture": asked.back, "surface": asked.surface})
             except InputError as error:
-                rows.append([person.name, error.code, *[""] * len(HEAD)])
+                rows.append([person.name, error.code, *[""] * len(COLUMN_TITLES)])
                 continue
         transforms = pose_transforms(mesh.skeleton, pose.rotations, pose.root)[0]
         joints = np.einsum("jab,jb->ja", transforms[:, :3, :3], mesh.skeleton.heads) + transforms[:, :3, 3]
@@ -294,17 +299,19 @@ def main() -> None:
         of_it = play(truth, made, made.held(woken.character.pictured))
         of_template = play(truth, plain, plain.posed(0))
         for values, found in ((rows, of_it), (templates, of_template)):
-            values.append([person.name, f"{off:.1f}", *(f"{v:.{d}f}" for v, d in zip(found.row, DIGITS, strict=True))])
+            values.append(
+                [person.name, f"{off:.1f}", *(f"{v:.{d}f}" for v, d in zip(found.row, COLUMN_DIGITS, strict=True))]
+            )
         print(rows[-1], templates[-1], flush=True)
-        if who in COUNTED:
+        if who in COUNTED_PEOPLE:
             counted.append([off, *of_it.row])
             bare.append([off, *of_template.row])
         sheet.append(_row(person.name, picture.rgb, (truth, made, plain)))
-    digits = (1, *DIGITS)
+    digits = (1, *COLUMN_DIGITS)
     for title, values, means in (("Characters", rows, counted), ("Bare fitted template", templates, bare)):
         if means:
             values.append(mean_row("mean", means, digits))
-        print(table(f"{title}, {asked.clip}, back: {asked.back}", ["", "posed", *HEAD], values))
+        print(table(f"{title}, {asked.clip}, back: {asked.back}", ["", "posed", *COLUMN_TITLES], values))
     if asked.sheet:
         write_sheet(asked.sheet, contact_sheet(sheet))
 
@@ -314,12 +321,12 @@ def _with_clip(mesh: SkinnedMesh, clip: str) -> tuple[SkinnedMesh, Clip]:
 
 
 def _row(title: str, picture: NDArray[np.uint8], players: Sequence[Player]) -> Row:
-    panels = [at_height(picture, SIDE)]
-    backdrop = np.full((SIDE, SIDE, 3), 150, np.uint8)
+    panels = [at_height(picture, VIEW_SIDE_PIXELS)]
+    backdrop = np.full((VIEW_SIDE_PIXELS, VIEW_SIDE_PIXELS, 3), 150, np.uint8)
     for degrees, share in ((0, 0.1), (90, 0.4), (180, 0.7)):
         for one in players:
             drawn = draw_character(one.subject, one.posed(share), camera_at(degrees), backdrop)
-            panels.append(drawn.rgb[:, SIDE // 4 : -SIDE // 4])
+            panels.append(drawn.rgb[:, VIEW_SIDE_PIXELS // 4 : -VIEW_SIDE_PIXELS // 4])
     return Row(panels, title)
 
 

@@ -49,9 +49,9 @@ from engine.geometry.skinning import bone_transforms
 from engine.imaging.masks.mask_pieces import rows_apart
 from engine.media.limits import Limits
 
-BODY_METRES = 1.8
+BODY_HEIGHT_METRES = 1.8
 """Metres of height to which bodies are scaled before distances are taken."""
-TURN_DEGREES = 25.0
+PERSON_TURN_DEGREES = 25.0
 """By which some people are turned from the camera."""
 CHARACTER_TRIANGLES = 60_000
 """Triangles of a character, as it is written unless asked for otherwise."""
@@ -63,11 +63,11 @@ def people() -> Iterator[tuple[Person, str]]:
     """The scans from the front and from a side, and the dressed template, one of them turned too; and where they stand."""
     man = read_scan(media("scans3d/body_male02/male02.obj"), 1)
     soldier = read_scan(media("scans3d/body_soldier/soldier.glb"), -1)
-    yield from ((man, "garage"), (man.turned(TURN_DEGREES), "street"))
-    yield from ((soldier, "street"), (soldier.turned(-TURN_DEGREES), "yard"), (soldier, "garage door"))
+    yield from ((man, "garage"), (man.turned(PERSON_TURN_DEGREES), "street"))
+    yield from ((soldier, "street"), (soldier.turned(-PERSON_TURN_DEGREES), "yard"), (soldier, "garage door"))
     dressed = [dress(look) for look in DRESSED_LOOKS]
     yield from zip(dressed, ("garage", "street", "garage door", "yard", "garage"), strict=True)
-    yield dressed[0].turned(-TURN_DEGREES), "street"
+    yield dressed[0].turned(-PERSON_TURN_DEGREES), "street"
 
 
 def examine(known: KnownPicture, place: str) -> Comparison:
@@ -81,11 +81,11 @@ def examine(known: KnownPicture, place: str) -> Comparison:
     fitted = fit_template(figure, silhouette)
     surfaces = build_surfaces(figure, silhouette, fitted)
     found, true = silhouette.alpha > 0.5, known.alpha > 0.5
-    scale = BODY_METRES / known.person.height
+    scale = BODY_HEIGHT_METRES / known.person.height
     truth = sample_outside(known.person.vertices * scale, known.person.triangles)
     distances, aligned = [], []
     for vertices, triangles in (surfaces.made, surfaces.by_depth, surfaces.template):
-        scaled = vertices * (BODY_METRES / np.ptp(vertices[:, 1]))
+        scaled = vertices * (BODY_HEIGHT_METRES / np.ptp(vertices[:, 1]))
         seen = sample_outside(scaled, triangles)
         move = align(seen, truth)
         distances.append(compare(seen.moved(move), truth))

@@ -33,8 +33,8 @@ from engine.performances import STATES, names, performance, video
 from engine.portrait.driver_segments import find_segments
 from engine.portrait.driver_segments.pipeline import DriverSegment
 
-SEEDS = (1, 2, 3, 4)
-MIN_OVERLAP = 0.3
+ORDER_SEEDS = (1, 2, 3, 4)
+MIN_OVERLAP_SHARE = 0.3
 """Share of two stretches of time together that they have in common, from which they are one."""
 JOINED_TITLE = "Built-in performances, joined"
 LABELS_FILE = Path(__file__).with_suffix(".json")
@@ -84,7 +84,7 @@ def tilted_and_dark(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
     return np.asarray(turned * 0.55, np.uint8)
 
 
-ALTERATIONS = {"as they are": None, "mirrored and small": mirrored_and_small, "tilted and dark": tilted_and_dark}
+VIDEO_ALTERATIONS = {"as they are": None, "mirrored and small": mirrored_and_small, "tilted and dark": tilted_and_dark}
 
 
 def is_right(segment: DriverSegment, stretch: Stretch) -> bool:
@@ -93,7 +93,7 @@ def is_right(segment: DriverSegment, stretch: Stretch) -> bool:
         return False
     common = min(segment.end, stretch.end) - max(segment.start, stretch.start)
     together = max(segment.end, stretch.end) - min(segment.start, stretch.start)
-    return stretch.start <= segment.apex <= stretch.end or common / together >= MIN_OVERLAP
+    return stretch.start <= segment.apex <= stretch.end or common / together >= MIN_OVERLAP_SHARE
 
 
 @dataclass
@@ -150,18 +150,18 @@ def labels() -> dict[str, tuple[list[Stretch], list[Stretch]]]:
 def main() -> None:
     head = ("state", "right", "wrong", "found", "missed", "precision", "recall")
     tables: dict[str, dict[str, Tally]] = {
-        title: {state: Tally() for state in STATES} for title in (JOINED_TITLE, *ALTERATIONS)
+        title: {state: Tally() for state in STATES} for title in (JOINED_TITLE, *VIDEO_ALTERATIONS)
     }
     faults, seconds, spent = [], 0.0, 0.0
     with tempfile.TemporaryDirectory() as folder:
-        for seed in SEEDS:
+        for seed in ORDER_SEEDS:
             path = Path(folder) / f"{seed}.mp4"
             truth = join(in_random_order(seed), path, mirrored=seed % 2 == 0)
             started = perf_counter()
             segments = find_segments(path).segments
             spent, seconds = spent + perf_counter() - started, seconds + truth[-1].end
             faults += [f"order {seed}: {fault}" for fault in judge(tables[JOINED_TITLE], segments, truth)]
-        for title, alter in ALTERATIONS.items():
+        for title, alter in VIDEO_ALTERATIONS.items():
             for name, (must, may) in labels().items():
                 path = media(f"driving/{name}")
                 if alter is not None:

@@ -22,14 +22,14 @@ from websockets.sync.client import connect
 
 from engine.media.video import read_video
 
-CAMERA_SIDE = 640
+CAMERA_SIDE_PIXELS = 640
 """Pixels of a frame's longest side, as the page sends them."""
 
 
 def camera_frames(clip: Path, fps: float, seconds: float) -> list[bytes]:
     """The clip's frames as a camera's, forth and back so that it goes on without a cut."""
     frames = []
-    for frame in read_video(clip, fps=fps, longest_side=CAMERA_SIDE):
+    for frame in read_video(clip, fps=fps, longest_side=CAMERA_SIDE_PIXELS):
         done, jpeg = cv2.imencode(".jpg", cv2.cvtColor(frame.rgb, cv2.COLOR_RGB2BGR), [cv2.IMWRITE_JPEG_QUALITY, 80])
         assert done
         frames.append(jpeg.tobytes())

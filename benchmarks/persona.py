@@ -14,13 +14,13 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from benchmarks.persona_figures import correspondence, flicker, held_out, shape, speed
 from benchmarks.presentation.tables import machine
 
-TABLES = ("speed", "held_out", "shape", "correspondence", "flicker")
+PERSONA_TABLES = ("speed", "held_out", "shape", "correspondence", "flicker")
 
 
 def main() -> None:
     """Read the command line and print the tables asked for."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("what", nargs="?", default="all", choices=(*TABLES, "all"))
+    parser.add_argument("what", nargs="?", default="all", choices=(*PERSONA_TABLES, "all"))
     parser.add_argument("--collections", nargs="+", default=[], metavar="NAME", help="by part of their name")
     parser.add_argument("--repeats", type=int, default=3, help="speed: how often each case is timed (default 3)")
     parser.add_argument("--photos", type=int, metavar="N", help="speed: only the first N photos")

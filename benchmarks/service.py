@@ -32,9 +32,9 @@ import uvloop
 from benchmarks.presentation.tables import machine, table
 
 ROOT = Path(__file__).parent.parent
-OPTIONS = {"size": [128, 160], "trim": [0, 0.2]}
+JOB_OPTIONS = {"size": [128, 160], "trim": [0, 0.2]}
 SAMPLE_SECONDS = 5.0
-LONGEST_PAUSE = 10.0
+MAX_PAUSE_SECONDS = 10.0
 ARRIVAL_SECONDS = 10.0
 """Over how long the clients come, and go. Whoever is told to come again waits up to half as long again, each another time, as
 clients of many people do: all in the same instant, they would measure their own herd."""
@@ -115,11 +115,11 @@ async def client(http: httpx.AsyncClient, token: str, picture: bytes, seen: Obse
             sent = await call("POST /files", "POST", "/v1/files", files={"file": ("portrait.jpg", picture)})
             file = sent.json()["id"] if sent.status_code == 201 else None
             continue
-        job = {"kind": "portrait", "inputs": {"image": file, "driver": "idle"}, "options": OPTIONS}
+        job = {"kind": "portrait", "inputs": {"image": file, "driver": "idle"}, "options": JOB_OPTIONS}
         made = await call("POST /jobs", "POST", "/v1/jobs", json=job)
         if made.status_code != 202:
             await call("GET /jobs", "GET", "/v1/jobs?limit=5")
-            pause = min(float(made.headers.get("retry-after", 1)), LONGEST_PAUSE)
+            pause = min(float(made.headers.get("retry-after", 1)), MAX_PAUSE_SECONDS)
             await asyncio.sleep(pause * random.uniform(1, 1.5))
             continue
         path = made.headers["location"]

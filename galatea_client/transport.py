@@ -17,7 +17,7 @@ from galatea_client.operations import OPERATIONS
 SAFE_METHODS = ("GET", "DELETE")
 """Sent twice, they do what they do once."""
 WAIT_STATUSES = (429, 503)
-LONGEST_BACK_OFF = 30.0
+MAX_BACK_OFF_SECONDS = 30.0
 
 
 class Transport:
@@ -88,4 +88,4 @@ class Transport:
 
     @staticmethod
     def _back_off(attempt: int) -> float:
-        return min(LONGEST_BACK_OFF, 0.5 * 2**attempt) * random.uniform(0.5, 1.0)
+        return min(MAX_BACK_OFF_SECONDS, 0.5 * 2**attempt) * random.uniform(0.5, 1.0)

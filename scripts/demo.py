@@ -23,7 +23,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
 
 ROOT = Path(__file__).parent.parent
-FOLDER = ROOT / "demo"
+DEMO_FOLDER = ROOT / "demo"
 START_SECONDS = 120
 STOP_SECONDS = 20
 PREPARE_ENGINE = "prepare_engine"
@@ -41,7 +41,7 @@ def main() -> None:
     parser.add_argument("--image", type=Path, help="a portrait of your own")
     parser.add_argument("--driver", default="happy", help="a video of your own, or the name of a built-in performance")
     parser.add_argument("--once", action="store_true", help="end when the video is there, instead of serving on")
-    parser.add_argument("--folder", type=Path, default=FOLDER, help="where the video and the service's data go")
+    parser.add_argument("--folder", type=Path, default=DEMO_FOLDER, help="where the video and the service's data go")
     arguments = parser.parse_args()
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda *_: sys.exit(0))  # so that the service is stopped along with the demo

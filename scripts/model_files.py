@@ -30,7 +30,7 @@ class CarriedFile:
     what: str
 
 
-FILES = (
+CARRIED_FILES = (
     CarriedFile(
         "engine.perception.identity",
         dlib_descriptor.MODEL_FILE,
@@ -52,7 +52,7 @@ FILES = (
 
 def main() -> None:
     """Put the files where the engine looks for them, unless they are there."""
-    for file in FILES:
+    for file in CARRIED_FILES:
         target = package_folder(file.package) / file.name
         if not target.is_file() or _sha256(target.read_bytes()) != file.sha256:
             _fetch(file, target)

@@ -16,7 +16,7 @@ from engine.performances import video
 from galatea import animate
 
 OUT_FILE = Path(__file__).parent.parent / "docs" / "pictures" / "portrait.jpg"
-SHOWN_MOMENTS = (("happy", 0.8), ("happy", 1.9), ("surprise", 1.25), ("surprise", 1.85))
+SHOWN_PERFORMANCE_SECONDS = (("happy", 0.8), ("happy", 1.9), ("surprise", 1.25), ("surprise", 1.85))
 """Performance, and seconds into it."""
 SIDE_PIXELS = 250
 """Of one frame, pixels; the portrait itself is twice as large."""
@@ -34,9 +34,9 @@ def main() -> None:
             name: _frames(
                 animate(portrait, name, Path(folder) / name, crop="bust", size=(2 * SIDE_PIXELS, 2 * SIDE_PIXELS)).path
             )
-            for name in {name for name, _ in SHOWN_MOMENTS}
+            for name in {name for name, _ in SHOWN_PERFORMANCE_SECONDS}
         }
-        for name, seconds in SHOWN_MOMENTS:
+        for name, seconds in SHOWN_PERFORMANCE_SECONDS:
             index = round(seconds * probe_video(video(name)).fps)
             above.append(_square(_frames(video(name))[index]))
             below.append(_square(made[name][index]))

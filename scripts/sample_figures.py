@@ -47,7 +47,7 @@ OPEN_POSE = ARMS_DOWN | {
     "RightUpLeg": (0, 0, -4),
 }
 
-FIGURES = (
+SAMPLE_FIGURES = (
     Figure(
         "woman-in-red",
         Look(
@@ -281,4 +281,4 @@ def canvas(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 def figure(name: str) -> NDArray[np.uint8]:
     """The figure of that name."""
-    return paint_figure(next(one for one in FIGURES if one.name == name))
+    return paint_figure(next(one for one in SAMPLE_FIGURES if one.name == name))

@@ -23,7 +23,7 @@ LIGHT_GREY_LEVELS, DARK_GREY_LEVELS = (70.0, 56.0, 38.0), (62.0, 46.0, 34.0)
 """Of the ground, grey levels: where light falls on it, what it adds, and the darkest."""
 WARM_GAIN = (1.10, 0.98, 0.80)
 CLOTH_RGB = (128.0, 34.0, 30.0)
-CLOTH_BEGINS = 0.84
+CLOTH_START_SHARE = 0.84
 """As a share of the picture's height: above it nothing is a shirt."""
 
 
@@ -58,7 +58,7 @@ def painted_actor() -> NDArray[np.uint8]:
 def _shirt(filmed: NDArray[np.uint8], y: Array) -> Array:
     """(H, W, 1) how much of each pixel is the shirt: what is dark and grey and reaches the lower border."""
     hsv = cv2.cvtColor(filmed, cv2.COLOR_RGB2HSV)
-    dark = ((y > CLOTH_BEGINS) & (hsv[..., 2] < 110) & (hsv[..., 1] < 120)).astype(np.uint8)
+    dark = ((y > CLOTH_START_SHARE) & (hsv[..., 2] < 110) & (hsv[..., 1] < 120)).astype(np.uint8)
     dark = cv2.morphologyEx(dark, cv2.MORPH_CLOSE, np.ones((15, 15), np.uint8))
     lower_border = np.zeros(dark.shape, np.bool_)
     lower_border[-1] = True

@@ -20,16 +20,16 @@ from engine.export.video import VideoWriter
 from engine.media.image import read_image, write_image
 from engine.media.video import probe_video, read_video
 from galatea import animate, wake_up
-from scripts.sample_figures import FIGURES, paint_figure
+from scripts.sample_figures import SAMPLE_FIGURES, paint_figure
 from scripts.sample_portraits import painted_actor, rendered_actor
 
 OUT_FOLDER = Path(__file__).parent.parent / "web" / "public" / "samples"
 JPEG_QUALITY = 90
 THUMBNAIL_PIXELS = 176
 """Side of the small squares by which a sample is chosen, pixels: twice what they measure on the page."""
-CROPPED_HEIGHT = 600
+CROPPED_HEIGHT_PIXELS = 600
 """Height of a picture of which a part is taken, pixels: faces are to be seen well."""
-SMALL_FIGURE = (176, 235)
+SMALL_FIGURE_SIZE_PIXELS = (176, 235)
 """Width and height of those of whole figures, pixels: they are as small, and show all of the picture."""
 CLIP_SIZE, FIGURE_CLIP_SIZE = (400, 480), (400, 532)
 """Width and height of the clips on the start pages."""
@@ -55,11 +55,11 @@ class Found:
             return whole
         left, top, width, height = self.part
         part = np.ascontiguousarray(whole[top : top + height, left : left + width])
-        size = (round(width * CROPPED_HEIGHT / height), CROPPED_HEIGHT)
+        size = (round(width * CROPPED_HEIGHT_PIXELS / height), CROPPED_HEIGHT_PIXELS)
         return np.asarray(cv2.resize(part, size, interpolation=cv2.INTER_LANCZOS4), np.uint8)
 
 
-PORTRAITS = (
+SAMPLE_PORTRAITS = (
     Found("grace-hopper", "matplotlib", "mpl-data/sample_data/grace_hopper.jpg", (0.5, 0.33, 0.66)),
     Found("eileen-collins", "skimage", "data/astronaut.png", (0.5, 0.33, 0.66), (54, 0, 340, 400)),
 )
@@ -72,17 +72,17 @@ WALKING_FIGURE = ("woman-in-red", "walk")
 def main() -> None:
     """Write all of it."""
     OUT_FOLDER.mkdir(parents=True, exist_ok=True)
-    for sample in PORTRAITS:
+    for sample in SAMPLE_PORTRAITS:
         picture = sample.picture()
         write_image(OUT_FOLDER / f"{sample.name}.jpg", picture, quality=JPEG_QUALITY)
         write_image(OUT_FOLDER / f"{sample.name}-small.jpg", small(picture, *sample.face), quality=JPEG_QUALITY)
     for name, picture in (("rendered-man", rendered_actor()), ("painted-man", painted_actor())):
         write_image(OUT_FOLDER / f"{name}.jpg", picture, quality=JPEG_QUALITY)
         write_image(OUT_FOLDER / f"{name}-small.jpg", small(picture, 0.5, 0.45, 0.85), quality=JPEG_QUALITY)
-    for figure in FIGURES:
+    for figure in SAMPLE_FIGURES:
         picture = paint_figure(figure)
         write_image(OUT_FOLDER / f"{figure.name}.jpg", picture, quality=JPEG_QUALITY)
-        tiny = np.asarray(cv2.resize(picture, SMALL_FIGURE, interpolation=cv2.INTER_AREA), np.uint8)
+        tiny = np.asarray(cv2.resize(picture, SMALL_FIGURE_SIZE_PIXELS, interpolation=cv2.INTER_AREA), np.uint8)
         write_image(OUT_FOLDER / f"{figure.name}-small.jpg", tiny, quality=JPEG_QUALITY)
     move(*MOVING_PORTRAIT)
     walk(*WALKING_FIGURE)

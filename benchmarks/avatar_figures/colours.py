@@ -16,7 +16,7 @@ from benchmarks.scan_studio.truth import Truth
 from engine.geometry.camera import Camera
 from engine.media.video import read_video
 
-COMPARED = 5
+COMPARED_FRAME_STEP = 5
 """Each so many of the frames that were used are compared."""
 
 
@@ -26,7 +26,7 @@ def colour_errors(
     """CIELAB root mean square errors over frames, each in its own exposure: of the avatar by its cameras, and of the truth by
     the true ones."""
     frames = {clip: list(each) for clip, each in cameras.items()}
-    compared = {clip: used[::COMPARED] for clip, used in frames.items()}
+    compared = {clip: used[::COMPARED_FRAME_STEP] for clip, used in frames.items()}
     oracle = textured_truth(folder, truth, frames, size)
     corners = oracle.surface.atlas.corners.astype(np.int32)
     true = _unshaded(oracle.surface.triangles, oracle.surface.atlas.uv, corners, oracle.texture)

@@ -14,9 +14,9 @@ from benchmarks.scan_studio.drawing import draw_over, empty_depths, textured_mes
 from benchmarks.scan_studio.people.rigged_glb import TexturedPart
 from engine.geometry.camera import Camera
 
-BACKGROUND = 110
+BACKGROUND_GREY_LEVEL = 110
 """Grey level around the avatar."""
-FOCAL = 900.0
+FOCAL_PIXELS = 900.0
 """Pixels of the cameras of the sheet."""
 
 
@@ -26,11 +26,11 @@ def avatar_sheet(folder: Path, part: TexturedPart, cameras: Mapping[str, Mapping
     shade = np.ones(len(part.vertices), np.float32)
     mesh = textured_mesh(triangles, part.uv.astype(np.float32), triangles, shade, part.image)
     height, middle = float(part.vertices[:, 1].max()), part.vertices.mean(0)
-    whole = Camera((0.0, 0.0, 1.0), FOCAL, (179.5, 329.5), (660, 360))
-    near = Camera((0.0, 0.0, 1.0), FOCAL, (219.5, 219.5), (440, 440))
+    whole = Camera((0.0, 0.0, 1.0), FOCAL_PIXELS, (179.5, 329.5), (660, 360))
+    near = Camera((0.0, 0.0, 1.0), FOCAL_PIXELS, (219.5, 219.5), (440, 440))
 
     def drawn(camera: Camera, rgb: NDArray[np.uint8] | None = None) -> NDArray[np.uint8]:
-        picture = np.full((*camera.size, 3), BACKGROUND, np.uint8) if rgb is None else rgb.copy()
+        picture = np.full((*camera.size, 3), BACKGROUND_GREY_LEVEL, np.uint8) if rgb is None else rgb.copy()
         draw_over(picture, empty_depths(camera), mesh, part.vertices, camera)
         return picture
 

@@ -39,14 +39,14 @@ from engine.render.attributes import interpolate, sample_texture
 from engine.render.rasteriser import rasterise
 from engine.render.texture_bake import charts_of, pad_charts
 
-SUPERSAMPLES = 2
+PERSON_SUPERSAMPLING = 2
 """Along a side of a pixel, when the textured person is drawn."""
 OUTLINE_PIXELS = 5
 """Across the outline that is left out of the errors: frames are blurred there with the room behind."""
-COMPARED = 5
+COMPARED_FRAME_STEP = 5
 """Each so many frames are compared."""
-BACKGROUND = 110
-FOCAL_OF_SHEET = 900
+BACKGROUND_GREY_LEVEL = 110
+SHEET_FOCAL_PIXELS = 900
 
 
 def spread_frames(truth: Truth, counts: Mapping[str, int]) -> dict[str, list[int]]:
@@ -75,11 +75,11 @@ def film_views(
 
 def drawn(surface: ChartedSurface, texture: NDArray[np.uint8], camera: Camera) -> tuple[NDArray, NDArray[np.bool_]]:
     """The textured person without light, (H, W, 3) float32, and which pixels it covers."""
-    fine = camera.scaled(SUPERSAMPLES)
+    fine = camera.scaled(PERSON_SUPERSAMPLING)
     raster = rasterise(fine.project(surface.vertices), surface.triangles, fine.size, perspective=True)
     covered = raster.triangle >= 0
     uv = interpolate(surface.atlas.uv, surface.atlas.corners, raster)
-    picture = np.where(covered[..., None], sample_texture(texture, uv, covered), np.float32(BACKGROUND))
+    picture = np.where(covered[..., None], sample_texture(texture, uv, covered), np.float32(BACKGROUND_GREY_LEVEL))
     size = camera.size[::-1]
     mean = cv2.resize(picture, size, interpolation=cv2.INTER_AREA)
     share = cv2.resize(covered.astype(np.float32), size, interpolation=cv2.INTER_AREA)
@@ -90,7 +90,7 @@ def errors(surface: ChartedSurface, texture: NDArray[np.uint8], views: list[Fram
     """CIELAB root mean square over pixels of the person, mean square over frames."""
     small = cv2.resize(texture, (2048, 2048), interpolation=cv2.INTER_AREA) if len(texture) > 2048 else texture
     squares = []
-    for view, gain in list(zip(views, gains, strict=True))[::COMPARED]:
+    for view, gain in list(zip(views, gains, strict=True))[::COMPARED_FRAME_STEP]:
         picture, covered = drawn(surface, np.asarray(small), view.camera)
         inner = cv2.erode(covered.astype(np.uint8), np.ones((OUTLINE_PIXELS, OUTLINE_PIXELS), np.uint8)) > 0
         away = to_lab(np.clip(picture / gain, 0, 255)[inner]) - to_lab(view.picture()[inner].astype(np.float32))
@@ -115,14 +115,14 @@ def sheet_of(surface: ChartedSurface, texture: NDArray[np.uint8], views: list[Fr
     """Eight sides, the face from near, frames."""
     small = cv2.resize(texture, (2048, 2048), interpolation=cv2.INTER_AREA) if len(texture) > 2048 else texture
     height = float(surface.vertices[np.unique(surface.triangles), 1].max())
-    lens = Camera((0, 0, 1), FOCAL_OF_SHEET, (179.5, 329.5), (660, 360))
+    lens = Camera((0, 0, 1), SHEET_FOCAL_PIXELS, (179.5, 329.5), (660, 360))
 
     def seen(distance: float, at: float, turn: float, lens: Camera) -> NDArray[np.uint8]:
         camera = lens.aimed([distance * np.sin(turn), at, distance * np.cos(turn)], [0, at, 0])
         return np.clip(drawn(surface, np.asarray(small), camera)[0], 0, 255).astype(np.uint8)
 
     turns = np.arange(8) * np.pi / 4
-    near = Camera((0, 0, 1), FOCAL_OF_SHEET, (219.5, 219.5), (440, 440))
+    near = Camera((0, 0, 1), SHEET_FOCAL_PIXELS, (219.5, 219.5), (440, 440))
     return contact_sheet(
         [
             Row([seen(2.7, height / 2, turn, lens) for turn in turns], "eight sides"),

@@ -27,11 +27,11 @@ from engine.motion.edit import in_place
 from engine.motion.library import built_in
 from engine.render.character import draw_character, prepare_character
 
-ROW_HEIGHT = 420
+ROW_HEIGHT_PIXELS = 420
 """Pixels of a row."""
 BACKDROP_RGB = np.array([150, 156, 162], np.uint8)
 """RGB behind a drawn character."""
-SHOWN_MOMENTS = (
+SHOWN_CLIP_MOMENTS = (
     ("walk", 0.0),
     ("walk", 0.25),
     ("walk", 0.5),
@@ -44,12 +44,12 @@ SHOWN_MOMENTS = (
 
 
 def row(woken: Woken, title: str) -> Row:
-    """The pictures of one character, `ROW_HEIGHT` pixels high."""
+    """The pictures of one character, `ROW_HEIGHT_PIXELS` pixels high."""
     figure, silhouette, character = woken.figure, woken.silhouette, woken.character
     subject = prepare_character(character.mesh)
     labels = LABEL_COLOURS[woken.labels.labels.astype(int)]
     mask = np.repeat((silhouette.alpha * 255).astype(np.uint8)[..., None], 3, 2)
-    panels = [at_height(picture, ROW_HEIGHT) for picture in (figure.rgb, mask, labels)]
+    panels = [at_height(picture, ROW_HEIGHT_PIXELS) for picture in (figure.rgb, mask, labels)]
 
     def view(clip: Clip, frame: int, degrees: float) -> NDArray[np.uint8]:
         posed = pose(character, clip, frame)
@@ -57,14 +57,14 @@ def row(woken: Woken, title: str) -> Row:
         high = float(posed[:, 1].max() - posed[:, 1].min())
         turn = np.radians(degrees)
         eye = middle + 3 * high * np.array([np.sin(turn), 0.1, np.cos(turn)])
-        size = (ROW_HEIGHT, ROW_HEIGHT * 5 // 8)
-        plain = Camera((0, 0, 0), 2.7 * ROW_HEIGHT, ((size[1] - 1) / 2, (size[0] - 1) / 2), size)
+        size = (ROW_HEIGHT_PIXELS, ROW_HEIGHT_PIXELS * 5 // 8)
+        plain = Camera((0, 0, 0), 2.7 * ROW_HEIGHT_PIXELS, ((size[1] - 1) / 2, (size[0] - 1) / 2), size)
         return draw_character(
             subject, posed, plain.aimed(eye, middle), np.tile(BACKDROP_RGB, (*size, 1)), shading=0.25
         ).rgb
 
     panels += [view(character.pictured, 0, degrees) for degrees in (0, 90, 180)]
-    for name, share in SHOWN_MOMENTS:
+    for name, share in SHOWN_CLIP_MOMENTS:
         clip = in_place(built_in(name, character.mesh.skeleton))
         panels.append(view(clip, int(share * len(clip.rotations)), 25))
     return Row(panels, title)

@@ -28,7 +28,7 @@ from engine.character.stages import (
 )
 from engine.media.limits import Limits
 
-BY_HAND: Mapping[str, Mapping[str, tuple[float, float]]] = {
+JOINTS_PLACED_BY_HAND: Mapping[str, Mapping[str, tuple[float, float]]] = {
     "drawing_child_boy": {
         **{"RightShoulder": (200, 220), "RightElbow": (110, 260), "RightWrist": (50, 295), "RightHip": (200, 400)},
         **{"RightKnee": (170, 465), "RightAnkle": (135, 540), "LeftShoulder": (320, 215), "LeftElbow": (390, 240)},
@@ -45,7 +45,9 @@ def pictures() -> list[Path]:
 
 def options_for(photo: Path, options: Mapping[str, Any]) -> CharacterOptions:
     """The options asked for; whoever is cut off is accepted, and joints that nobody else finds are placed."""
-    return CharacterOptions.model_validate({"partial": True, "joints": BY_HAND.get(photo.stem, {}), **options})
+    return CharacterOptions.model_validate(
+        {"partial": True, "joints": JOINTS_PLACED_BY_HAND.get(photo.stem, {}), **options}
+    )
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from engine.motion.library import built_in
 
 STRETCH_RATIO = 3.0
 """How many times its pictured length an edge has from which it is stretched."""
-FRAME_STEP = 5
+STRETCHED_FRAME_STEP = 5
 """Frames from one that is looked at to the next."""
 
 
@@ -29,7 +29,9 @@ def stretched(character: Character, name: str) -> float:
     clip = built_in(name, mesh.skeleton)
     return max(
         float((lengths(skin(mesh.vertices, mesh.bones, mesh.weights, transforms)) > STRETCH_RATIO * before).mean())
-        for transforms in pose_transforms(mesh.skeleton, clip.rotations[::FRAME_STEP], clip.root[::FRAME_STEP])
+        for transforms in pose_transforms(
+            mesh.skeleton, clip.rotations[::STRETCHED_FRAME_STEP], clip.root[::STRETCHED_FRAME_STEP]
+        )
     )
 
 

@@ -14,9 +14,9 @@ from engine.geometry.surface import vertex_normals
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import rasterise
 
-CELL_HEIGHT = 360
+CELL_HEIGHT_PIXELS = 360
 """Pixels of a cell's height."""
-CELL_METRES = 2.1
+CELL_HEIGHT_METRES = 2.1
 """Metres of a cell's height."""
 VIEW_DEGREES = (90.0, 35.0)
 """Degrees by which the surfaces are turned."""
@@ -36,7 +36,7 @@ def _row(result: Comparison) -> Row:
     mask = np.full((*true.shape, 3), 30, np.uint8)
     for region, colour in ((found & true, SHARED_RGB), (true & ~found, MISSED_RGB), (found & ~true, EXCESS_RGB)):
         mask[region] = colour
-    cells = [at_height(picture, CELL_HEIGHT) for picture in (known.rgb, mask)]
+    cells = [at_height(picture, CELL_HEIGHT_PIXELS) for picture in (known.rgb, mask)]
     person = known.person
     truth = person.vertices * (1.8 / person.height)
     for degrees in VIEW_DEGREES:
@@ -53,11 +53,11 @@ def _drawn(vertices: NDArray[np.float64], triangles: NDArray[np.integer], degree
     """A surface turned to its left, grey, lit from where one looks."""
     c, s = np.cos(np.deg2rad(degrees)), np.sin(np.deg2rad(degrees))
     turned = vertices @ np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]]).T
-    scale, width = CELL_HEIGHT / CELL_METRES, CELL_HEIGHT * 5 // 8
+    scale, width = CELL_HEIGHT_PIXELS / CELL_HEIGHT_METRES, CELL_HEIGHT_PIXELS * 5 // 8
     screen = np.stack(
-        [turned[:, 0] * scale + width / 2, CELL_HEIGHT * 0.97 - turned[:, 1] * scale, -turned[:, 2] * scale], 1
+        [turned[:, 0] * scale + width / 2, CELL_HEIGHT_PIXELS * 0.97 - turned[:, 1] * scale, -turned[:, 2] * scale], 1
     )
-    raster = rasterise(screen, triangles, (CELL_HEIGHT, width))
+    raster = rasterise(screen, triangles, (CELL_HEIGHT_PIXELS, width))
     normals = interpolate(vertex_normals(turned, triangles), triangles, raster)
     light = np.abs(normals @ np.array([0.3, 0.4, 0.86], np.float32))[..., None] * 200 + 40
     return np.where((raster.triangle >= 0)[..., None], light * np.ones(3), 255).clip(0, 255).astype(np.uint8)

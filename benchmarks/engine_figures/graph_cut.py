@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from engine.geometry.graph_cut import PairCost, energy, expansion_moves
 
-SAMPLES_PER_EDGE = 6
+VIEW_SAMPLES_PER_EDGE = 6
 """Of an edge, at which views are compared."""
-MIN_VIEW_COSINE = np.cos(np.pi / 4)
+MIN_COUNTED_VIEW_COSINE = np.cos(np.pi / 4)
 """Views that look at a triangle under a smaller cosine do not count."""
 CLOTH_FOLD_SIGMA = 0.1
 """Of cloth: by how much normals are off, as unit vectors."""
@@ -50,9 +50,9 @@ def seam_cost(middles: NDArray, labels: int, random: np.random.Generator) -> Pai
     shifted, smoothly over the surface."""
     waves, phases = random.normal(0, 6, (labels, 3)), random.uniform(0, 2 * np.pi, (labels, 3))
     smooth = np.sin((middles @ waves.T)[:, :, None] + phases)
-    colours = np.empty((len(middles), labels, SAMPLES_PER_EDGE, 3), np.uint8)
+    colours = np.empty((len(middles), labels, VIEW_SAMPLES_PER_EDGE, 3), np.uint8)
     for label in range(labels):
-        noise = random.normal(0, 3, (len(middles), SAMPLES_PER_EDGE, 3))
+        noise = random.normal(0, 3, (len(middles), VIEW_SAMPLES_PER_EDGE, 3))
         colours[:, label] = np.clip(128 + random.normal(0, 4) + 15 * smooth[:, label, None] + noise, 0, 255)
 
     def cost(which: NDArray[np.intp], first: NDArray[np.intp], second: NDArray[np.intp]) -> NDArray:
@@ -73,7 +73,7 @@ def main() -> None:
     random = np.random.default_rng(1)
     normals += random.normal(0, CLOTH_FOLD_SIGMA, normals.shape)
     seen = normals / np.linalg.norm(normals, axis=1, keepdims=True) @ views(asked.labels).T
-    unary = np.where(seen > MIN_VIEW_COSINE, 1 - seen, np.inf)
+    unary = np.where(seen > MIN_COUNTED_VIEW_COSINE, 1 - seen, np.inf)
     unary[~np.isfinite(unary).any(1)] = 1.0
     cost = seam_cost(middles, asked.labels, random)
     best_view = unary.argmin(1)

@@ -25,7 +25,7 @@ from engine.motion.library import built_in
 
 FRAMES, REPEATS = 100, 5
 GOAL_TIME, GOAL_SIZE = "0.3 s", "40 MB"
-COMPONENT_COUNTS = (1, 5, 10, 20, 30, 40)
+COMPARED_COMPONENT_COUNTS = (1, 5, 10, 20, 30, 40)
 
 
 def speed() -> None:
@@ -53,7 +53,7 @@ def variance() -> None:
     """Print how much of the sampled bodies' variance the first components of the space of shapes hold."""
     held = load_body_space().variance_held
     rest = (held - held[0]) / (1 - held[0])
-    rows = [[f"{n}", f"{100 * held[n - 1]:.2f} %", f"{100 * rest[n - 1]:.1f} %"] for n in COMPONENT_COUNTS]
+    rows = [[f"{n}", f"{100 * held[n - 1]:.2f} %", f"{100 * rest[n - 1]:.1f} %"] for n in COMPARED_COMPONENT_COUNTS]
     print(table("Variance that the space of shapes holds", ["components", "of all", "of what is not size"], rows))
     print("\nThe first component is size, from children to tall adults.")
 

@@ -38,9 +38,9 @@ HAIR_CENTIMETRES = 1.5
 """By which hair stands off from the scalp."""
 FOLDS_CENTIMETRES = 1.0
 """By which cloth waves about its distance from the body, each way."""
-SMOOTHING_ROUNDS = 12
+OFFSET_SMOOTHING_ROUNDS = 12
 """Rounds of smoothing in which offsets become their neighbours' mean."""
-EYE_HEIGHT, HAIRLINE_HEIGHT, NAPE_HEIGHT = 0.0, 0.055, -0.09
+EYE_HEIGHT_ABOVE_EYES_METRES, HAIRLINE_ABOVE_EYES_METRES, NAPE_ABOVE_EYES_METRES = 0.0, 0.055, -0.09
 """Metres above the eyes at which the forehead ends, and to which hair hangs behind, on the average body."""
 EYE_WHITE_RGB, IRIS_RGB = (225, 220, 215), (70, 50, 40)
 """RGB of the eyes."""
@@ -160,7 +160,7 @@ def _hair(
     scale = height / 1.7
     up = (rest[:, 1] - rest[eye, 1].mean()) / scale
     behind = (rest[eye, 2].mean() - rest[:, 2]) / scale
-    return (moved == "Head") & ((up > HAIRLINE_HEIGHT) | ((behind > 0.075) & (up > NAPE_HEIGHT)))
+    return (moved == "Head") & ((up > HAIRLINE_ABOVE_EYES_METRES) | ((behind > 0.075) & (up > NAPE_ABOVE_EYES_METRES)))
 
 
 def _offsets(
@@ -181,7 +181,7 @@ def _offsets(
     others = np.concatenate([np.roll(quads, -1, 1), quads], 1).reshape(-1)
     beside = coo_array((np.ones(len(ends)), (ends, others)), shape=(len(rest), len(rest))).tocsr()
     count = np.maximum(beside.sum(1), 1)
-    for _ in range(SMOOTHING_ROUNDS):
+    for _ in range(OFFSET_SMOOTHING_ROUNDS):
         away = (away + beside @ away / count) / 2
     return away
 

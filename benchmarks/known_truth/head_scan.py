@@ -17,20 +17,20 @@ from engine.render.attributes import interpolate, sample_texture
 from engine.render.film import box_downsample
 from engine.render.rasteriser import rasterise
 
-SUPERSAMPLING = 3
-CAMERA_DISTANCE = 8.0
+SCAN_SUPERSAMPLING = 3
+CAMERA_DISTANCE_SCAN_HEIGHTS = 8.0
 """Heights of the scan from the camera to the head: a portrait lens."""
-LIGHT_DIRECTION = np.array([0.25, 0.45, 0.85])
+SCAN_LIGHT_DIRECTION = np.array([0.25, 0.45, 0.85])
 """Where the light comes from; it stays where it is when the head turns."""
 AMBIENT_SHARE = 0.55
 """Share of the light that comes from everywhere."""
 BACKGROUND_RGB = (150, 160, 170)
-AIM_HEIGHT = 0.17
+AIM_SCAN_HEIGHTS = 0.17
 """Heights of the scan above its middle at which the camera looks."""
-NECK_HEIGHTS = (-0.28, -0.08)
+NECK_SCAN_HEIGHTS = (-0.28, -0.08)
 """Heights of the scan above its middle between which the neck twists: the shoulders below do not turn."""
 
-HIDDEN_HEIGHTS = 0.01
+HIDDEN_DEPTH_SCAN_HEIGHTS = 0.01
 """Heights of the scan by which a vertex lies behind what is seen, to be hidden."""
 
 
@@ -67,16 +67,16 @@ def render_head(
     Returns the picture (height, width, 3) uint8 and the head's coverage (height, width) float32.
     """
     height = float(np.ptp(scan.vertices[:, 1]))
-    vertices = _turned(scan.vertices, np.deg2rad(yaw), height, shoulders) - (0, AIM_HEIGHT * height, 0)
-    camera = _camera(height, size, zoom).scaled(SUPERSAMPLING)
+    vertices = _turned(scan.vertices, np.deg2rad(yaw), height, shoulders) - (0, AIM_SCAN_HEIGHTS * height, 0)
+    camera = _camera(height, size, zoom).scaled(SCAN_SUPERSAMPLING)
     raster = rasterise(camera.project(vertices), scan.triangles, camera.size, perspective=True)
     covered = raster.triangle >= 0
     colours = sample_texture(scan.texture, interpolate(scan.uv, scan.triangles, raster), covered)
     normals = interpolate(vertex_normals(vertices, scan.triangles), scan.triangles, raster)
-    lamp = np.clip(normals @ (LIGHT_DIRECTION / np.linalg.norm(LIGHT_DIRECTION)).astype(np.float32), 0, 1)
+    lamp = np.clip(normals @ (SCAN_LIGHT_DIRECTION / np.linalg.norm(SCAN_LIGHT_DIRECTION)).astype(np.float32), 0, 1)
     shaded = colours * (AMBIENT_SHARE + (1 - AMBIENT_SHARE) * lamp[..., None])
-    alpha = box_downsample(covered.astype(np.float32)[..., None], SUPERSAMPLING)[..., 0]
-    premultiplied = box_downsample(np.asarray(np.where(covered[..., None], shaded, 0), np.float32), SUPERSAMPLING)
+    alpha = box_downsample(covered.astype(np.float32)[..., None], SCAN_SUPERSAMPLING)[..., 0]
+    premultiplied = box_downsample(np.asarray(np.where(covered[..., None], shaded, 0), np.float32), SCAN_SUPERSAMPLING)
     behind = np.asarray(BACKGROUND_RGB if background is None else background, np.float32)
     picture = premultiplied + (1 - alpha[..., None]) * behind
     return np.clip(picture + 0.5, 0, 255).astype(np.uint8), np.asarray(alpha, np.float32)
@@ -88,12 +88,12 @@ def project_scan(
     """Where the scan's vertices are in the picture that `render_head` draws: (V, 2) pixels; and how well each is seen: (V,) the
     cosine between its surface and the line of sight, 0 where something is before it."""
     height = float(np.ptp(scan.vertices[:, 1]))
-    vertices = _turned(scan.vertices, np.deg2rad(yaw), height, False) - (0, AIM_HEIGHT * height, 0)
+    vertices = _turned(scan.vertices, np.deg2rad(yaw), height, False) - (0, AIM_SCAN_HEIGHTS * height, 0)
     camera = _camera(height, size, zoom)
     places = camera.project(vertices)
     raster = rasterise(places, scan.triangles, camera.size, perspective=True)
     x, y = np.clip(np.rint(places[:, :2]), 0, np.array(size) - 1).astype(int).T
-    hidden = places[:, 2] > raster.depth[y, x] + HIDDEN_HEIGHTS * height
+    hidden = places[:, 2] > raster.depth[y, x] + HIDDEN_DEPTH_SCAN_HEIGHTS * height
     towards = np.array(camera.eye) - vertices
     cosine = (vertex_normals(vertices, scan.triangles) * towards).sum(axis=1) / np.linalg.norm(towards, axis=1)
     return places[:, :2].astype(float), np.where(hidden, 0.0, cosine).astype(float)
@@ -102,15 +102,15 @@ def project_scan(
 def _camera(height: float, size: tuple[int, int], zoom: float) -> Camera:
     width_px, height_px = size
     return Camera(
-        eye=(0.0, 0.0, CAMERA_DISTANCE * height),
-        focal=zoom * 0.8 * height_px * CAMERA_DISTANCE,
+        eye=(0.0, 0.0, CAMERA_DISTANCE_SCAN_HEIGHTS * height),
+        focal=zoom * 0.8 * height_px * CAMERA_DISTANCE_SCAN_HEIGHTS,
         centre=((width_px - 1) / 2, (height_px - 1) / 2),
         size=(height_px, width_px),
     )
 
 
 def _turned(vertices: NDArray[np.float64], yaw: float, height: float, shoulders: bool) -> NDArray[np.float64]:
-    t = np.clip((vertices[:, 1] / height - NECK_HEIGHTS[0]) / (NECK_HEIGHTS[1] - NECK_HEIGHTS[0]), 0, 1)
+    t = np.clip((vertices[:, 1] / height - NECK_SCAN_HEIGHTS[0]) / (NECK_SCAN_HEIGHTS[1] - NECK_SCAN_HEIGHTS[0]), 0, 1)
     angle = yaw * (np.ones_like(t) if shoulders else t * t * (3 - 2 * t))
     c, s = np.cos(angle), np.sin(angle)
     x, y, z = vertices.T

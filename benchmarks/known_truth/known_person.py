@@ -15,19 +15,19 @@ from engine.render.attributes import interpolate
 from engine.render.film import box_downsample
 from engine.render.rasteriser import Raster, rasterise
 
-SUPERSAMPLING = 3
+PICTURE_SUPERSAMPLING = 3
 PICTURE_SIZE = (960, 720)
 """(height, width) of the pictures."""
-FOCAL_LENGTH = 1.6
+FOCAL_LENGTH_PICTURE_HEIGHTS = 1.6
 """Focal length in picture heights. What is measured assumes another one, as it must with any photograph."""
-PERSON_SHARE = 0.8
+PERSON_PICTURE_SHARE = 0.8
 """Share of the picture's height that the person takes, and at most of its width."""
-EYE_HEIGHT = 1.3
+EYE_HEIGHT_METRES = 1.3
 """Metres of the level camera above the ground, for somebody of 1.8 m."""
-TELEPHONE_FOCAL_LENGTH, TELEPHONE_HEIGHT = 1.0, 1.5
+TELEPHONE_FOCAL_LENGTH_PICTURE_HEIGHTS, TELEPHONE_HEIGHT_METRES = 1.0, 1.5
 """Of a telephone: the focal length in picture heights, and metres above the ground, for somebody of 1.8 m."""
-LIGHT_DIRECTION, AMBIENT_SHARE = np.array([0.35, 0.6, 0.72]), 0.5
-CONTACT_SHADE = 0.45
+SUN_DIRECTION, AMBIENT_SHARE = np.array([0.35, 0.6, 0.72]), 0.5
+GROUND_CONTACT_SHADE_SHARE = 0.45
 """Share of the light that is missing on the ground beneath the feet."""
 
 
@@ -63,11 +63,11 @@ class KnownPicture:
 
 
 def level_camera(person: Person, size: tuple[int, int]) -> Camera:
-    """A level camera, as far away as the person fills `PERSON_SHARE` of a picture of `size` (height, width)."""
+    """A level camera, as far away as the person fills `PERSON_PICTURE_SHARE` of a picture of `size` (height, width)."""
     height, width = size
-    focal = FOCAL_LENGTH * height
+    focal = FOCAL_LENGTH_PICTURE_HEIGHTS * height
     distance = _distance(person, focal, size)
-    eye = (_middle(person), EYE_HEIGHT * person.height / 1.8, distance)
+    eye = (_middle(person), EYE_HEIGHT_METRES * person.height / 1.8, distance)
     # level, so that upright lines stay upright: the picture is shifted, not the camera tilted
     centre = ((width - 1) / 2, (height - 1) / 2 + focal / distance * (person.height / 2 - eye[1]))
     return Camera(eye, focal, centre, size)
@@ -76,16 +76,16 @@ def level_camera(person: Person, size: tuple[int, int]) -> Camera:
 def telephone_camera(person: Person, size: tuple[int, int]) -> Camera:
     """A telephone held before the eyes of somebody near by, and tilted down so that the person is in the picture's middle."""
     height, width = size
-    focal = TELEPHONE_FOCAL_LENGTH * height
+    focal = TELEPHONE_FOCAL_LENGTH_PICTURE_HEIGHTS * height
     middle = _middle(person)
-    eye = (middle, TELEPHONE_HEIGHT * person.height / 1.8, _distance(person, focal, size))
+    eye = (middle, TELEPHONE_HEIGHT_METRES * person.height / 1.8, _distance(person, focal, size))
     plain = Camera((0, 0, 0), focal, ((width - 1) / 2, (height - 1) / 2), size)
     return plain.aimed(np.array(eye), np.array([middle, person.height / 2, 0.0]))
 
 
 def _distance(person: Person, focal: float, size: tuple[int, int]) -> float:
     height, width = size
-    return focal * max(person.height / height, float(np.ptp(person.vertices[:, 0])) / width) / PERSON_SHARE
+    return focal * max(person.height / height, float(np.ptp(person.vertices[:, 0])) / width) / PERSON_PICTURE_SHARE
 
 
 def _middle(person: Person) -> float:
@@ -99,16 +99,18 @@ def draw_into(
     `level_camera` sees them, or another."""
     height, width = background.shape[:2]
     camera = camera or level_camera(person, (height, width))
-    large = camera.scaled(SUPERSAMPLING)
+    large = camera.scaled(PICTURE_SUPERSAMPLING)
     raster = rasterise(large.project(person.vertices), person.triangles, large.size, perspective=True)
     covered = raster.triangle >= 0
     normals = interpolate(vertex_normals(person.vertices, person.triangles), person.triangles, raster)
     lamp = np.abs(
-        normals @ (LIGHT_DIRECTION / np.linalg.norm(LIGHT_DIRECTION)).astype(np.float32)
+        normals @ (SUN_DIRECTION / np.linalg.norm(SUN_DIRECTION)).astype(np.float32)
     )  # cloth is a single sheet at times
     shaded = person.paint(raster) * (AMBIENT_SHARE + (1 - AMBIENT_SHARE) * lamp[..., None])
-    alpha = box_downsample(covered.astype(np.float32)[..., None], SUPERSAMPLING)[..., 0]
-    premultiplied = box_downsample(np.asarray(np.where(covered[..., None], shaded, 0), np.float32), SUPERSAMPLING)
+    alpha = box_downsample(covered.astype(np.float32)[..., None], PICTURE_SUPERSAMPLING)[..., 0]
+    premultiplied = box_downsample(
+        np.asarray(np.where(covered[..., None], shaded, 0), np.float32), PICTURE_SUPERSAMPLING
+    )
     behind = background * _shadow(person, camera)[..., None] if shadow else background
     picture = premultiplied + (1 - alpha[..., None]) * behind
     return KnownPicture(np.clip(picture + 0.5, 0, 255).astype(np.uint8), alpha.astype(np.float32), camera, person)
@@ -122,4 +124,4 @@ def _shadow(person: Person, camera: Camera) -> NDArray[np.float64]:
     across = 0.7 * np.ptp(feet[:, 0]) + 8
     rows, columns = np.mgrid[: camera.size[0], : camera.size[1]]
     away = ((columns - x) / across) ** 2 + ((rows - y) / (0.25 * across)) ** 2
-    return np.asarray(1 - CONTACT_SHADE * np.exp(-(away**2)))
+    return np.asarray(1 - GROUND_CONTACT_SHADE_SHARE * np.exp(-(away**2)))

@@ -15,7 +15,7 @@ from benchmarks.known_truth.known_person import Person
 from engine.render.attributes import interpolate, sample_texture
 from engine.render.rasteriser import Raster
 
-BODY_METRES = 1.8
+BODY_HEIGHT_METRES = 1.8
 """Height to which scans are scaled."""
 
 
@@ -34,11 +34,13 @@ def read_scan(path: Path, facing: float) -> Person:
         ends.append(sum(map(len, triangles)))
         count += len(part.vertices)
     points = np.concatenate(vertices) * [facing, 1, facing]
-    scale = BODY_METRES / np.ptp(points[:, 1])
+    scale = BODY_HEIGHT_METRES / np.ptp(points[:, 1])
     middle = (points.min(0) + points.max(0)) / 2
     points = (points - [middle[0], points[:, 1].min(), middle[2]]) * scale
     faces = np.concatenate(triangles).astype(np.int32)
-    return Person(path.stem, points, faces, BODY_METRES, texture_painter(np.concatenate(uv), faces, textures, ends))
+    return Person(
+        path.stem, points, faces, BODY_HEIGHT_METRES, texture_painter(np.concatenate(uv), faces, textures, ends)
+    )
 
 
 def _texture(material: object) -> NDArray[np.uint8]:

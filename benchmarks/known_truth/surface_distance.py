@@ -20,9 +20,9 @@ ALIGNMENT_ROUNDS = 40
 """Rounds in which two surfaces are aligned."""
 VIEW_PIXELS = 500
 """Pixels of the views that tell what lies outside."""
-SURFACE_TOLERANCE = 0.006
+SURFACE_TOLERANCE_METRES = 0.006
 """Metres, of a body 1.8 m high, that still count as the surface."""
-CANDIDATE_TRIANGLES = 6
+CANDIDATE_TRIANGLE_COUNT = 6
 """Triangles, of the nearest samples, in which the nearest point of a surface is looked for."""
 
 
@@ -91,7 +91,7 @@ def _towards_views(
 
         nearest = depth_map(view(vertices), triangles, (VIEW_PIXELS, VIEW_PIXELS))
         x, y, z = view(points).T
-        seen = z < nearest[np.rint(y).astype(int), np.rint(x).astype(int)] + SURFACE_TOLERANCE * scale
+        seen = z < nearest[np.rint(y).astype(int), np.rint(x).astype(int)] + SURFACE_TOLERANCE_METRES * scale
         towards[seen] += back
     return towards
 
@@ -122,10 +122,10 @@ def compare(made: Sampled, truth: Sampled) -> Distances:
 
 def _to_surface(samples: Sampled, surface: Sampled) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """From each point the distance to the nearest of the surface's triangles, and the angle of the normals there."""
-    near = np.asarray(cKDTree(surface.points).query(samples.points, k=CANDIDATE_TRIANGLES)[1])
+    near = np.asarray(cKDTree(surface.points).query(samples.points, k=CANDIDATE_TRIANGLE_COUNT)[1])
     away = np.stack([
         np.linalg.norm(closest_point(surface.triangles[near[:, k]], samples.points) - samples.points, axis=1)
-        for k in range(CANDIDATE_TRIANGLES)
+        for k in range(CANDIDATE_TRIANGLE_COUNT)
     ])  # fmt: skip
     best: NDArray[np.intp] = np.argmin(away, axis=0)
     each = np.arange(len(best))

@@ -21,11 +21,11 @@ from engine.geometry.skinned_mesh import SkinnedMesh
 
 COMPONENT_TYPES: dict[int, Any] = {5121: np.uint8, 5123: np.uint16, 5126: np.float32}
 COMPONENT_COUNTS = {"VEC3": 3, "VEC4": 4, "MAT4": 16}
-SUPERSAMPLING = 8
+OUTLINE_SUPERSAMPLING = 8
 """How many times larger an outline is drawn."""
 FRACTION_BITS = 4
 """Bits of OpenCV's fractions of a pixel."""
-FILL_OVERHANG = 0.5 / SUPERSAMPLING
+FILL_OVERHANG_PIXELS = 0.5 / OUTLINE_SUPERSAMPLING
 """Pixels by which it is drawn too wide: OpenCV fills every pixel that an edge passes."""
 
 
@@ -74,11 +74,13 @@ def read_written(path: Path) -> Written:
 
 def outline(points: NDArray[np.floating], triangles: NDArray[np.integer], size: tuple[int, int]) -> NDArray[np.bool_]:
     """(height, width) where triangles between points (V, 2 or 3), pixels, cover at least half of a pixel."""
-    canvas = np.zeros((size[0] * SUPERSAMPLING, size[1] * SUPERSAMPLING), np.uint8)
-    at = ((points[:, :2] + 0.5) * SUPERSAMPLING - 0.5) * 2**FRACTION_BITS
+    canvas = np.zeros((size[0] * OUTLINE_SUPERSAMPLING, size[1] * OUTLINE_SUPERSAMPLING), np.uint8)
+    at = ((points[:, :2] + 0.5) * OUTLINE_SUPERSAMPLING - 0.5) * 2**FRACTION_BITS
     for triangle in at.round().astype(np.int32)[triangles]:
         cv2.fillConvexPoly(canvas, triangle, 255, shift=FRACTION_BITS)
-    return np.asarray(cv2.resize(canvas, size[::-1], interpolation=cv2.INTER_AREA) >= 255 * (0.5 + FILL_OVERHANG))
+    return np.asarray(
+        cv2.resize(canvas, size[::-1], interpolation=cv2.INTER_AREA) >= 255 * (0.5 + FILL_OVERHANG_PIXELS)
+    )
 
 
 class _Glb:

@@ -13,7 +13,13 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.persona_figures.known_heads import SIDE, KnownHead, from_before, photographs, template_person
+from benchmarks.persona_figures.known_heads import (
+    PHOTO_SIDE_PIXELS,
+    KnownHead,
+    from_before,
+    photographs,
+    template_person,
+)
 from benchmarks.presentation.tables import table
 from engine.persona.learning import learn_persona
 from engine.persona.persona import Persona
@@ -24,15 +30,15 @@ from engine.persona.texture.dense_alignment import SMOOTHING_SIGMA
 from engine.persona.texture.texture_frame import TextureFrame
 from engine.render.rasteriser import rasterise
 
-SIZE = (244, 194)
+FRAME_SIZE = (244, 194)
 PHOTOS_OF_A, PHOTOS_OF_B = 8, 30
-WIDE_SIGMA = 16.0
+WIDE_SIGMA_PIXELS = 16.0
 """Pixels: beside that of the persona's own alignment."""
-RIM = 21
+UNCOUNTED_RIM_PIXELS = 21
 """Pixels of the oval's rim that do not count."""
-HIDDEN = 2.0
+HIDDEN_DEPTH_PIXELS = 2.0
 """Pixels behind the surface that is seen from which on a vertex is hidden."""
-GREY = np.array([0.299, 0.587, 0.114], np.float32)
+LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114], np.float32)
 
 
 def correspondence() -> None:
@@ -42,12 +48,18 @@ def correspondence() -> None:
     for a, b in (people, people[::-1]):
         random = np.random.default_rng(5)
         meshes, photos = photographs(b, PHOTOS_OF_B, random)
-        persona = learn_persona(meshes, photos.__getitem__, SIZE).persona
+        persona = learn_persona(meshes, photos.__getitem__, FRAME_SIZE).persona
         average = _average(persona.frame, *photographs(a, PHOTOS_OF_A, random, acting=False))
         own, others = _vertices(persona.frame, a, b)
         told = [np.zeros_like(others), *(_along(flow, others) for flow in _flows(persona, average))]
         rows.append([f"{a.name} to {b.name}", str(len(own)), *(f"{_error(own, others + one):.2f}" for one in told)])
-    head = ["faces", "vertices", "meshes", f"flow, smoothed over {SMOOTHING_SIGMA:.0f} px", f"over {WIDE_SIGMA:.0f} px"]
+    head = [
+        "faces",
+        "vertices",
+        "meshes",
+        f"flow, smoothed over {SMOOTHING_SIGMA:.0f} px",
+        f"over {WIDE_SIGMA_PIXELS:.0f} px",
+    ]
     print(table("Correspondence, mean error in pixels of a frame 194 wide", head, rows))
 
 
@@ -56,24 +68,24 @@ def _average(frame: TextureFrame, meshes: NDArray[np.float32], photos: list[NDAr
     laid = bared(frame, align_photos(frame, list(meshes), lambda number: photos[number]))
     weight = laid.shown[..., None] + np.float32(1e-3)
     mean = (laid.colours * weight).sum(axis=0) / weight.sum(axis=0)
-    return exposed((mean @ GREY)[None].astype(np.float32), frame.face)[0]
+    return exposed((mean @ LUMINANCE_WEIGHTS)[None].astype(np.float32), frame.face)[0]
 
 
 def _flows(persona: Persona, average: NDArray[np.float32]) -> list[NDArray[np.float32]]:
     """(H, W, 2) where on B's frame what is at each pixel of B is in A's average, as offsets; smoothed over little, and over much."""
     face = persona.frame.face
-    rows = exposed(np.asarray(persona.colours @ GREY, np.float32), face)[:, face]
+    rows = exposed(np.asarray(persona.colours @ LUMINANCE_WEIGHTS, np.float32), face)[:, face]
     basis = np.linalg.svd(rows, full_matrices=False)[2][:SUBSPACE_RANK]
     lit = average.copy()
     lit[face] = (basis @ average[face]) @ basis
     flow = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM)
     flow.setFinestScale(0)
     first, second = (np.clip(np.rint(one), 0, 255).astype(np.uint8) for one in (lit, average))
-    raw = np.asarray(flow.calc(first, second, np.zeros((*SIZE, 2), np.float32)), np.float32)
+    raw = np.asarray(flow.calc(first, second, np.zeros((*FRAME_SIZE, 2), np.float32)), np.float32)
     believed = persona.belief.mean(axis=0, dtype=np.float32)[..., None] + 1
     return [
         cv2.GaussianBlur(raw * believed, (0, 0), sigma) / cv2.GaussianBlur(believed, (0, 0), sigma)[..., None]
-        for sigma in (SMOOTHING_SIGMA, WIDE_SIGMA)
+        for sigma in (SMOOTHING_SIGMA, WIDE_SIGMA_PIXELS)
     ]
 
 
@@ -82,16 +94,16 @@ def _vertices(frame: TextureFrame, a: KnownHead, b: KnownHead) -> tuple[NDArray[
     found = []
     for head in (a, b):
         mesh, seen = from_before(head)
-        rows, columns = np.clip(np.rint(seen[:, 1::-1]).astype(int), 0, SIDE - 1).T
-        depth = rasterise(seen, head.triangles, (SIDE, SIDE)).depth[rows, columns]
+        rows, columns = np.clip(np.rint(seen[:, 1::-1]).astype(int), 0, PHOTO_SIDE_PIXELS - 1).T
+        depth = rasterise(seen, head.triangles, (PHOTO_SIDE_PIXELS, PHOTO_SIDE_PIXELS)).depth[rows, columns]
         places = np.full((int(head.numbers.max()) + 1, 2), np.nan)
-        shown = np.abs(depth - seen[:, 2]) < HIDDEN
+        shown = np.abs(depth - seen[:, 2]) < HIDDEN_DEPTH_PIXELS
         places[head.numbers[shown]] = _on_frame(frame, mesh, seen[shown, :2])
         found.append(places)
     count = min(len(one) for one in found)
     own, others = (one[:count] for one in found)
     known = np.isfinite(own + others).all(axis=1)
-    inner = cv2.erode(frame.face.astype(np.uint8), np.ones((RIM, RIM))) > 0
+    inner = cv2.erode(frame.face.astype(np.uint8), np.ones((UNCOUNTED_RIM_PIXELS, UNCOUNTED_RIM_PIXELS))) > 0
     rows, columns = np.rint(others[known][:, ::-1]).astype(int).T
     within = inner[rows, columns]
     return own[known][within], others[known][within]
@@ -100,8 +112,10 @@ def _vertices(frame: TextureFrame, a: KnownHead, b: KnownHead) -> tuple[NDArray[
 def _on_frame(frame: TextureFrame, mesh: NDArray[np.floating], points: NDArray[np.float64]) -> NDArray[np.float64]:
     """(P, 2) where `points` (P, 2) of a picture are on the frame by the `mesh` (478, 3) of its face; NaN beside the face."""
     triangles = frame.triangles[(frame.triangles < 478).all(axis=1)]
-    rows, columns = np.clip(np.rint(points[:, ::-1]).astype(int), 0, SIDE - 1).T
-    triangle = rasterise(np.asarray(mesh, np.float64), triangles, (SIDE, SIDE)).triangle[rows, columns]
+    rows, columns = np.clip(np.rint(points[:, ::-1]).astype(int), 0, PHOTO_SIDE_PIXELS - 1).T
+    triangle = rasterise(np.asarray(mesh, np.float64), triangles, (PHOTO_SIDE_PIXELS, PHOTO_SIDE_PIXELS)).triangle[
+        rows, columns
+    ]
     corners = triangles[np.maximum(triangle, 0)]
     first, second, third = (mesh[corners[:, k], :2].astype(np.float64) for k in range(3))
     sides = np.stack([second - first, third - first], -1)

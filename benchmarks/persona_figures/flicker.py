@@ -27,17 +27,17 @@ from engine.persona.pipeline import make_persona
 from engine.run import Run
 from engine.store import StageStore
 
-DRIVER = "idle"
-GOAL, GOAL_SHARE = 0.3, 0.95
+FLICKER_DRIVER = "idle"
+GOAL_GREY_LEVELS, GOAL_SHARE = 0.3, 0.95
 """Grey levels, in this share of the frames."""
-RIM = 15
+UNCOUNTED_RIM_PIXELS = 15
 """Pixels of the face's rim that do not count: behind it something else may move."""
-FLOW_SIGMA = 6.0
+FLOW_SIGMA_PIXELS = 6.0
 
 
 def flicker(names: Sequence[str]) -> None:
     """Print the table."""
-    rows = [["the driver itself", *_told(_changes(video(DRIVER)))]]
+    rows = [["the driver itself", *_told(_changes(video(FLICKER_DRIVER)))]]
     for folder in sorted(path for path in media("collections").iterdir() if path.is_dir()):
         if names and not any(name in folder.name for name in names):
             continue
@@ -49,14 +49,18 @@ def flicker(names: Sequence[str]) -> None:
                 try:
                     with Run(StageStore(Path(scratch) / "stages")) as run:
                         options = PersonaOptions.model_validate({"composite": composite})
-                        make_persona({"photos": photos, "driver": video(DRIVER)}, options, out, run)
+                        make_persona({"photos": photos, "driver": video(FLICKER_DRIVER)}, options, out, run)
                 except InputError as error:
                     rows.append([f"{folder.name}, {composite}", error.code, "", ""])
                     continue
                 rows.append([f"{folder.name}, {composite}", *_told(_changes(out / "animation.mp4"))])
-    head = ["film", "median", "95%", f"frames under {GOAL}"]
+    head = ["film", "median", "95%", f"frames under {GOAL_GREY_LEVELS}"]
     print(
-        table(f"Change between frames while the driver waits, grey levels; goal {GOAL} in {GOAL_SHARE:.0%}", head, rows)
+        table(
+            f"Change between frames while the driver waits, grey levels; goal {GOAL_GREY_LEVELS} in {GOAL_SHARE:.0%}",
+            head,
+            rows,
+        )
     )
 
 
@@ -67,17 +71,21 @@ def _changes(film: Path) -> NDArray[np.float64]:
         meshes = tracker(next(iter(read_video(film))).rgb)
     face = np.zeros(frames[0].shape, np.uint8)
     cv2.fillPoly(face, [np.rint(meshes[0][list(FACE_OVAL), :2]).astype(np.int32)], 1)
-    inner = cv2.erode(face, np.ones((RIM, RIM))) > 0
+    inner = cv2.erode(face, np.ones((UNCOUNTED_RIM_PIXELS, UNCOUNTED_RIM_PIXELS))) > 0
     flow = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM)
     rows, columns = np.indices(face.shape, np.float32)
     changes = []
     for before, after in pairwise(frames):
         raw = np.asarray(flow.calc(before, after, np.zeros((*before.shape, 2), np.float32)))
-        smooth = np.asarray(cv2.GaussianBlur(raw, (0, 0), FLOW_SIGMA))
+        smooth = np.asarray(cv2.GaussianBlur(raw, (0, 0), FLOW_SIGMA_PIXELS))
         laid = cv2.remap(after.astype(np.float32), columns + smooth[..., 0], rows + smooth[..., 1], cv2.INTER_CUBIC)
         changes.append(float(np.abs(np.asarray(laid) - before)[inner].mean()))
     return np.array(changes)
 
 
 def _told(changes: NDArray[np.float64]) -> list[str]:
-    return [f"{np.median(changes):.2f}", f"{np.quantile(changes, GOAL_SHARE):.2f}", f"{(changes < GOAL).mean():.0%}"]
+    return [
+        f"{np.median(changes):.2f}",
+        f"{np.quantile(changes, GOAL_SHARE):.2f}",
+        f"{(changes < GOAL_GREY_LEVELS).mean():.0%}",
+    ]

@@ -44,18 +44,18 @@ from engine.persona.texture.expression_weights import (
 )
 from engine.persona.texture.white_balance import balanced
 
-SIZE = (244, 194)
-BAND_SIGMA = 4.0
+FRAME_SIZE = (244, 194)
+BAND_SIGMA_PIXELS = 4.0
 """Pixels: what is coarser is light, not detail."""
-FLOW_SIGMA = 4.0
+FLOW_SIGMA_PIXELS = 4.0
 SSIM_SIGMA, SSIM_C1, SSIM_C2 = 1.5, (0.01 * 255) ** 2, (0.03 * 255) ** 2
 """Z. Wang et al., Image quality assessment, 2004."""
 SPLINE_LAMBDA = 10.0
 """Section 6."""
-RIM = 9
+UNCOMPARED_RIM_PIXELS = 9
 """Pixels of the face's rim that are not compared."""
-OURS = "ours"
-GREY = np.array([0.299, 0.587, 0.114], np.float32)
+OWN_METHOD = "ours"
+LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114], np.float32)
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ def _fold(photos: Photos, chosen: SortedFaces, held: NDArray[np.intp]) -> dict[s
     def picture(number: int) -> NDArray[np.uint8]:
         return photos.picture(faces[number].photo)
 
-    learnt = learn_persona(meshes[rest], lambda place: picture(rest[place]), SIZE)
+    learnt = learn_persona(meshes[rest], lambda place: picture(rest[place]), FRAME_SIZE)
     persona, used = learnt.persona, rest[learnt.used]
     shown = bared(persona.frame, align_photos(persona.frame, list(meshes[held]), lambda place: picture(held[place])))
     scale = persona.frame.scale
@@ -128,7 +128,7 @@ def _mixed(persona: Persona, points: NDArray[np.float64], unaligned: NDArray[np.
             weights, persona.colours, np.asarray(_detail(persona.colours) * belief, np.float32)
         ),
         "aligned, expression alone": _one_band(weights, persona.colours, belief),
-        OURS: persona.synthesis(weights),
+        OWN_METHOD: persona.synthesis(weights),
     }
 
 
@@ -145,7 +145,7 @@ def _one_band(
 
 def _detail(colours: NDArray[np.uint8]) -> NDArray[np.float32]:
     """(N, H, W) equation 2's response of the Laplacian."""
-    return np.array([np.abs(cv2.Laplacian(one @ GREY, cv2.CV_32F)) + 1e-3 for one in colours], np.float32)
+    return np.array([np.abs(cv2.Laplacian(one @ LUMINANCE_WEIGHTS, cv2.CV_32F)) + 1e-3 for one in colours], np.float32)
 
 
 def _unaligned(
@@ -186,16 +186,16 @@ def _splined(
 def _compared(persona: Persona) -> NDArray[np.bool_]:
     mouth = np.zeros(persona.frame.size, np.uint8)
     cv2.fillPoly(mouth, [np.rint(persona.frame.places[list(LIPS_INNER), :2]).astype(np.int32)], 1)
-    inner = cv2.erode(persona.frame.face.astype(np.uint8), np.ones((RIM, RIM)))
+    inner = cv2.erode(persona.frame.face.astype(np.uint8), np.ones((UNCOMPARED_RIM_PIXELS, UNCOMPARED_RIM_PIXELS)))
     return np.asarray((inner > 0) & (cv2.dilate(mouth, np.ones((3, 3))) == 0))
 
 
 def _score(texture: NDArray[np.uint8], photo: NDArray[np.uint8], area: NDArray[np.bool_]) -> Score:
-    reference, given = photo @ GREY, texture @ GREY
+    reference, given = photo @ LUMINANCE_WEIGHTS, texture @ LUMINANCE_WEIGHTS
     slope, offset = np.polyfit(given[area], reference[area], 1)
     given = np.asarray(slope * given + offset, np.float32)
     laid = _laid(given, reference)
-    first, second = (one - np.asarray(cv2.GaussianBlur(one, (0, 0), BAND_SIGMA)) for one in (laid, reference))
+    first, second = (one - np.asarray(cv2.GaussianBlur(one, (0, 0), BAND_SIGMA_PIXELS)) for one in (laid, reference))
     return Score(float(_ssim(first, second)[area].mean()), float(first[area].std() / second[area].std()))
 
 
@@ -204,7 +204,7 @@ def _laid(given: NDArray[np.float32], reference: NDArray[np.float32]) -> NDArray
     flow.setFinestScale(0)
     first, second = (np.clip(np.rint(one), 0, 255).astype(np.uint8) for one in (reference, given))
     raw = flow.calc(first, second, np.zeros((*first.shape, 2), np.float32))
-    smooth = np.asarray(cv2.GaussianBlur(raw, (0, 0), FLOW_SIGMA))
+    smooth = np.asarray(cv2.GaussianBlur(raw, (0, 0), FLOW_SIGMA_PIXELS))
     rows, columns = np.indices(first.shape, np.float32)
     found = cv2.remap(given, columns + smooth[..., 0], rows + smooth[..., 1], cv2.INTER_CUBIC)
     return np.asarray(found, np.float32)
@@ -226,12 +226,12 @@ def _ssim(first: NDArray[np.float32], second: NDArray[np.float32]) -> NDArray[np
 
 
 def _table(name: str, scores: Mapping[str, Sequence[Score]]) -> str:
-    ours = np.array([score.likeness for score in scores[OURS]])
+    ours = np.array([score.likeness for score in scores[OWN_METHOD]])
     rows = []
     for way, some in scores.items():
         likeness = np.array([score.likeness for score in some])
         ahead = ours - likeness
         error = ahead.std(ddof=1) / np.sqrt(len(ahead))
-        against = "" if way == OURS else f"{ahead.mean():+.4f} ± {error:.4f}"
+        against = "" if way == OWN_METHOD else f"{ahead.mean():+.4f} ± {error:.4f}"
         rows.append([way, f"{likeness.mean():.4f}", against, f"{np.mean([score.energy for score in some]):.2f}"])
     return table(f"{name}, {len(ours)} photographs", ["way", "detail SSIM", "ours ahead by", "energy"], rows)

@@ -24,15 +24,15 @@ from engine.perception.faces import FaceTracker
 from engine.render.attributes import interpolate, sample_texture
 from engine.render.rasteriser import depth_map, rasterise
 
-SIDE = 360
+PHOTO_SIDE_PIXELS = 360
 """Pixels of a photograph."""
-SHARE = 0.62
+HEAD_SHARE = 0.62
 """Of a photograph's side that the head takes."""
-MAX_TURN, MAX_NOD = 20.0, 10.0
+MAX_TURN_DEGREES, MAX_NOD_DEGREES = 20.0, 10.0
 """Degrees."""
-SHADOW_BIAS = 0.01
+SHADOW_BIAS_HEAD_HEIGHTS = 0.01
 """Of the head's height: a surface is not in the shadow of itself."""
-EXPRESSIONS = (
+SHOWN_EXPRESSIONS = (
     *({"jawOpen": 0.5}, {"mouthSmileLeft": 0.8, "mouthSmileRight": 0.8}, {"browInnerUp": 0.8, "jawOpen": 0.2}),
     *(
         {"mouthPucker": 0.7},
@@ -41,9 +41,9 @@ EXPRESSIONS = (
     ),
 )
 """Shown by a share of the photographs each, at half to full strength; the others are at rest."""
-SHOULDERS = -0.05
+SHOULDER_SCAN_HEIGHTS = -0.05
 """Heights of the scan above its middle, up to which they are."""
-BODY_SHARE = 0.145
+HEAD_BODY_SHARE = 0.145
 """Of a standing body's height that its head takes."""
 
 
@@ -75,13 +75,13 @@ class View:
     def __call__(self, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
         """(V, 3) pixels, depth away from the viewer."""
         turned = (vertices - self.middle) @ self.turn.T * self.scale
-        return turned * (1, -1, -1) + ((SIDE - 1) / 2, (SIDE - 1) / 2, 0)
+        return turned * (1, -1, -1) + ((PHOTO_SIDE_PIXELS - 1) / 2, (PHOTO_SIDE_PIXELS - 1) / 2, 0)
 
 
 def photographs(
     head: KnownHead, count: int, random: np.random.Generator, acting: bool = True
 ) -> tuple[NDArray[np.float32], list[NDArray[np.uint8]]]:
-    """Meshes (N, 478, 3) and photographs (SIDE, SIDE, 3) of those among `count` in which a face is found; every other one of a head that is
+    """Meshes (N, 478, 3) and photographs (PHOTO_SIDE_PIXELS, PHOTO_SIDE_PIXELS, 3) of those among `count` in which a face is found; every other one of a head that is
     `expressive` shows an expression, if it is to act."""
     meshes, photos = [], []
     with FaceTracker(alone=True) as tracker:
@@ -89,7 +89,10 @@ def photographs(
             weights: dict[str, float] = {}
             if acting and head.expressive and number % 2:
                 strength = random.uniform(0.5, 1)
-                weights = {name: strength * one for name, one in EXPRESSIONS[number // 2 % len(EXPRESSIONS)].items()}
+                weights = {
+                    name: strength * one
+                    for name, one in SHOWN_EXPRESSIONS[number // 2 % len(SHOWN_EXPRESSIONS)].items()
+                }
             photo = photographed(head, weights, random)
             found = tracker(photo)
             if found:
@@ -108,7 +111,7 @@ def from_before(head: KnownHead) -> tuple[NDArray[np.float32], NDArray[np.float6
 
 
 def photographed(head: KnownHead, weights: Mapping[str, float], random: np.random.Generator) -> NDArray[np.uint8]:
-    angles = random.uniform(-1, 1, 2) * (MAX_NOD, MAX_TURN)
+    angles = random.uniform(-1, 1, 2) * (MAX_NOD_DEGREES, MAX_TURN_DEGREES)
     turn = np.asarray(Rotation.from_euler("xy", angles, degrees=True).as_matrix())
     lamp = np.array([random.uniform(-1, 1), random.uniform(-0.4, 1), random.uniform(0.5, 1.2)])
     return rendered(head, head.shaped(weights), turn, lamp / np.linalg.norm(lamp), random.uniform(0.15, 0.5))
@@ -117,10 +120,10 @@ def photographed(head: KnownHead, weights: Mapping[str, float], random: np.rando
 def rendered(
     head: KnownHead, vertices: NDArray[np.float64], turn: NDArray[np.float64], lamp: NDArray[np.float64], ambient: float
 ) -> NDArray[np.uint8]:
-    """A photograph (SIDE, SIDE, 3) of the head, `turn`ed (3, 3), by a `lamp` (3,) that stays where it is and light from everywhere."""
+    """A photograph (PHOTO_SIDE_PIXELS, PHOTO_SIDE_PIXELS, 3) of the head, `turn`ed (3, 3), by a `lamp` (3,) that stays where it is and light from everywhere."""
     view = view_of(head, vertices, turn)
     seen = view(vertices)
-    raster = rasterise(seen, head.triangles, (SIDE, SIDE))
+    raster = rasterise(seen, head.triangles, (PHOTO_SIDE_PIXELS, PHOTO_SIDE_PIXELS))
     there = raster.triangle >= 0
     colours = sample_texture(head.texture, interpolate(head.uv, head.uv_triangles, raster), there)
     normals = interpolate(vertex_normals(vertices, head.triangles) @ turn.T, head.triangles, raster)
@@ -133,36 +136,36 @@ def rendered(
 def _in_shadow(
     seen: NDArray[np.float64], triangles: NDArray[np.integer], raster: object, lamp: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """(SIDE, SIDE) where something lies between what is seen and the lamp."""
+    """(PHOTO_SIDE_PIXELS, PHOTO_SIDE_PIXELS) where something lies between what is seen and the lamp."""
     toward = lamp * (1, -1, -1)  # in pixels: y down, away from the viewer
     side = np.cross(toward, (0.0, 1.0, 0.0))
     side /= np.linalg.norm(side)
     basis = np.array([side, np.cross(toward, side), -toward])
-    middle = np.array([(SIDE - 1) / 2, (SIDE - 1) / 2, 0])
-    lit = (seen - middle) @ basis.T + (SIDE / 2, SIDE / 2, 0)
-    depth = depth_map(lit, triangles, (SIDE, SIDE))
+    middle = np.array([(PHOTO_SIDE_PIXELS - 1) / 2, (PHOTO_SIDE_PIXELS - 1) / 2, 0])
+    lit = (seen - middle) @ basis.T + (PHOTO_SIDE_PIXELS / 2, PHOTO_SIDE_PIXELS / 2, 0)
+    depth = depth_map(lit, triangles, (PHOTO_SIDE_PIXELS, PHOTO_SIDE_PIXELS))
     own = interpolate(lit, triangles, raster)  # type: ignore[arg-type]
     nearest = cv2.remap(
         depth, own[..., 0], own[..., 1], cv2.INTER_NEAREST, borderMode=cv2.BORDER_CONSTANT, borderValue=1e9
     )
-    return np.asarray(own[..., 2] > np.asarray(nearest) + SHADOW_BIAS * SIDE)
+    return np.asarray(own[..., 2] > np.asarray(nearest) + SHADOW_BIAS_HEAD_HEIGHTS * PHOTO_SIDE_PIXELS)
 
 
 def view_of(head: KnownHead, vertices: NDArray[np.float64], turn: NDArray[np.float64]) -> View:
     low, high = vertices[head.framed].min(axis=0), vertices[head.framed].max(axis=0)
-    return View(turn, (low + high) / 2, SHARE * SIDE / float(high[1] - low[1]))
+    return View(turn, (low + high) / 2, HEAD_SHARE * PHOTO_SIDE_PIXELS / float(high[1] - low[1]))
 
 
 def head_scan() -> KnownHead:
     scan = read_head_scan(media("scans3d/head_lee_perry_smith"))
-    above = scan.vertices[:, 1] > SHOULDERS * float(np.ptp(scan.vertices[:, 1]))
+    above = scan.vertices[:, 1] > SHOULDER_SCAN_HEIGHTS * float(np.ptp(scan.vertices[:, 1]))
     on = (scan.triangles, scan.uv, scan.triangles, scan.texture)
     return KnownHead("scan", lambda weights: scan.vertices, *on, above, False, np.arange(len(scan.vertices)))
 
 
 def template_person(name: str) -> KnownHead:
     subject, units = template_subject(name, 1024), load_template().face_units
-    above = subject.vertices[:, 1] > (1 - BODY_SHARE) * subject.height
+    above = subject.vertices[:, 1] > (1 - HEAD_BODY_SHARE) * subject.height
     on_head = above[subject.triangles].all(axis=1)
     kept, triangles = np.unique(subject.triangles[on_head], return_inverse=True)
 

@@ -19,7 +19,7 @@ from engine.persona.learning import learn_persona
 from engine.persona.persona import Persona
 from engine.render.rasteriser import rasterise
 
-PHOTOS, SIZE = 60, (244, 194)
+PHOTO_COUNT, FRAME_SIZE = 60, (244, 194)
 
 
 def shape() -> None:
@@ -31,12 +31,12 @@ def shape() -> None:
         best = min(mesh, general)
         rows.append([head.name, f"{ours:.2f}", f"{mesh:.2f}", f"{general:.2f}", f"{100 * (1 - ours / best):.0f}%"])
     head_row = ["head", "persona", "landmark mesh", "general face", "below the better of both"]
-    print(table(f"Depth error, % of the face's width, {PHOTOS} photographs; goal 10% below", head_row, rows))
+    print(table(f"Depth error, % of the face's width, {PHOTO_COUNT} photographs; goal 10% below", head_row, rows))
 
 
 def _learnt(head: KnownHead) -> Persona:
-    meshes, photos = photographs(head, PHOTOS, np.random.default_rng(5))
-    return learn_persona(meshes, lambda number: photos[number], SIZE).persona
+    meshes, photos = photographs(head, PHOTO_COUNT, np.random.default_rng(5))
+    return learn_persona(meshes, lambda number: photos[number], FRAME_SIZE).persona
 
 
 def _errors(head: KnownHead, persona: Persona) -> tuple[float, float, float]:

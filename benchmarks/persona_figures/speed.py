@@ -27,15 +27,15 @@ from engine.persona.texture.synthesis import texture_synthesis
 from engine.run import Run
 from engine.store import StageStore
 
-DRIVER = "happy-strong"
+SPEED_DRIVER = "happy-strong"
 FILM_SIZE = (600, 800)
-TEXTURES = (((244, 194), 200), ((500, 400), 40))
+TEXTURE_SIZES_AND_FPS = (((244, 194), 200), ((500, 400), 40))
 """Height and width, and the frames a second that are aimed at."""
-GOALS = {"puppet alone": 30.0, "photo": 20.0}
+FPS_GOALS = {"puppet alone": 30.0, "photo": 20.0}
 SECONDS_PER_PHOTO = 0.6
 """That are aimed at."""
-MADE = (*LEARNING_STAGES, "write_persona", "write_results")
-BATCH = 32
+MAKING_STAGES = (*LEARNING_STAGES, "write_persona", "write_results")
+FRAMES_PER_BATCH = 32
 
 
 def speed(names: Sequence[str], photos: int | None, repeats: int) -> None:
@@ -50,9 +50,9 @@ def speed(names: Sequence[str], photos: int | None, repeats: int) -> None:
             making.append([f"{folder.name}, {len(paths)}", *made])
             textures += [[folder.name, *row] for row in _textures(persona, repeats)]
             films += [[folder.name, *row] for row in _films(Path(scratch), repeats)]
-    head = ["photos", *MADE, "all", "plain face mesh", "to it"]
+    head = ["photos", *MAKING_STAGES, "all", "plain face mesh", "to it"]
     print(table(f"Making, seconds for each photo; goal {SECONDS_PER_PHOTO}", head, making))
-    head = ["photos", "size", "used", "one by one", f"in batches of {BATCH}", "goal", "to copying"]
+    head = ["photos", "size", "used", "one by one", f"in batches of {FRAMES_PER_BATCH}", "goal", "to copying"]
     print(table("Textures, frames a second", head, textures))
     head = ["photos", "film", "frames/s", "goal", "to encoding alone"]
     print(table(f"Films at {FILM_SIZE[0]}x{FILM_SIZE[1]}, driver analysed, encoding included", head, films))
@@ -61,7 +61,7 @@ def speed(names: Sequence[str], photos: int | None, repeats: int) -> None:
 def _made(paths: tuple[Path, ...], scratch: Path) -> tuple[list[str], Persona]:
     with Run(StageStore(scratch / "made")) as run:
         make_persona({"photos": paths}, PersonaOptions(), scratch, run)
-    each = [run.seconds.get(stage, 0.0) / len(paths) for stage in MADE]
+    each = [run.seconds.get(stage, 0.0) / len(paths) for stage in MAKING_STAGES]
     sample = [read_image(path).rgb for path in paths[:: max(len(paths) // 20, 1)]]
     with FaceTracker(alone=True) as tracker:
         tracker(sample[0])
@@ -72,7 +72,7 @@ def _made(paths: tuple[Path, ...], scratch: Path) -> tuple[list[str], Persona]:
 
 def _textures(persona: Persona, repeats: int) -> list[list[str]]:
     rows = []
-    for (height, width), goal in TEXTURES:
+    for (height, width), goal in TEXTURE_SIZES_AND_FPS:
         colours = np.array([cv2.resize(one, (width, height)) for one in persona.colours])
         belief = np.array([cv2.resize(one, (width, height)) for one in persona.belief], np.float32) / np.float32(255)
         alone, together, copied = _texture_rates(colours, belief, repeats)
@@ -84,7 +84,7 @@ def _textures(persona: Persona, repeats: int) -> list[list[str]]:
 def _texture_rates(colours: NDArray[np.uint8], belief: NDArray[np.float32], repeats: int) -> tuple[float, float, float]:
     """Textures a second: one by one, in batches, and as fast as one photo is copied to floating point and back."""
     synthesis = texture_synthesis(colours, belief)
-    weights = np.random.default_rng(0).random((BATCH, len(colours)), np.float32)
+    weights = np.random.default_rng(0).random((FRAMES_PER_BATCH, len(colours)), np.float32)
 
     def alone() -> None:
         for one in weights:
@@ -94,18 +94,21 @@ def _texture_rates(colours: NDArray[np.uint8], belief: NDArray[np.float32], repe
         synthesis(weights)
 
     def copied() -> None:
-        for number in range(BATCH):
+        for number in range(FRAMES_PER_BATCH):
             colours[number % len(colours)].astype(np.float32).astype(np.uint8)
 
     alone()
-    rates = [BATCH / statistics.median(_seconds(work) for _ in range(repeats)) for work in (alone, together, copied)]
+    rates = [
+        FRAMES_PER_BATCH / statistics.median(_seconds(work) for _ in range(repeats))
+        for work in (alone, together, copied)
+    ]
     return rates[0], rates[1], rates[2]
 
 
 def _films(scratch: Path, repeats: int) -> list[list[str]]:
     store, out = StageStore(scratch / "driven"), scratch / "film"
     out.mkdir()
-    inputs = {"persona": scratch / "persona.npz", "driver": video(DRIVER)}
+    inputs = {"persona": scratch / "persona.npz", "driver": video(SPEED_DRIVER)}
     rows = []
     for name, composite in (("puppet alone", "none"), ("photo", "photo")):
         options = PersonaOptions.model_validate({"size": FILM_SIZE, "composite": composite})
@@ -121,13 +124,13 @@ def _films(scratch: Path, repeats: int) -> list[list[str]]:
         floor = statistics.median(_encoded(frames, out / "floor.mp4") for _ in range(repeats))
         took = statistics.median(seconds)
         rate = len(frames) / took
-        rows.append([name, f"{rate:.0f}", f"{GOALS[name]:.0f}", f"{took / floor:.1f}"])
+        rows.append([name, f"{rate:.0f}", f"{FPS_GOALS[name]:.0f}", f"{took / floor:.1f}"])
     return rows
 
 
 def _driven(run: Run) -> float:
     """Seconds of all stages but for those that read and write the persona itself."""
-    return sum(seconds for stage, seconds in run.seconds.items() if stage not in MADE)
+    return sum(seconds for stage, seconds in run.seconds.items() if stage not in MAKING_STAGES)
 
 
 def _encoded(frames: list[NDArray[np.uint8]], path: Path) -> float:

@@ -27,17 +27,17 @@ from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_E
 from engine.perception.segmentation import person_confidence
 from engine.portrait.options import PortraitOptions
 
-MAX_FRAMES, FRAME_STEP = 240, 8
+MAX_FRAMES, COMPARED_FRAME_STEP = 240, 8
 """As the yardsticks were taken: every 8th of the first 240 frames."""
-REGIONS = ("face", "mouth", "eyes", "hair", "background")
+PICTURE_REGIONS = ("face", "mouth", "eyes", "hair", "background")
 """`hair` is the person outside the face: hair, ears, neck and shoulders."""
 WARP_ALONE = Parts(layers=False, hidden=False, details=False, eyes=False)
 IN_PLANE, IN_SPACE = False, True
 """Whether heads turn in 3D."""
-SMOOTHING = {"warp, no smoothing": "none", "warp, constant smoothing": "constant"}
+SMOOTHING_MODES = {"warp, no smoothing": "none", "warp, constant smoothing": "constant"}
 FULL_RATIO_TITLE = "+ full ratio image"
 ALL_TITLE = "+ second look (all)"
-ABLATIONS: tuple[tuple[str, Parts, bool], ...] = (
+ABLATION_ROWS: tuple[tuple[str, Parts, bool], ...] = (
     ("warp, no smoothing", WARP_ALONE, IN_PLANE),
     ("warp, constant smoothing", WARP_ALONE, IN_PLANE),
     ("warp, confidence-aware", WARP_ALONE, IN_PLANE),
@@ -57,11 +57,11 @@ def fidelity(names: Sequence[str], pictures: Path | None) -> None:
     for path in driving_clips(names):
         with TemporaryDirectory() as folder:
             true, acting, own = _prepared(path, Path(folder), with_self=True)
-            kept = true[::FRAME_STEP]
+            kept = true[::COMPARED_FRAME_STEP]
             bare = _bare_warp(acting)
-            made = list(acting.frames(step=FRAME_STEP))
+            made = list(acting.frames(step=COMPARED_FRAME_STEP))
             still, warp, ours = (_measures(kept, f) for f in ([kept[0]] * len(kept), bare, made))
-            itself = _measures(kept, list(own.frames(step=FRAME_STEP)))
+            itself = _measures(kept, list(own.frames(step=COMPARED_FRAME_STEP)))
             regions = _regional(kept, made)
         values = [*still, *warp, *ours, *(regions[r] for r in ("face", "hair", "background")), *itself]
         figures.append(values)
@@ -78,28 +78,30 @@ def fidelity(names: Sequence[str], pictures: Path | None) -> None:
 
 SHEET_COLUMNS = 8
 """Frames side by side on a contact sheet, at most."""
-SHEET_WIDTH = 2400
+SHEET_WIDTH_PIXELS = 2400
 """Pixels of a contact sheet's width."""
 COLUMN_DIGITS = (4, 2, 4, 4, 2, 4, 4, 3, 4, 4, 4, 4, 4, 3, 4)
 
 
 def ablations(names: Sequence[str], pictures: Path | None) -> None:
     """Print what each part of the method gains, region by region."""
-    figures: dict[str, list[list[float | None]]] = {label: [] for label, _, _ in ABLATIONS}
+    figures: dict[str, list[list[float | None]]] = {label: [] for label, _, _ in ABLATION_ROWS}
     for path in driving_clips(names):
         with TemporaryDirectory() as folder:
             true, acting, _ = _prepared(path, Path(folder), with_self=False)
-            kept = true[::FRAME_STEP]
-            for label, parts, head_3d in ABLATIONS:
-                rig = rig_target(acting.target, acting.layers, smoothing=SMOOTHING.get(label, "confidence"))
+            kept = true[::COMPARED_FRAME_STEP]
+            for label, parts, head_3d in ABLATION_ROWS:
+                rig = rig_target(acting.target, acting.layers, smoothing=SMOOTHING_MODES.get(label, "confidence"))
                 options = replace(acting.options, head_3d=head_3d)
                 varied = replace(acting, rig=rig, options=options, looked=label == ALL_TITLE)
-                made = list(varied.frames(parts, refined=label != FULL_RATIO_TITLE, step=FRAME_STEP))
+                made = list(varied.frames(parts, refined=label != FULL_RATIO_TITLE, step=COMPARED_FRAME_STEP))
                 regions = _regional(kept, made)
-                figures[label].append([*_measures(kept, made), *(regions[r] for r in REGIONS)])
+                figures[label].append([*_measures(kept, made), *(regions[r] for r in PICTURE_REGIONS)])
                 _save(pictures, f"ablation-{path.stem}-{label.strip('+ ').replace(' ', '_')}", kept, made)
-    rows = [mean_row(label, values, (4, 3, 4, *(4,) * len(REGIONS))) for label, values in figures.items()]
-    print(table("Ablations: mean over the clips, disguised driver", ["parts", "L1", "px", "SSIM", *REGIONS], rows))
+    rows = [mean_row(label, values, (4, 3, 4, *(4,) * len(PICTURE_REGIONS))) for label, values in figures.items()]
+    print(
+        table("Ablations: mean over the clips, disguised driver", ["parts", "L1", "px", "SSIM", *PICTURE_REGIONS], rows)
+    )
     print("\nThe columns from `face` on are the L1 of that region alone, where each part should help.")
 
 
@@ -146,7 +148,7 @@ def _bare_warp(acting: Acting) -> list[NDArray[np.uint8]]:
     height, width = rgb.shape[:2]
     xs, ys = np.linspace(0, width - 1, 9), np.linspace(0, height - 1, 9)
     border = np.array([(x, y) for x in xs for y in ys if x in (xs[0], xs[-1]) or y in (ys[0], ys[-1])])
-    meshes = acting.track.meshes[::FRAME_STEP]
+    meshes = acting.track.meshes[::COMPARED_FRAME_STEP]
     neutral = acting.track.meshes[acting.neutral]
     moved = carry_fiducials(align(neutral, acting.target.mesh), meshes, neutral, acting.target.mesh)[:, :468]
     points = np.concatenate([rest, border]).astype(np.float32)
@@ -173,7 +175,7 @@ def _measures(
 
 def _regional(true: list[NDArray[np.uint8]], made: list[NDArray[np.uint8]]) -> dict[str, float]:
     """L1 in [0, 1] of each region of the true frames, over the whole picture."""
-    total, count = dict.fromkeys(REGIONS, 0.0), dict.fromkeys(REGIONS, 0.0)
+    total, count = dict.fromkeys(PICTURE_REGIONS, 0.0), dict.fromkeys(PICTURE_REGIONS, 0.0)
     for a, b in zip(true, made, strict=True):
         found = find_faces(a)
         if not found:
@@ -182,7 +184,7 @@ def _regional(true: list[NDArray[np.uint8]], made: list[NDArray[np.uint8]]) -> d
         for name, mask in _regions(a, found[0]).items():
             total[name] += float(apart[mask].sum())
             count[name] += float(mask.sum())
-    return {name: total[name] / max(count[name], 1) for name in REGIONS}
+    return {name: total[name] / max(count[name], 1) for name in PICTURE_REGIONS}
 
 
 def _regions(rgb: NDArray[np.uint8], mesh: NDArray[np.float32]) -> dict[str, NDArray[np.bool_]]:
@@ -211,5 +213,5 @@ def _save(pictures: Path | None, name: str, *rows: list[NDArray[np.uint8]]) -> N
     """A contact sheet: the rows under each other, up to eight moments side by side."""
     if pictures is None:
         return
-    sheet = contact_sheet([Row(evenly(row, SHEET_COLUMNS)) for row in rows], max_width=SHEET_WIDTH)
+    sheet = contact_sheet([Row(evenly(row, SHEET_COLUMNS)) for row in rows], max_width=SHEET_WIDTH_PIXELS)
     write_sheet(pictures / f"{name}.png", sheet)

@@ -31,19 +31,19 @@ from engine.perception.landmarks import (
 )
 from engine.portrait.options import PortraitOptions
 
-TARGETS = (
+WATCHED_TARGETS = (
     *("photo_trump_smile.png", "pair2_neutral.png", "painting_child.jpg", "painting_la_velata.jpg"),
     *("photo_diana.jpg", "pair2_smile.png"),
 )
-CLIPS = ("woman_wow_d10", "man_laugh_d12")
-SIZE, FPS = (480, 480), 12.5
-MIN_OPENING = 0.12
+WATCHED_CLIPS = ("woman_wow_d10", "man_laugh_d12")
+WATCHED_SIZE_PIXELS, WATCHED_FPS = (480, 480), 12.5
+MIN_OPEN_MOUTH_OPENING = 0.12
 """Of a mouth, from which on its inside is looked at."""
-ROWS, SPARED_ROWS = 12, 2
+ROW_COUNT, SPARED_ROW_COUNT = 12, 2
 """Places from lip to lip, and how many of them at either lip are not looked at, for they are as much the lip's."""
-HUE_ROOM = 6.0
+HUE_TOLERANCE_GREY_LEVELS = 6.0
 """Grey levels by which a channel may lie above what the palette allows: of noise and of JPEG."""
-SIDE_GLANCE = 0.06
+SIDE_GLANCE_EYE_WIDTHS = 0.06
 """Eye widths of gaze from which on a glance is aside."""
 WHITE_SHARE = 0.6
 """Of the light of the skin around the mouth, from which on a pixel beside the iris counts as white."""
@@ -52,9 +52,9 @@ WHITE_SHARE = 0.6
 def mouths_and_eyes(names: Sequence[str]) -> None:
     """Print what of mouths is out of the target's palette, how they change against the driver's, and what of eyes' whites is white."""
     rows = []
-    options = PortraitOptions(crop="bust", size=SIZE, fps=FPS)
-    for clip in driving_clips(list(names) or CLIPS):
-        for name in TARGETS:
+    options = PortraitOptions(crop="bust", size=WATCHED_SIZE_PIXELS, fps=WATCHED_FPS)
+    for clip in driving_clips(list(names) or WATCHED_CLIPS):
+        for name in WATCHED_TARGETS:
             with TemporaryDirectory() as folder:
                 rgb = read_image(media(f"portraits/{name}")).rgb
                 target, layers, rig = read_target(Path(folder), rgb, options)
@@ -83,22 +83,22 @@ def of_acting(acting: Acting) -> tuple[float, float, float]:
     made, own, misfits, whites = [], [], [], []
     glances = np.abs(iris_positions(acting.track.meshes) - iris_positions(acting.track.meshes[[acting.neutral]]))
     for number, (frame, face) in enumerate(zip(frames, faces, strict=True)):
-        open_mouth = float(mouth_opening(face)) > MIN_OPENING
+        open_mouth = float(mouth_opening(face)) > MIN_OPEN_MOUTH_OPENING
         within = between_lips(frame, face)
         made.append(within if open_mouth else None)
         own.append(between_lips(acting.track.crop(number), acting.track.in_crop(number)) if open_mouth else None)
         if open_mouth:
             misfits.append(out_of_palette(within, palette))
-        if glances[number, :, 0].max() > SIDE_GLANCE:
+        if glances[number, :, 0].max() > SIDE_GLANCE_EYE_WIDTHS:
             whites += white_shares(frame, face, float(palette[0].mean()))
     ratio = change(made) / max(change(own), 1e-6)
     return float(np.mean(misfits or [0])), ratio, float(np.mean(whites or [0]))
 
 
 def between_lips(rgb: NDArray[np.uint8], face: NDArray[np.floating]) -> NDArray[np.float32]:
-    """(ROWS - 2 SPARED_ROWS, 9, 3) colours between the inner lips of a face (478, 2), from lip to lip and corner to corner."""
+    """(ROW_COUNT - 2 SPARED_ROW_COUNT, 9, 3) colours between the inner lips of a face (478, 2), from lip to lip and corner to corner."""
     upper, lower = (face[list(lip[1:-1]), :2] for lip in (UPPER_INNER_LIP, LOWER_INNER_LIP))
-    down = ((np.arange(ROWS) + 0.5) / ROWS)[SPARED_ROWS : ROWS - SPARED_ROWS, None, None]
+    down = ((np.arange(ROW_COUNT) + 0.5) / ROW_COUNT)[SPARED_ROW_COUNT : ROW_COUNT - SPARED_ROW_COUNT, None, None]
     at = (upper + down * (lower - upper)).astype(np.float32)
     return np.asarray(
         cv2.remap(rgb, at[..., 0], at[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32
@@ -108,8 +108,8 @@ def between_lips(rgb: NDArray[np.uint8], face: NDArray[np.floating]) -> NDArray[
 def out_of_palette(colours: NDArray[np.floating], palette: NDArray[np.floating]) -> float:
     """The share of colours (..., 3) that are bluer beside their green, or greener beside their red, than all of a `palette` (P, 3)."""
     bluest, greenest = (max(1.0, float((palette[:, k] / np.maximum(palette[:, k - 1], 1)).max())) for k in (2, 1))
-    off = colours[..., 2] > bluest * colours[..., 1] + HUE_ROOM
-    return float((off | (colours[..., 1] > greenest * colours[..., 0] + HUE_ROOM)).mean())
+    off = colours[..., 2] > bluest * colours[..., 1] + HUE_TOLERANCE_GREY_LEVELS
+    return float((off | (colours[..., 1] > greenest * colours[..., 0] + HUE_TOLERANCE_GREY_LEVELS)).mean())
 
 
 def palette_of(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -28,8 +28,8 @@ from engine.media.video import read_video
 from engine.performances import video
 from galatea import animate
 
-CLIPS = ("woman_funny_faces_d6", "woman_frown_surprise_d3", "man_talk_tps")
-OPTIONS: Mapping[str, Any] = {"crop": "bust", "size": (640, 640)}
+SHEET_CLIPS = ("woman_funny_faces_d6", "woman_frown_surprise_d3", "man_talk_tps")
+SHEET_OPTIONS: Mapping[str, Any] = {"crop": "bust", "size": (640, 640)}
 """Near enough to see lids and lips, far enough to see shoulders and walls."""
 ACTED_BY = "photo_woman_white"
 COMPARED_PERFORMANCES = (
@@ -96,12 +96,12 @@ def _frames(path: Path, part: Part) -> list[NDArray[np.uint8]]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--out", type=Path, required=True, metavar="DIR")
-    parser.add_argument("--clips", nargs="+", default=CLIPS, metavar="NAME", help="drivers by part of their name")
+    parser.add_argument("--clips", nargs="+", default=SHEET_CLIPS, metavar="NAME", help="drivers by part of their name")
     parser.add_argument("--portraits", nargs="+", default=[""], metavar="NAME", help="portraits by part of their name")
     parser.add_argument("--options", type=json.loads, default={}, metavar="JSON")
     asked = parser.parse_args()
     print(machine())
-    options = {**OPTIONS, **asked.options}
+    options = {**SHEET_OPTIONS, **asked.options}
     drivers(asked.out, asked.clips, asked.portraits, options)
     performances(asked.out, options)
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from benchmarks.known_truth.head_scan import project_scan, read_head_scan, render_head
 from benchmarks.portrait_figures.acting import Acting, read_driver, read_target
-from benchmarks.portrait_figures.turn import HEAD_ZOOM, PICTURE_SIZE, REST_FRAMES
+from benchmarks.portrait_figures.turn import HEAD_ZOOM_FACTOR, PICTURE_SIZE, REST_FRAMES
 from benchmarks.presentation.tables import table
 from benchmarks.shared_media import media, tool, write_clip
 from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget
@@ -20,19 +20,21 @@ from engine.face_animation.warping.dense_field import interpolation
 from engine.face_animation.warping.warp_mesh import WarpMesh
 from engine.portrait.options import PortraitOptions
 
-ANGLES = (0.0, -6.0, -12.0, -18.0, -25.0, -18.0, -12.0, -6.0, 0.0, 6.0, 12.0, 18.0, 25.0)
+FILMED_YAW_DEGREES = (0.0, -6.0, -12.0, -18.0, -25.0, -18.0, -12.0, -6.0, 0.0, 6.0, 12.0, 18.0, 25.0)
 """Degrees, after the frames at rest: no step is longer than people's turns are."""
-PICTURED = 256.0
+PICTURED_FACE_PIXELS = 256.0
 """Width of the face, pixels, at which distances are given."""
-FACING = 0.25
+MIN_FACING_COSINE = 0.25
 """Cosine between a surface and the line of sight from which on a vertex is seen well, at rest and turned."""
 
 
 def solidity() -> None:
     """Print how far skull and ears of a portrait, driven by a head that turns, are from where the scan's go."""
     scan = read_head_scan(media("scans3d/head_lee_perry_smith/head.obj").parent)
-    angles = [0.0] * REST_FRAMES + [a for pair in zip(ANGLES, ANGLES, strict=True) for a in pair]
-    rendered = [render_head(scan, angle, PICTURE_SIZE, None, HEAD_ZOOM) for angle in angles]
+    angles = [0.0] * REST_FRAMES + [
+        a for pair in zip(FILMED_YAW_DEGREES, FILMED_YAW_DEGREES, strict=True) for a in pair
+    ]
+    rendered = [render_head(scan, angle, PICTURE_SIZE, None, HEAD_ZOOM_FACTOR) for angle in angles]
     true = [picture for picture, _ in rendered]
     disguised = tool("disguise").disguise(true, tool("face_measures").Landmarker()(true[0]))
     options = PortraitOptions(neutral_frame=0)
@@ -43,18 +45,18 @@ def solidity() -> None:
         acting = Acting(track, neutral, target, layers, rig, options.acting())
     animation = FaceAnimation(RiggedTarget(target, layers, rig), RegisteredDriver(track, neutral), acting.options)
     motions = list(animation.motions())
-    rest, seen = project_scan(scan, 0.0, PICTURE_SIZE, HEAD_ZOOM)
+    rest, seen = project_scan(scan, 0.0, PICTURE_SIZE, HEAD_ZOOM_FACTOR)
     width = float(np.ptp(target.mesh[:, 0]))
     beside = rim_distance(target.mesh, rest) > 0
     above = rest[:, 1] < target.mesh[152, 1] - 0.1 * width
     rows = []
-    for degrees in sorted(set(ANGLES) - {0.0}):
+    for degrees in sorted(set(FILMED_YAW_DEGREES) - {0.0}):
         index = len(angles) - 1 - angles[::-1].index(degrees)
-        there, still_seen = project_scan(scan, degrees, PICTURE_SIZE, HEAD_ZOOM)
-        chosen = np.flatnonzero(beside & above & (seen > FACING) & (still_seen > FACING))
+        there, still_seen = project_scan(scan, degrees, PICTURE_SIZE, HEAD_ZOOM_FACTOR)
+        chosen = np.flatnonzero(beside & above & (seen > MIN_FACING_COSINE) & (still_seen > MIN_FACING_COSINE))
         made = _carried(animation, motions[index], rig.mesh, rest[chosen])
-        apart = np.linalg.norm(made - there[chosen], axis=1) * PICTURED / width
-        still = np.linalg.norm(rest[chosen] - there[chosen], axis=1) * PICTURED / width
+        apart = np.linalg.norm(made - there[chosen], axis=1) * PICTURED_FACE_PIXELS / width
+        still = np.linalg.norm(rest[chosen] - there[chosen], axis=1) * PICTURED_FACE_PIXELS / width
         rows.append(
             [f"{degrees:+.0f}", f"{still.mean():.2f}", f"{apart.mean():.2f}", f"{np.quantile(apart, 0.95):.2f}"]
         )

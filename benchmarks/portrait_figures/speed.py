@@ -28,7 +28,7 @@ from engine.run import Run
 from engine.store import StageStore
 
 PICTURE_SIZE, CLIP_FRAMES = (600, 800), 100
-PORTRAIT = "portraits/photo_man_suit.png"
+TIMED_PORTRAIT = "portraits/photo_man_suit.png"
 SMALL_CLIP, PHONE_CLIP = "driving/man_mouth_open_d18.mp4", "driving/man_selfie_talk_d13.mp4"
 """A small clip, as drivers are passed around (480x480), and a phone's, cut and reduced to the portrait's own size."""
 GOAL_SECONDS = 3.3
@@ -51,7 +51,7 @@ def speed(repeats: int, frames: int) -> None:
 
 def portrait(folder: Path) -> Path:
     """A portrait of exactly `PICTURE_SIZE`."""
-    rgb = read_image(media(PORTRAIT)).rgb
+    rgb = read_image(media(TIMED_PORTRAIT)).rgb
     height = round(rgb.shape[1] * PICTURE_SIZE[1] / PICTURE_SIZE[0])
     path = folder / "portrait.png"
     write_image(path, np.asarray(cv2.resize(rgb[:height], PICTURE_SIZE, interpolation=cv2.INTER_AREA)))

@@ -20,14 +20,14 @@ from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, eye_opening, mouth_opening
 from engine.portrait.options import PortraitOptions
 
-SENSOR_SIGMA = 2.0
+SENSOR_SIGMA_GREY_LEVELS = 2.0
 """Standard deviation of the sensor's noise, grey levels: a phone indoors."""
 STILL_FRAMES = 60
 """Frames of the still driver."""
-TARGET = "portraits/photo_woman_white.png"
+STEADY_TARGET = "portraits/photo_woman_white.png"
 BLINK_OPENING_SHARE = 0.6
 """Share of its usual opening below which an eye blinks."""
-MIN_BLINK_DEPTH = 0.95
+MIN_BLINK_DEPTH_SHARE = 0.95
 """Share of its depth that a blink is to keep, at least."""
 
 
@@ -36,7 +36,7 @@ def stillness(names: Sequence[str]) -> None:
     options = PortraitOptions()
     rows = []
     with TemporaryDirectory() as folder:
-        rgb = read_image(media(TARGET)).rgb
+        rgb = read_image(media(STEADY_TARGET)).rgb
         target, layers, rig = read_target(Path(folder), rgb, options)
         face = np.zeros(target.rgb.shape[:2], np.uint8)
         cv2.fillPoly(face, [target.mesh[list(FACE_OVAL), :2].round().astype(np.int32)], 1)
@@ -44,7 +44,7 @@ def stillness(names: Sequence[str]) -> None:
             first = next(iter(read_video(path))).rgb.astype(float)
             rng = np.random.default_rng(0)
             noisy = (
-                np.clip(first + rng.normal(0, SENSOR_SIGMA, first.shape) + 0.5, 0, 255).astype(np.uint8)
+                np.clip(first + rng.normal(0, SENSOR_SIGMA_GREY_LEVELS, first.shape) + 0.5, 0, 255).astype(np.uint8)
                 for _ in range(STILL_FRAMES)
             )
             track, neutral = read_driver(write_clip(Path(folder) / "still.mp4", noisy), target, None)
@@ -54,7 +54,7 @@ def stillness(names: Sequence[str]) -> None:
             jitter = track.meshes[..., :2].std(axis=0).mean()
             figures = (deviation.mean(), np.quantile(deviation, 0.99), inner.mean(), jitter)
             rows.append([path.stem, *(f"{value:.{2 + (k == 3)}f}" for k, value in enumerate(figures))])
-    title = f"Stillness: one frame {STILL_FRAMES} times, noise of {SENSOR_SIGMA:g} levels; deviation inside the face, grey levels"
+    title = f"Stillness: one frame {STILL_FRAMES} times, noise of {SENSOR_SIGMA_GREY_LEVELS:g} levels; deviation inside the face, grey levels"
     print(table(title, ["driver", "mean", "99 %", "without the ends", "mesh, px"], rows))
     print("\nGoal: mean <= 0.5. The target's face is that of the portrait at its own size.")
 
@@ -90,11 +90,11 @@ def lag(names: Sequence[str]) -> None:
     print("\ndepth: from the eye's own opening before. shut: from the driver's opening before.")
     for of, found in every.items():
         deep, shut = (
-            sum(one.depth >= MIN_BLINK_DEPTH for one in found),
-            sum(one.shut >= MIN_BLINK_DEPTH for one in found),
+            sum(one.depth >= MIN_BLINK_DEPTH_SHARE for one in found),
+            sum(one.shut >= MIN_BLINK_DEPTH_SHARE for one in found),
         )
         print(
-            f"{of}: of {len(found)} blinks {deep} keep {100 * MIN_BLINK_DEPTH:.0f}% of their depth (goal: all), {shut} shut so far"
+            f"{of}: of {len(found)} blinks {deep} keep {100 * MIN_BLINK_DEPTH_SHARE:.0f}% of their depth (goal: all), {shut} shut so far"
         )
 
 

@@ -18,15 +18,15 @@ from engine.face_animation.warping.layers import Layers
 from engine.portrait.options import PortraitOptions
 
 PICTURE_SIZE = (480, 576)
-HEAD_ZOOM = 1.5
+HEAD_ZOOM_FACTOR = 1.5
 MAX_DEGREES, SHOWN_DEGREES = 25, (-25, -20, -15, -10, -5, 0, 5, 10, 15, 20, 25)
 REST_FRAMES = 6
 """Frames at rest in the beginning: the target and the neutral frame are of them."""
-GRID_PITCH = 24
+GRID_PITCH_PIXELS = 24
 """Pixels between the lines of the grid on the wall."""
-WALL_LEVEL = 170.0
+WALL_GREY_LEVEL = 170.0
 """Grey level of the wall."""
-LINE_CONTRAST = 110.0
+LINE_CONTRAST_GREY_LEVELS = 110.0
 """Grey levels by which a line is darker in its middle."""
 
 
@@ -39,7 +39,7 @@ def turn(pictures: Path | None) -> None:
         + list(np.linspace(-MAX_DEGREES, MAX_DEGREES, 21)[1:])
     )
     background = np.repeat(wall(PICTURE_SIZE[::-1])[..., None], 3, axis=2).astype(np.uint8)
-    rendered = [render_head(scan, angle, PICTURE_SIZE, background, HEAD_ZOOM) for angle in angles]
+    rendered = [render_head(scan, angle, PICTURE_SIZE, background, HEAD_ZOOM_FACTOR) for angle in angles]
     true = [picture for picture, _ in rendered]
     at = [
         REST_FRAMES - 1 + int(np.abs(np.subtract(angles[REST_FRAMES - 1 :], degrees)).argmin())
@@ -79,13 +79,13 @@ def turn(pictures: Path | None) -> None:
 
 
 def wall(shape: tuple[int, int]) -> NDArray[np.float64]:
-    """(H, W) a bright wall with thin dark lines every `GRID_PITCH` pixels, both ways, their middles at half pixels."""
+    """(H, W) a bright wall with thin dark lines every `GRID_PITCH_PIXELS` pixels, both ways, their middles at half pixels."""
     y, x = np.mgrid[: shape[0], : shape[1]].astype(float)
     dark = np.zeros(shape)
     for axis in (x, y):
-        away = (axis - GRID_PITCH / 2 + 0.5) % GRID_PITCH
-        dark = np.maximum(dark, np.exp(-0.5 * np.minimum(away, GRID_PITCH - away) ** 2))
-    return np.asarray(WALL_LEVEL - LINE_CONTRAST * dark)
+        away = (axis - GRID_PITCH_PIXELS / 2 + 0.5) % GRID_PITCH_PIXELS
+        dark = np.maximum(dark, np.exp(-0.5 * np.minimum(away, GRID_PITCH_PIXELS - away) ** 2))
+    return np.asarray(WALL_GREY_LEVEL - LINE_CONTRAST_GREY_LEVELS * dark)
 
 
 def grid_deviation(acting: Acting, covered: NDArray[np.float32]) -> tuple[float, float, float]:
@@ -110,14 +110,17 @@ def _line_errors(frame: NDArray[np.uint8], visible: NDArray[np.bool_]) -> NDArra
     """Pixels by which the horizontal lines are off, between crossings; infinite where there is none."""
     grey = frame.astype(float).mean(axis=2)
     columns = np.arange(frame.shape[1])
-    between = np.abs((columns - GRID_PITCH / 2 + 0.5) % GRID_PITCH - GRID_PITCH / 2) < GRID_PITCH / 2 - 6
+    between = (
+        np.abs((columns - GRID_PITCH_PIXELS / 2 + 0.5) % GRID_PITCH_PIXELS - GRID_PITCH_PIXELS / 2)
+        < GRID_PITCH_PIXELS / 2 - 6
+    )
     errors = []
-    for y in np.arange(GRID_PITCH / 2 - 0.5, frame.shape[0] - 8, GRID_PITCH):
+    for y in np.arange(GRID_PITCH_PIXELS / 2 - 0.5, frame.shape[0] - 8, GRID_PITCH_PIXELS):
         rows = np.arange(round(y - 5.5), round(y + 6.5))
         if rows[0] < 0:
             continue
         chosen = between & visible[rows].all(axis=0)
-        dark = np.clip(WALL_LEVEL - 12 - grey[rows][:, chosen], 0, None)
+        dark = np.clip(WALL_GREY_LEVEL - 12 - grey[rows][:, chosen], 0, None)
         total = dark.sum(axis=0)
         found = (rows[:, None] * dark).sum(axis=0) / np.maximum(total, 1e-6)
         errors.append(np.where(total > 60, np.abs(found - y), np.inf))

@@ -9,8 +9,8 @@ import argparse
 import time
 from pathlib import Path
 
-from benchmarks.scan_studio.conditions import CONDITIONS
-from benchmarks.scan_studio.film import CODINGS
+from benchmarks.scan_studio.conditions import NAMED_CONDITIONS
+from benchmarks.scan_studio.film import NAMED_CODINGS
 from benchmarks.scan_studio.people.subjects import SUBJECTS, subject_named
 from benchmarks.scan_studio.people.sway import USUAL_METRES
 from benchmarks.scan_studio.studio import Order, film
@@ -32,11 +32,13 @@ def main() -> None:
     parser.add_argument("--body-frames", type=int, default=192)
     parser.add_argument("--head-frames", type=int, default=96, help="0: no film of the head")
     parser.add_argument(
-        "--format", choices=tuple(CODINGS), default="h264", help="hlg: HEVC, 10 bits, of high dynamic range"
+        "--format", choices=tuple(NAMED_CODINGS), default="h264", help="hlg: HEVC, 10 bits, of high dynamic range"
     )
     parser.add_argument("--sway", type=float, default=USUAL_METRES, help="metres that the chest moves, at most")
     parser.add_argument("--still", action="store_true", help="the subject does not move at all")
-    parser.add_argument("--conditions", choices=tuple(CONDITIONS), default="good", help="or one of the usual faults")
+    parser.add_argument(
+        "--conditions", choices=tuple(NAMED_CONDITIONS), default="good", help="or one of the usual faults"
+    )
     parser.add_argument("--seed", type=int, default=0)
     given = parser.parse_args()
     began = time.perf_counter()

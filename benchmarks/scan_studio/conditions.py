@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 Orbit = Literal["whole", "half", "none"]
-WALK_BEGINS = 0.45
+WALK_START_SHARE = 0.45
 """Share of a film after which somebody who does not stay begins to walk."""
-WALK_ENDS = 0.6
+WALK_END_SHARE = 0.6
 """Share of it after which they stand again."""
 COMPANY_METRES = (0.95, 0.0, -0.1)
 """Where a second person stands beside the first."""
@@ -48,11 +48,11 @@ class Conditions:
 
     def walked(self, share: float) -> NDArray[np.float64]:
         """(3,) metres from where the subject should stand, at a share of the film."""
-        t = float(np.clip((share - WALK_BEGINS) / (WALK_ENDS - WALK_BEGINS), 0, 1))
+        t = float(np.clip((share - WALK_START_SHARE) / (WALK_END_SHARE - WALK_START_SHARE), 0, 1))
         return np.array([self.walk_metres * t * t * (3 - 2 * t), 0, 0])
 
 
-CONDITIONS = {
+NAMED_CONDITIONS = {
     "good": Conditions(),
     "no-orbit": Conditions(orbit="none"),
     "half-orbit": Conditions(orbit="half"),

@@ -17,7 +17,7 @@ from benchmarks.known_truth.surface_distance import sample_outside
 from engine.geometry.closest_points import closest_points
 from engine.geometry.welding import same_rows
 
-LONGEST_EDGE = 0.012
+MAX_EDGE_METRES = 0.012
 """Metres to which edges are cut, so that the triangle nearest to a point is nearly always one of those around the nearest
 vertices. Held against all triangles for 1,500 points about readyplayer.me, the distances are too long by 0.002 mm in the mean,
 by 1.6 mm at most."""
@@ -33,7 +33,7 @@ class MeasuredSurface:
     vertices: NDArray[np.float64]
     """(V, 3) metres."""
     triangles: NDArray[np.int64]
-    """(T, 3), none with an edge longer than `LONGEST_EDGE`."""
+    """(T, 3), none with an edge longer than `MAX_EDGE_METRES`."""
     samples: NDArray[np.float64]
     """(N, 3) random points of equal density on what is seen from outside."""
 
@@ -63,7 +63,7 @@ class Distances:
 def measured_surface(vertices: NDArray[np.floating], triangles: NDArray[np.integer], seed: int = 0) -> MeasuredSurface:
     """Prepare a person's surface (V, 3) metres, (T, 3)."""
     samples = sample_outside(vertices, triangles, seed).points
-    places, faces = trimesh.remesh.subdivide_to_size(np.asarray(vertices, np.float64), triangles, LONGEST_EDGE)
+    places, faces = trimesh.remesh.subdivide_to_size(np.asarray(vertices, np.float64), triangles, MAX_EDGE_METRES)
     same = same_rows(places)
     first = np.unique(same, return_index=True)[1]
     return MeasuredSurface(places[first], same[faces].astype(np.int64), samples)

@@ -21,7 +21,7 @@ from engine.media.ycbcr import BT709, BT2020, LIMITED_RANGE
 FilmFormat = Literal["h264", "hevc", "hlg"]
 FRAMES_PER_SECOND = 30
 """As the file has them; they are spread over all of the capture."""
-TURN_DEGREES = 90
+STORED_TURN_DEGREES = 90
 """By which a player has to turn what is stored, as FFmpeg counts: against the clock."""
 
 
@@ -47,7 +47,7 @@ class Coding:
 
 _X264 = {"preset": "veryfast", "crf": "21"}
 _X265 = {"preset": "superfast", "crf": "20", "x265-params": "log-level=error"}
-CODINGS: dict[FilmFormat, Coding] = {
+NAMED_CODINGS: dict[FilmFormat, Coding] = {
     "h264": Coding("libx264", "yuv420p", srgb_frame, _X264),
     "hevc": Coding("libx265", "yuv420p", srgb_frame, _X265, tag="hvc1"),
     "hlg": Coding("libx265", "yuv420p10le", hlg_frame, _X265, BT2020, HLG_TRANSFER, tag="hvc1"),
@@ -60,19 +60,19 @@ def write_film(
     path: Path, frames: Iterable[NDArray[np.float32]], size: tuple[int, int], film_format: FilmFormat
 ) -> None:
     """Code upright frames (H, W, 3), linear light whose white is 1, of a `size` (width, height), both even."""
-    coding = CODINGS[film_format]
+    coding = NAMED_CODINGS[film_format]
     with av.open(str(path), "w", format="mp4", options={"movflags": "+faststart"}) as container:
         stream = cast(VideoStream, container.add_stream(coding.encoder, rate=FRAMES_PER_SECOND, options=coding.options))
         stream.height, stream.width = size
         stream.pix_fmt = coding.layout
-        stream.set_display_rotation(TURN_DEGREES)
+        stream.set_display_rotation(STORED_TURN_DEGREES)
         context = stream.codec_context
         if coding.tag is not None:
             context.codec_tag = coding.tag
         context.colorspace = context.color_primaries = coding.primaries
         context.color_trc, context.color_range = coding.transfer, LIMITED_RANGE
         for number, upright in enumerate(frames):
-            frame = coding.develop(np.ascontiguousarray(np.rot90(upright, -TURN_DEGREES // 90)))
+            frame = coding.develop(np.ascontiguousarray(np.rot90(upright, -STORED_TURN_DEGREES // 90)))
             frame.pts, frame.time_base = number, Fraction(1, FRAMES_PER_SECOND)
             container.mux(stream.encode(frame))
         container.mux(stream.encode(None))

@@ -11,18 +11,21 @@ from numpy.typing import NDArray
 from benchmarks.known_truth.known_person import PICTURE_SIZE, Person, draw_into, level_camera, telephone_camera
 from benchmarks.known_truth.known_places import places
 from benchmarks.known_truth.scanned_bodies import texture_painter
-from benchmarks.scan_studio.people.pictured_moments import PICTURED, pictured
-from benchmarks.scan_studio.people.rigged_people import METRES, read_rigged
+from benchmarks.scan_studio.people.pictured_moments import PICTURED_NAMES, pictured
+from benchmarks.scan_studio.people.rigged_people import T_POSE_HEIGHT_METRES, read_rigged
 from benchmarks.shared_media import media
 from engine.geometry.camera import Camera
 from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.skinning import skin
 from engine.motion.kinematics import pose_transforms
 
-PEOPLE = ("readyplayer.me", "soldier")
+PHOTOGRAPHED_PEOPLE = ("readyplayer.me", "soldier")
 """Those of the rigged who have human proportions."""
-CAMERAS: Mapping[str, Callable[[Person, tuple[int, int]], Camera]] = {"afar": level_camera, "near": telephone_camera}
-NEAR = ("arms down", "A-pose", "stride", "one foot before the other", "walking")
+NAMED_CAMERAS: Mapping[str, Callable[[Person, tuple[int, int]], Camera]] = {
+    "afar": level_camera,
+    "near": telephone_camera,
+}
+NEAR_CAMERA_POSES = ("arms down", "A-pose", "stride", "one foot before the other", "walking")
 """Poses that a telephone near by takes, too."""
 
 
@@ -40,9 +43,9 @@ class Truth:
 def cases(only: str) -> Iterator[tuple[str, str, str, str]]:
     """Who, how, by which camera and where."""
     spots = list(places(PICTURE_SIZE))
-    for who in PEOPLE:
-        for number, how in enumerate(PICTURED):
-            for camera in CAMERAS if how in NEAR else ("afar",):
+    for who in PHOTOGRAPHED_PEOPLE:
+        for number, how in enumerate(PICTURED_NAMES):
+            for camera in NAMED_CAMERAS if how in NEAR_CAMERA_POSES else ("afar",):
                 if only in f"{who}: {how}, {camera}":
                     yield who, how, camera, spots[number % len(spots)]
 
@@ -57,8 +60,8 @@ def photograph(who: str, how: str, camera: str, where: str) -> tuple[NDArray[np.
     ground = np.array([0, vertices[:, 1].min(), 0])
     vertices, joints = vertices - ground, joints - ground
     painter = texture_painter(mesh.uv, mesh.triangles, [mesh.texture], [len(mesh.triangles)])
-    person = Person(f"{who}: {how}, {camera}", vertices, mesh.triangles, METRES, painter)
-    picture = draw_into(person, places(PICTURE_SIZE)[where], camera=CAMERAS[camera](person, PICTURE_SIZE))
+    person = Person(f"{who}: {how}, {camera}", vertices, mesh.triangles, T_POSE_HEIGHT_METRES, painter)
+    picture = draw_into(person, places(PICTURE_SIZE)[where], camera=NAMED_CAMERAS[camera](person, PICTURE_SIZE))
     strongest = mesh.bones[np.arange(len(mesh.bones)), mesh.weights.argmax(1)]
     rows = picture.camera.project(vertices, np.float64)[:, 1]
     left, right = (float(rows[foot].max()) for foot in feet(mesh.skeleton.names, strongest))

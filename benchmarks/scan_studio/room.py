@@ -14,17 +14,17 @@ from benchmarks.scan_studio.room_textures import Texture
 
 TEXELS_PER_METRE = 256
 """Of the room's texture: 4 millimetres each."""
-WALL_DISTANCE = 3.2
+WALL_DISTANCE_METRES = 3.2
 """Metres from the middle of the room to its walls."""
-CEILING = 2.8
+CEILING_HEIGHT_METRES = 2.8
 """Metres from the floor up."""
-TILE = 0.2
+TILE_SIDE_METRES = 0.2
 """Metres, at most, of the side of a panel's tiles: a tile is drawn with one level of detail."""
-GUTTER = 4
+PANEL_GUTTER_TEXELS = 4
 """Texels around each panel on the room's texture, which continue it."""
 WALL_COLOURS = ((206, 198, 184), (176, 190, 196), (202, 184, 170), (190, 196, 176))
 """sRGB of the four walls."""
-CONTACT_SHADE = 0.4
+FLOOR_CONTACT_SHADE_SHARE = 0.4
 """Share of the floor's light that the feet take."""
 CONTACT_METRES = 0.28
 """How far around."""
@@ -71,16 +71,16 @@ def furnished_room(seed: int, texels_per_metre: int = TEXELS_PER_METRE) -> Room:
 
 
 def _shell() -> list[Panel]:
-    side, low = 2 * WALL_DISTANCE, -WALL_DISTANCE
+    side, low = 2 * WALL_DISTANCE_METRES, -WALL_DISTANCE_METRES
     walls = [
-        ((low, CEILING, low), (side, 0, 0)),
-        ((WALL_DISTANCE, CEILING, low), (0, 0, side)),
-        ((WALL_DISTANCE, CEILING, WALL_DISTANCE), (-side, 0, 0)),
-        ((low, CEILING, WALL_DISTANCE), (0, 0, -side)),
+        ((low, CEILING_HEIGHT_METRES, low), (side, 0, 0)),
+        ((WALL_DISTANCE_METRES, CEILING_HEIGHT_METRES, low), (0, 0, side)),
+        ((WALL_DISTANCE_METRES, CEILING_HEIGHT_METRES, WALL_DISTANCE_METRES), (-side, 0, 0)),
+        ((low, CEILING_HEIGHT_METRES, WALL_DISTANCE_METRES), (0, 0, -side)),
     ]
     lights = (0.95, 0.85, 0.9, 0.8)
     found = [
-        Panel(corner, right, (0, -CEILING, 0), partial(room_textures.plaster, colour=colour), light)
+        Panel(corner, right, (0, -CEILING_HEIGHT_METRES, 0), partial(room_textures.plaster, colour=colour), light)
         for (corner, right), colour, light in zip(walls, WALL_COLOURS, lights, strict=True)
     ]
     board = partial(room_textures.wood, board=36)
@@ -88,7 +88,7 @@ def _shell() -> list[Panel]:
     return [
         *found,
         Panel((low, 0, low), (side, 0, 0), (0, 0, side), board),
-        Panel((low, CEILING, WALL_DISTANCE), (side, 0, 0), (0, 0, -side), ceiling, 0.85),
+        Panel((low, CEILING_HEIGHT_METRES, WALL_DISTANCE_METRES), (side, 0, 0), (0, 0, -side), ceiling, 0.85),
     ]
 
 
@@ -102,12 +102,12 @@ def _posters(random: np.random.Generator) -> list[Panel]:
     for wall in range(4):
         turn = np.array([[0, -1], [1, 0]])
         turned = np.linalg.matrix_power(turn, wall)
-        x = -WALL_DISTANCE + random.uniform(0.2, 0.5)
-        while x < WALL_DISTANCE - 1.0:
+        x = -WALL_DISTANCE_METRES + random.uniform(0.2, 0.5)
+        while x < WALL_DISTANCE_METRES - 1.0:
             wide, high = random.uniform(0.6, 1.4), random.uniform(0.6, 1.3)
-            wide = min(wide, WALL_DISTANCE - 0.1 - x)
-            top = random.uniform(max(high + 0.2, 1.5), CEILING - 0.15)
-            across, along = turned @ [x, -WALL_DISTANCE + 0.01], turned @ [wide, 0.0]
+            wide = min(wide, WALL_DISTANCE_METRES - 0.1 - x)
+            top = random.uniform(max(high + 0.2, 1.5), CEILING_HEIGHT_METRES - 0.15)
+            across, along = turned @ [x, -WALL_DISTANCE_METRES + 0.01], turned @ [wide, 0.0]
             corner = (float(across[0]), float(top), float(across[1]))
             found.append(
                 Panel(corner, (float(along[0]), 0.0, float(along[1])), (0, -high, 0), room_textures.poster, 0.95)
@@ -150,13 +150,13 @@ def _assembled(panels: list[Panel], texels_per_metre: int, random: np.random.Gen
         tuple(max(8, round(float(np.linalg.norm(edge)) * texels_per_metre)) for edge in (panel.down, panel.right))
         for panel in panels
     ]
-    width = max(columns for _, columns in sizes) * 2 + 4 * GUTTER
+    width = max(columns for _, columns in sizes) * 2 + 4 * PANEL_GUTTER_TEXELS
     places, x, y, deep = {}, 0, 0, 0
     for k in sorted(range(len(panels)), key=lambda k: -sizes[k][0]):
-        rows, columns = sizes[k][0] + 2 * GUTTER, sizes[k][1] + 2 * GUTTER
+        rows, columns = sizes[k][0] + 2 * PANEL_GUTTER_TEXELS, sizes[k][1] + 2 * PANEL_GUTTER_TEXELS
         if x + columns > width:
             x, y, deep = 0, y + deep, 0
-        places[k] = (x + GUTTER, y + GUTTER)
+        places[k] = (x + PANEL_GUTTER_TEXELS, y + PANEL_GUTTER_TEXELS)
         x, deep = x + columns, max(deep, rows)
     height = y + deep
     texture = np.zeros((height, width, 3), np.uint8)
@@ -164,8 +164,15 @@ def _assembled(panels: list[Panel], texels_per_metre: int, random: np.random.Gen
     for k, panel in enumerate(panels):
         (left, top), (rows, columns) = places[k], sizes[k]
         painted = np.clip(panel.paint((rows, columns), random) + 0.5, 0, 255).astype(np.uint8)
-        padded = np.pad(painted, ((GUTTER, GUTTER), (GUTTER, GUTTER), (0, 0)), mode="edge")
-        texture[top - GUTTER : top + rows + GUTTER, left - GUTTER : left + columns + GUTTER] = padded
+        padded = np.pad(
+            painted,
+            ((PANEL_GUTTER_TEXELS, PANEL_GUTTER_TEXELS), (PANEL_GUTTER_TEXELS, PANEL_GUTTER_TEXELS), (0, 0)),
+            mode="edge",
+        )
+        texture[
+            top - PANEL_GUTTER_TEXELS : top + rows + PANEL_GUTTER_TEXELS,
+            left - PANEL_GUTTER_TEXELS : left + columns + PANEL_GUTTER_TEXELS,
+        ] = padded
         points, faces, share = _tiles(panel)
         vertices.append(points)
         triangles.append(faces + count)
@@ -184,7 +191,7 @@ def _assembled(panels: list[Panel], texels_per_metre: int, random: np.random.Gen
 def _tiles(panel: Panel) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]:
     """Vertices, triangles and (V, 2) shares along the panel's right and down."""
     right, down = np.array(panel.right, np.float64), np.array(panel.down, np.float64)
-    across, below = (max(1, int(np.ceil(np.linalg.norm(edge) / TILE))) for edge in (right, down))
+    across, below = (max(1, int(np.ceil(np.linalg.norm(edge) / TILE_SIDE_METRES))) for edge in (right, down))
     u, v = np.meshgrid(np.linspace(0, 1, across + 1), np.linspace(0, 1, below + 1))
     share = np.stack([u.ravel(), v.ravel()], 1)
     number = np.arange(len(share)).reshape(below + 1, across + 1)
@@ -196,4 +203,4 @@ def _tiles(panel: Panel) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArra
 def _contact(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """(V,) what the feet leave of the light that falls on the floor."""
     near = np.exp(-((points[:, 0] ** 2 + points[:, 2] ** 2) / CONTACT_METRES**2))
-    return np.where(points[:, 1] < 0.1, 1 - CONTACT_SHADE * near, 1.0)
+    return np.where(points[:, 1] < 0.1, 1 - FLOOR_CONTACT_SHADE_SHARE * near, 1.0)

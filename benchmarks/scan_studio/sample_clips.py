@@ -10,7 +10,7 @@ from itertools import islice
 from pathlib import Path
 
 from benchmarks.scan_studio.film import write_film
-from benchmarks.scan_studio.people.template_people import TEXTURE_SIZE, template_subject
+from benchmarks.scan_studio.people.template_people import TEXTURE_SIZE_TEXELS, template_subject
 from benchmarks.scan_studio.room import furnished_room
 from benchmarks.scan_studio.scene import Scene
 from benchmarks.scan_studio.studio import Order, Take
@@ -18,26 +18,26 @@ from benchmarks.scan_studio.truth import Truth
 from engine.avatar.sample import SAMPLE_FRAMES
 from engine.package_data import package_folder
 
-SUBJECT = "template-a"
-ORDER = Order({"body": 40, "head": 32}, (216, 384))
+SAMPLE_SUBJECT = "template-a"
+SAMPLE_ORDER = Order({"body": 40, "head": 32}, (216, 384))
 """Of whole films, of which the clips are the beginnings."""
 
 
 def sample_truth() -> Truth:
     """What is known of both clips, frame by frame."""
-    subject = template_subject(SUBJECT, 16)
+    subject = template_subject(SAMPLE_SUBJECT, 16)
     return Truth(
-        subject, {name: Take(name, subject, ORDER).truth() for name in SAMPLE_FRAMES}, {"frames": SAMPLE_FRAMES}
+        subject, {name: Take(name, subject, SAMPLE_ORDER).truth() for name in SAMPLE_FRAMES}, {"frames": SAMPLE_FRAMES}
     )
 
 
 def write_sample_clips(folder: Path) -> None:
     """Write `body.mp4` and `head.mp4` into a folder that is there."""
-    subject = template_subject(SUBJECT, TEXTURE_SIZE)
-    scene = Scene(furnished_room(ORDER.seed), subject)
+    subject = template_subject(SAMPLE_SUBJECT, TEXTURE_SIZE_TEXELS)
+    scene = Scene(furnished_room(SAMPLE_ORDER.seed), subject)
     for name, count in SAMPLE_FRAMES.items():
-        frames = Take(name, subject, ORDER).frames(scene)
-        write_film(folder / f"{name}.mp4", islice(frames, count), ORDER.size, ORDER.film_format)
+        frames = Take(name, subject, SAMPLE_ORDER).frames(scene)
+        write_film(folder / f"{name}.mp4", islice(frames, count), SAMPLE_ORDER.size, SAMPLE_ORDER.film_format)
 
 
 if __name__ == "__main__":

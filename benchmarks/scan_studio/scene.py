@@ -18,7 +18,7 @@ from engine.compiled import njit
 from engine.geometry.camera import Camera
 from engine.media.tone_mapping import srgb_light
 
-SAMPLE_OFFSETS = ((-0.375, 0.125), (0.125, 0.375), (-0.125, -0.375), (0.375, -0.125))
+SAMPLE_OFFSETS_PIXELS = ((-0.375, 0.125), (0.125, 0.375), (-0.125, -0.375), (0.375, -0.125))
 """Pixels from a pixel's centre at which it is looked at, one moment of the exposure each: a turned grid."""
 
 
@@ -48,11 +48,11 @@ class Scene:
         return rgb
 
     def expose(self, cameras: list[Camera], stands: list[NDArray[np.float64] | None]) -> NDArray[np.float32]:
-        """(H, W, 3) linear light from 0 to 1, the mean over moments of an exposure; `SAMPLE_OFFSETS` are gone through."""
+        """(H, W, 3) linear light from 0 to 1, the mean over moments of an exposure; `SAMPLE_OFFSETS_PIXELS` are gone through."""
         total = np.zeros((*cameras[0].size, 3), np.float32)
         light = srgb_light(np.arange(256) / 255).astype(np.float32)
         for k, (camera, vertices) in enumerate(zip(cameras, stands, strict=True)):
-            x, y = SAMPLE_OFFSETS[k % len(SAMPLE_OFFSETS)]
+            x, y = SAMPLE_OFFSETS_PIXELS[k % len(SAMPLE_OFFSETS_PIXELS)]
             moved = replace(camera, centre=(camera.centre[0] - x, camera.centre[1] - y))
             _add_light(self.draw(moved, vertices), light, total)
         return total / np.float32(len(cameras))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from benchmarks.scan_studio.camera.path import BODY_SECONDS, HEAD_SECONDS, HandHeld
 from benchmarks.scan_studio.camera.sensor import Sensor
-from benchmarks.scan_studio.conditions import COMPANY_METRES, CONDITIONS, Conditions
+from benchmarks.scan_studio.conditions import COMPANY_METRES, NAMED_CONDITIONS, Conditions
 from benchmarks.scan_studio.film import FilmFormat, write_film
 from benchmarks.scan_studio.people.subject import Subject
 from benchmarks.scan_studio.people.sway import USUAL_METRES, Stance, Sway
@@ -34,7 +34,7 @@ class Order:
     seed: int = 0
     """Of all that chance decides."""
     conditions: str = "good"
-    """One of `CONDITIONS`."""
+    """One of `NAMED_CONDITIONS`."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class Take:
     @property
     def conditions(self) -> Conditions:
         """How it is taken."""
-        return CONDITIONS[self.order.conditions]
+        return NAMED_CONDITIONS[self.order.conditions]
 
     @property
     def moments(self) -> NDArray[np.float64]:
@@ -114,7 +114,7 @@ class Take:
 def film(subject: Subject, order: Order, folder: Path) -> None:
     """Write `body.mp4` and `head.mp4` into a folder, and the truth beside them."""
     folder.mkdir(parents=True, exist_ok=True)
-    company = COMPANY_METRES if CONDITIONS[order.conditions].company else None
+    company = COMPANY_METRES if NAMED_CONDITIONS[order.conditions].company else None
     scene = Scene(furnished_room(order.seed), subject, company)
     takes = [Take(name, subject, order) for name, count in order.frames.items() if count]
     made = {

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from engine.media.tone_mapping import PEAK_NITS, WHITE_NITS, srgb_code, xyz_of
 from engine.media.ycbcr import BT2020, LIMITED_RANGE, frame_from_rgb
 
-TONES = 4096
+TONE_TABLE_STEPS = 4096
 """Steps of the table from light to sRGB."""
 HLG_TRANSFER = 18
 """FFmpeg's number of it (AVCOL_TRC_ARIB_STD_B67)."""
@@ -23,8 +23,8 @@ DARKEST_LIGHT = 1e-9
 
 def srgb_frame(light: NDArray[np.float32]) -> VideoFrame:
     """A frame of 8 bits, BT.709, of linear light (H, W, 3) whose white is 1; what is brighter is clipped."""
-    table = np.rint(255 * srgb_code(np.linspace(0, 1, TONES))).astype(np.uint8)
-    step = (np.clip(light, 0, 1) * np.float32(TONES - 1) + np.float32(0.5)).astype(np.uint16)
+    table = np.rint(255 * srgb_code(np.linspace(0, 1, TONE_TABLE_STEPS))).astype(np.uint8)
+    step = (np.clip(light, 0, 1) * np.float32(TONE_TABLE_STEPS - 1) + np.float32(0.5)).astype(np.uint16)
     return frame_from_rgb(table[step])
 
 

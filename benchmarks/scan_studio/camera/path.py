@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 from scipy.spatial.transform import Rotation
 
-from benchmarks.scan_studio.conditions import CONDITIONS, Conditions
+from benchmarks.scan_studio.conditions import NAMED_CONDITIONS, Conditions
 from benchmarks.scan_studio.people.subject import Subject
-from benchmarks.scan_studio.people.sway import CYCLES, SmoothCurve
+from benchmarks.scan_studio.people.sway import SWAY_CYCLES, SmoothCurve
 from engine.geometry.camera import Camera
 
 FOCAL_SHARE = 0.85
 """Focal length in long sides of the picture: a phone's main camera as it films, about 30 mm on 36 x 24."""
-BREATHING = 0.006
+FOCUS_BREATHING_SHARE = 0.006
 """Share by which the focal length changes, at most, as the focus moves."""
 WANDER_METRES = (0.07, 0.05, 0.07)
 """How far a hand strays from the path along the room's axes, about, at most."""
@@ -34,7 +34,7 @@ BODY_SECONDS = 80.0
 HEAD_SECONDS = 30.0
 """As long as its film of the head takes."""
 
-BODY_KEYS = (
+BODY_CAMERA_KEYS = (
     (0.0, 0.0, 0.84, 0.68, 2.0),
     (0.48, 362.0, 0.84, 0.68, 2.0),
     (0.53, 378.0, 0.42, 0.36, 1.95),
@@ -42,7 +42,7 @@ BODY_KEYS = (
 )
 """Share of the time; degrees round to the subject's left; heights of the camera and of its aim in the subject's; metres
 away."""
-HEAD_KEYS = (
+HEAD_CAMERA_KEYS = (
     (0.0, 0.0, 2.0, 0.6),
     (0.54, 363.0, 4.0, 0.6),
     (0.64, 372.0, 48.0, 0.62),
@@ -68,7 +68,7 @@ class HandHeld:
     """Of how the hand strays."""
     head: bool
     """Whether the head is filmed."""
-    conditions: Conditions = CONDITIONS["good"]
+    conditions: Conditions = NAMED_CONDITIONS["good"]
 
     def cameras(self, seconds: NDArray[np.float64]) -> list[Camera]:
         """As it is at these moments (N,)."""
@@ -80,7 +80,7 @@ class HandHeld:
         shaking = self._curve(3, 3, tuple(hertz * self.seconds for hertz in TREMOR_HERTZ))(seconds)
         bad = 1 + 2 * np.clip(self._curve(4, 1, (7.3, 11.9))(seconds), 0, 1) ** 2
         vectors = np.radians(stray + self.conditions.tremor * TREMOR_DEGREES * bad * shaking)
-        focal = FOCAL_SHARE * max(self.size) * (1 + BREATHING * self._curve(5, 1)(seconds)[:, 0])
+        focal = FOCAL_SHARE * max(self.size) * (1 + FOCUS_BREATHING_SHARE * self._curve(5, 1)(seconds)[:, 0])
         lens = Camera((0.0, 0.0, 0.0), 1.0, ((width - 1) / 2, (height - 1) / 2), (height, width))
         found = []
         for eye, aim, vector, length in zip(eyes, aims, vectors, focal, strict=True):
@@ -89,12 +89,12 @@ class HandHeld:
             found.append(replace(level, focal=float(length), axes=tuple(map(tuple, axes.tolist()))))
         return found
 
-    def _curve(self, number: int, channels: int, cycles: tuple[float, ...] = CYCLES) -> SmoothCurve:
+    def _curve(self, number: int, channels: int, cycles: tuple[float, ...] = SWAY_CYCLES) -> SmoothCurve:
         return SmoothCurve(channels, self.seconds, self.seed + 10 * number, cycles)
 
     def _path(self, seconds: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(N, 3) eyes and (N, 3) what they look at."""
-        keys = np.array(HEAD_KEYS if self.head else BODY_KEYS)
+        keys = np.array(HEAD_CAMERA_KEYS if self.head else BODY_CAMERA_KEYS)
         values = PchipInterpolator(keys[:, 0], keys[:, 1:])(np.clip(seconds / self.seconds, 0, 1))
         round_about = np.radians(self.conditions.round_about(values[:, 0]))
         if self.head:

@@ -14,7 +14,7 @@ from engine.motion.clip import Clip
 from engine.motion.files.reading import read_motion
 from engine.motion.retargeting.retarget import retarget
 
-MOMENTS: Mapping[str, tuple[str, float]] = {
+PICTURED_MOMENTS: Mapping[str, tuple[str, float]] = {
     "walking": ("cmu_02_01_walk.bvh", 0.43),
     "mid step": ("cmu_02_01_walk.bvh", 0.09),
     "running": ("bandai_run_active.bvh", 0.52),
@@ -25,15 +25,15 @@ MOMENTS: Mapping[str, tuple[str, float]] = {
 }
 """Files of captured motions, and the share of each at which the picture is taken."""
 
-PICTURED = (*POSES, *MOMENTS)
+PICTURED_NAMES = (*POSES, *PICTURED_MOMENTS)
 """The names of all of them."""
 
 
 def pictured(skeleton: Skeleton, how: str, mocap: Path) -> Clip:
-    """A clip of one frame in which somebody of this T-pose `skeleton` stands as in `PICTURED`; `mocap`: the folder of motions."""
+    """A clip of one frame in which somebody of this T-pose `skeleton` stands as in `PICTURED_NAMES`; `mocap`: the folder of motions."""
     if how in POSES:
         return held_pose(skeleton, POSES[how])
-    file, share = MOMENTS[how]
+    file, share = PICTURED_MOMENTS[how]
     clip = retarget(read_motion(mocap / file), skeleton).clip
     frame = int(share * (len(clip.rotations) - 1))
     return Clip("held", 1.0, clip.rotations[[frame]], clip.root[[frame]] * np.array([0, 1, 0], np.float32))

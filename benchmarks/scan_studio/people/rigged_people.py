@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from benchmarks.scan_studio.people.rigged_glb import TexturedPart, accessor_array, material_image, node_worlds
-from benchmarks.scan_studio.people.scanned_people import RIGGED, one_texture
+from benchmarks.scan_studio.people.scanned_people import RIGGED_PEOPLE, one_texture
 from engine.body.rest_pose import T_POSE_DIRECTIONS, shortest_rotation
 from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
@@ -18,9 +18,9 @@ from engine.geometry.skinning import bone_transforms, skin
 from engine.motion.clip import Clip
 from engine.motion.files.gltf_file import GltfFile
 
-METRES = 1.8
+T_POSE_HEIGHT_METRES = 1.8
 """Height in T-pose to which they are scaled."""
-ENDS = {
+BONE_END_JOINTS = {
     **{f"{side}Arm": f"{side}ForeArm" for side in ("Left", "Right")},
     **{f"{side}ForeArm": f"{side}Hand" for side in ("Left", "Right")},
     **{f"{side}Hand": f"{side}HandMiddle1" for side in ("Left", "Right")},
@@ -35,8 +35,8 @@ Directions = Mapping[str, tuple[float, float, float]]
 
 
 def read_rigged(name: str, scans: Path) -> SkinnedMesh:
-    """One of `scanned_people.RIGGED` in T-pose, `METRES` high, on one texture."""
-    file_name, facing = RIGGED[name]
+    """One of `scanned_people.RIGGED` in T-pose, `T_POSE_HEIGHT_METRES` high, on one texture."""
+    file_name, facing = RIGGED_PEOPLE[name]
     file = GltfFile(scans / file_name)
     towards = np.diag([facing, 1.0, facing])
     worlds = node_worlds(file, lambda node, world: world)
@@ -90,8 +90,8 @@ def _turns(skeleton: Skeleton, directions: Directions) -> NDArray[np.float64]:
     for joint, name in enumerate(skeleton.names):
         parent = skeleton.parents[joint]
         world[joint] = world[parent] if parent >= 0 else np.eye(3)
-        if name in directions and ENDS[name] in skeleton.names:
-            along = world[joint] @ (skeleton.heads[skeleton.index(ENDS[name])] - skeleton.heads[joint])
+        if name in directions and BONE_END_JOINTS[name] in skeleton.names:
+            along = world[joint] @ (skeleton.heads[skeleton.index(BONE_END_JOINTS[name])] - skeleton.heads[joint])
             world[joint] = shortest_rotation(along, np.array(directions[name])) @ world[joint]
         if name.endswith(("LeftFoot", "RightFoot")):
             world[joint] = np.eye(3)
@@ -139,7 +139,7 @@ def _surface(
 
 
 def _on_the_ground(mesh: SkinnedMesh) -> SkinnedMesh:
-    scale = METRES / float(np.ptp(mesh.vertices[:, 1]))
+    scale = T_POSE_HEIGHT_METRES / float(np.ptp(mesh.vertices[:, 1]))
     hips = mesh.skeleton.heads[mesh.skeleton.index("Hips")]
     ground = np.array([hips[0], mesh.vertices[:, 1].min(), hips[2]], np.float32)
     skeleton = Skeleton(mesh.skeleton.names, mesh.skeleton.parents, (mesh.skeleton.heads - ground) * np.float32(scale))

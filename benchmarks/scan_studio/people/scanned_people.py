@@ -16,29 +16,29 @@ from benchmarks.scan_studio.people.subject import Arm, Subject, room_light
 from engine.geometry.surface import vertex_normals
 from engine.geometry.welding import same_rows
 
-SCANNED_HEIGHT = 1.75
+SCANNED_HEIGHT_METRES = 1.75
 """Of height, to which they are scaled."""
-RIGGED = {
+RIGGED_PEOPLE = {
     "readyplayer.me": ("body_rpm_man/readyplayer.me.glb", 1.0),
     "soldier": ("body_soldier/soldier.glb", -1.0),
     "michelle": ("body_michelle/michelle.glb", 1.0),
 }
 """Files below the folder of scans, and 1 or -1: which way along z they look."""
-UNRIGGED = {"male02": "body_male02/male02.obj"}
+UNRIGGED_PEOPLE = {"male02": "body_male02/male02.obj"}
 """Files of those who stand as they were made, looking along +z."""
-LARGEST_IMAGE = 1024
+MAX_IMAGE_TEXELS = 1024
 """Texels, at most, along the side of each image's place on the texture."""
-GUTTER = 4
+IMAGE_GUTTER_TEXELS = 4
 """Texels around it, which continue the image."""
 
 
 def read_subject(name: str, scans: Path) -> Subject:
-    """One of `RIGGED` or `UNRIGGED` from the folder of scans."""
-    if name in RIGGED:
-        file, facing = RIGGED[name]
+    """One of `RIGGED_PEOPLE` or `UNRIGGED_PEOPLE` from the folder of scans."""
+    if name in RIGGED_PEOPLE:
+        file, facing = RIGGED_PEOPLE[name]
         parts, joints = read_in_a_pose(scans / file, facing)
     else:
-        parts, joints = _read_obj(scans / UNRIGGED[name]), {}
+        parts, joints = _read_obj(scans / UNRIGGED_PEOPLE[name]), {}
     return _joined(name, parts, joints)
 
 
@@ -62,7 +62,7 @@ def _joined(name: str, parts: Sequence[TexturedPart], joints: Mapping[str, NDArr
     triangles = np.concatenate([part.triangles + start for part, start in zip(parts, starts, strict=False)])
     low, high = points.min(0), points.max(0)
     scale, ground = (
-        SCANNED_HEIGHT / (high[1] - low[1]),
+        SCANNED_HEIGHT_METRES / (high[1] - low[1]),
         np.array([(low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 2]),
     )
     vertices = (points - ground) * scale
@@ -91,21 +91,25 @@ def one_texture(parts: Sequence[TexturedPart]) -> tuple[NDArray[np.float32], NDA
         shown.append(same[0] if same else len(images))
         if not same:
             images.append(part.image)
-    side = min(LARGEST_IMAGE, max(max(image.shape[:2]) for image in images))
+    side = min(MAX_IMAGE_TEXELS, max(max(image.shape[:2]) for image in images))
     across = int(np.ceil(np.sqrt(len(images))))
-    cell = side + 2 * GUTTER
+    cell = side + 2 * IMAGE_GUTTER_TEXELS
     texture = np.zeros((int(np.ceil(len(images) / across)) * cell, across * cell, 3), np.uint8)
     for k, image in enumerate(images):
         row, column = divmod(k, across)
         way = cv2.INTER_AREA if max(image.shape[:2]) > side else cv2.INTER_CUBIC
         resized = np.asarray(cv2.resize(image, (side, side), interpolation=way))
-        padded = np.pad(resized, ((GUTTER, GUTTER), (GUTTER, GUTTER), (0, 0)), mode="edge")
+        padded = np.pad(
+            resized,
+            ((IMAGE_GUTTER_TEXELS, IMAGE_GUTTER_TEXELS), (IMAGE_GUTTER_TEXELS, IMAGE_GUTTER_TEXELS), (0, 0)),
+            mode="edge",
+        )
         texture[row * cell : (row + 1) * cell, column * cell : (column + 1) * cell] = padded
     corners = []
     for part, k in zip(parts, shown, strict=True):
         row, column = divmod(k, across)
         own = part.uv[part.triangles]  # (T, 3, 2)
         own = np.clip(own - np.floor(own.mean(1, keepdims=True)), 0, 1)  # images repeat
-        at = own * side + [column * cell + GUTTER, row * cell + GUTTER]
+        at = own * side + [column * cell + IMAGE_GUTTER_TEXELS, row * cell + IMAGE_GUTTER_TEXELS]
         corners.append(at.reshape(-1, 2) / [texture.shape[1], texture.shape[0]])
     return np.concatenate(corners).astype(np.float32), texture

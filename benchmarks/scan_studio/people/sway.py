@@ -18,23 +18,23 @@ ARM_METRES = (0.008, 0.011)
 """By which the left and the right wrist drift, at most, for a sway of 5 mm."""
 USUAL_METRES = 0.005
 """Of sway."""
-CYCLES = (0.8, 1.7, 3.1, 5.3, 8.9)
+SWAY_CYCLES = (0.8, 1.7, 3.1, 5.3, 8.9)
 """Of the sines that a smooth curve is made of, in the time of a film."""
-MOMENTS = 2048
+MEASURED_MOMENT_COUNT = 2048
 """At which a curve's mean and greatest length are measured."""
 
 
 class SmoothCurve:
     """A random curve in C dimensions over `seconds`: of zero mean, and of length 1 where it is longest."""
 
-    def __init__(self, channels: int, seconds: float, seed: int, cycles: tuple[float, ...] = CYCLES):
+    def __init__(self, channels: int, seconds: float, seed: int, cycles: tuple[float, ...] = SWAY_CYCLES):
         random = np.random.default_rng(seed)
         self._rates = (
             2 * np.pi * np.array(cycles)[:, None] / seconds * random.uniform(0.9, 1.1, (len(cycles), channels))
         )
         self._phases = random.uniform(0, 2 * np.pi, (len(cycles), channels))
         self._heights = random.uniform(0.5, 1, (len(cycles), channels)) / np.sqrt(np.array(cycles))[:, None]
-        samples = self._sum(np.linspace(0, seconds, MOMENTS))
+        samples = self._sum(np.linspace(0, seconds, MEASURED_MOMENT_COUNT))
         self._mean = samples.mean(0)
         self._longest = float(np.linalg.norm(samples - self._mean, axis=1).max())
 

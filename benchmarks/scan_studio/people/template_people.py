@@ -31,8 +31,8 @@ from engine.render.attributes import interpolate
 from engine.render.rasteriser import Raster
 from engine.render.texture_bake import texel_raster
 
-TEXTURE_SIZE = 2048
-PARTS = ("body", "left_eye", "right_eye")
+TEXTURE_SIZE_TEXELS = 2048
+DRAWN_PARTS = ("body", "left_eye", "right_eye")
 """Of the template, that are drawn."""
 A_POSE: Turns = {
     "LeftArm": (0, 0, -50),
@@ -44,7 +44,7 @@ A_POSE: Turns = {
     "LeftFoot": (0, 8, -8),
     "RightFoot": (0, -8, 8),
 }
-LOOKS = {
+TEMPLATE_LOOKS = {
     "template-a": Look(
         "template-a", Phenotype(0.5, 1, 0.6, 0.5, 0.55), A_POSE, (92, 118, 168), (94, 88, 84), clothes=0.0
     ),
@@ -71,21 +71,21 @@ LOOKS = {
         pattern=0.3,
     ),
 }
-CLOTH_CELLS = (0.004, 0.009, 0.022, 0.06)
+CLOTH_CELL_METRES = (0.004, 0.009, 0.022, 0.06)
 """Metres of the cells of its noise."""
-CLOTH_SPREAD = 0.22
+CLOTH_SPREAD_SHARE = 0.22
 """Share of the colour by which it is lighter or darker."""
-SKIN_CELLS = (0.0025, 0.006, 0.015)
+SKIN_CELL_METRES = (0.0025, 0.006, 0.015)
 """Metres of the cells of its spots."""
-SKIN_SPREAD = 0.06
+SKIN_SPREAD_SHARE = 0.06
 """Share of the colour by which they are lighter or darker."""
 PRINT_WORDS = ("GALATEA", "No 25", "* & ?")
 """What is printed on chest and back."""
 PRINT_METRES = (0.26, 0.2)
 """Width and height of it."""
-BROWS = (range(17, 22), range(22, 27))
+BROW_FACE_POINTS = (range(17, 22), range(22, 27))
 """Of the 68 face points."""
-LIDS = (range(36, 42), range(42, 48))
+LID_FACE_POINTS = (range(36, 42), range(42, 48))
 """Of the 68 face points."""
 BROW_METRES = 0.004
 """Half the height of a brow."""
@@ -121,11 +121,11 @@ class _Texels:
         return np.asarray((self.colours == np.array(colour, np.float32)).all(1))
 
 
-def template_subject(name: str, texels: int = TEXTURE_SIZE) -> Subject:
-    """One of `LOOKS`, with a texture of so many texels along its side."""
-    look, template = LOOKS[name], load_template()
+def template_subject(name: str, texels: int = TEXTURE_SIZE_TEXELS) -> Subject:
+    """One of `TEMPLATE_LOOKS`, with a texture of so many texels along its side."""
+    look, template = TEMPLATE_LOOKS[name], load_template()
     person = dress(look)
-    uv_triangles = triangulate(template.uv_quads[template.faces(*PARTS)])
+    uv_triangles = triangulate(template.uv_quads[template.faces(*DRAWN_PARTS)])
     normals = vertex_normals(person.vertices, person.triangles)
     rig = load_rig(HUMAN_RIG)
     joints = {} if person.joints is None else dict(zip(rig.names, person.joints, strict=True))
@@ -192,8 +192,8 @@ def _weave(colours: NDArray[np.float32], texels: _Texels, look: Look, random: np
     """Cloth, leather and hair: noise of all sizes; stripes on the shirt."""
     for colour, spread in ((look.shirt, 1.0), (look.trousers, 1.1), (look.shoes, 0.9), (look.hair, 1.3)):
         here = texels.worn(colour)
-        noise = space_noise(texels.points[here], CLOTH_CELLS, random)
-        colours[here] *= np.clip(1 + spread * look.pattern * CLOTH_SPREAD * noise, 0.2, 1.8)[:, None]
+        noise = space_noise(texels.points[here], CLOTH_CELL_METRES, random)
+        colours[here] *= np.clip(1 + spread * look.pattern * CLOTH_SPREAD_SHARE * noise, 0.2, 1.8)[:, None]
     if look.pattern < 1:
         return
     shirt = np.flatnonzero(texels.worn(look.shirt))
@@ -233,7 +233,7 @@ def _make_up(
 ) -> None:
     """Skin: spots and blotches; lips, nails and the inside of the mouth by MakeHuman's masks of the texture."""
     here = texels.worn(look.skin)
-    tone = SKIN_SPREAD * space_noise(texels.points[here], SKIN_CELLS, random)
+    tone = SKIN_SPREAD_SHARE * space_noise(texels.points[here], SKIN_CELL_METRES, random)
     blotches = 0.04 * space_noise(texels.points[here], (0.03, 0.07), random)
     colours[here] *= 1 + np.stack([tone + 0.5 * blotches, tone - blotches, tone - blotches], 1)
     for mask, colour in (("lips", LIP_RGB), ("fingernails", NAIL_RGB), ("inside-mouth", MOUTH_RGB)):
@@ -263,7 +263,10 @@ def _draw_face(colours: NDArray[np.float32], texels: _Texels, look: Look, person
     points = person.vertices[face_points(template, load_body_space())]
     skin = np.flatnonzero(texels.worn(look.skin))
     near = skin[np.linalg.norm(texels.points[skin] - points[27], axis=1) < 0.1]
-    for lines, metres, colour, closed in ((BROWS, BROW_METRES, BROW_RGB, False), (LIDS, LID_METRES, LID_RGB, True)):
+    for lines, metres, colour, closed in (
+        (BROW_FACE_POINTS, BROW_METRES, BROW_RGB, False),
+        (LID_FACE_POINTS, LID_METRES, LID_RGB, True),
+    ):
         for line in lines:
             stroke = points[list(line)]
             stroke = np.concatenate([stroke, stroke[:1]]) if closed else stroke

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.scan_studio.conditions import COMPANY_METRES, CONDITIONS
+from benchmarks.scan_studio.conditions import COMPANY_METRES, NAMED_CONDITIONS
 from benchmarks.scan_studio.people.subject import Subject
 from benchmarks.scan_studio.room import Room
 from benchmarks.scan_studio.scene import Scene
@@ -27,7 +27,7 @@ def round_about(egg: Subject, conditions: str) -> NDArray[np.float64]:
 def shown(egg: Subject, room: Room, conditions: str) -> NDArray[np.float32]:
     """The light of the second of a few frames."""
     one = take(egg, conditions, 6)
-    company = COMPANY_METRES if CONDITIONS[conditions].company else None
+    company = COMPANY_METRES if NAMED_CONDITIONS[conditions].company else None
     frames = one.frames(Scene(room, egg, company))
     next(frames)
     return next(frames)

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.character_figures.steps import BY_HAND
+from benchmarks.character_figures.steps import JOINTS_PLACED_BY_HAND
 from engine.character import KIND
 from engine.character.figure.figure import Choice, find_figure
 from engine.character.figure.placed_joints import (
@@ -23,7 +23,7 @@ from engine.media.image import write_image
 from engine.media.limits import Limits
 from engine.perception.body import BODY_LANDMARKS
 
-DRAWN = BY_HAND["drawing_child_boy"]
+DRAWN = JOINTS_PLACED_BY_HAND["drawing_child_boy"]
 
 
 def told(places: dict[str, tuple[float, float]]) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from benchmarks.scan_studio.camera.path import BREATHING, FOCAL_SHARE, HandHeld
+from benchmarks.scan_studio.camera.path import FOCAL_SHARE, FOCUS_BREATHING_SHARE, HandHeld
 from benchmarks.scan_studio.people.subject import Subject
 
 
@@ -46,5 +46,5 @@ def test_the_camera_looks_at_whom_it_films_and_its_focus_breathes(egg: Subject) 
             assert 60 < y < 580, camera
             assert depth > 0
         usual = FOCAL_SHARE * 640
-        assert np.abs(focal / usual - 1).max() <= BREATHING * 1.01
-        assert np.ptp(focal) > 0.5 * BREATHING * usual
+        assert np.abs(focal / usual - 1).max() <= FOCUS_BREATHING_SHARE * 1.01
+        assert np.ptp(focal) > 0.5 * FOCUS_BREATHING_SHARE * usual

@@ -8,7 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.scan_studio.people.scanned_people import RIGGED, SCANNED_HEIGHT, UNRIGGED, read_subject
+from benchmarks.scan_studio.people.scanned_people import (
+    RIGGED_PEOPLE,
+    SCANNED_HEIGHT_METRES,
+    UNRIGGED_PEOPLE,
+    read_subject,
+)
 from benchmarks.scan_studio.people.subject import Subject
 from benchmarks.scan_studio.people.template_people import LIP_RGB, template_subject
 from engine.body.makehuman import read_mask
@@ -21,16 +26,16 @@ def direction(subject: Subject, start: str, end: str) -> np.ndarray:
     return np.asarray(way / np.linalg.norm(way))
 
 
-@pytest.mark.parametrize("name", [*RIGGED, *UNRIGGED])
+@pytest.mark.parametrize("name", [*RIGGED_PEOPLE, *UNRIGGED_PEOPLE])
 def test_scanned_people_are_of_one_height_and_stand_on_the_ground(name: str, media: Callable[[str], Path]) -> None:
     subject = read_subject(name, media("scans3d"))
     assert subject.vertices[:, 1].min() == pytest.approx(0)
-    assert subject.height == pytest.approx(SCANNED_HEIGHT)
+    assert subject.height == pytest.approx(SCANNED_HEIGHT_METRES)
     assert 0 <= subject.uv.min() <= subject.uv.max() <= 1
     assert subject.uv_triangles.shape == subject.triangles.shape
 
 
-@pytest.mark.parametrize("name", RIGGED)
+@pytest.mark.parametrize("name", RIGGED_PEOPLE)
 def test_rigged_people_are_brought_to_a_pose_and_look_along_z(name: str, media: Callable[[str], Path]) -> None:
     subject = read_subject(name, media("scans3d"))
     assert subject.joints["LeftHand"][0] > 0 > subject.joints["RightHand"][0]
