@@ -38,11 +38,11 @@ from engine.geometry.registration.rigid import Similarity, fit_rigid
 from engine.run import Run
 from engine.store import StageStore
 
-HEAD_SHARE = 0.87
+HEAD_START_HEIGHT_SHARE = 0.87
 """Of the height: from there up it is the head."""
-ALIGNMENT_GATE_METRES = 0.03
+TRUTH_GATE_METRES = 0.03
 """Metres within which points of what was made are laid on the truth."""
-ALIGNMENT_ROUNDS = 12
+TRUTH_ALIGNMENT_ROUNDS = 12
 """How often they are laid on it."""
 
 
@@ -86,7 +86,7 @@ def onto_truth(
     true = np.array([truth.person_camera("body", frame).eye for frame in cameras])
     first = fit_rigid(mine, true)
     placed = first(vertices)
-    turn = rigid_onto_surface(placed, surface.vertices, surface.triangles, ALIGNMENT_GATE_METRES, ALIGNMENT_ROUNDS)
+    turn = rigid_onto_surface(placed, surface.vertices, surface.triangles, TRUTH_GATE_METRES, TRUTH_ALIGNMENT_ROUNDS)
     return Similarity(turn.linear @ first.linear, turn(first.shift))
 
 
@@ -144,7 +144,7 @@ def main() -> None:
     surface = measured_surface(subject.vertices, subject.triangles)
     motion = onto_truth(cameras["body"], truth, part.vertices, surface)
     mine = measured_surface(motion(part.vertices), part.triangles)
-    neck = HEAD_SHARE * subject.height
+    neck = HEAD_START_HEIGHT_SHARE * subject.height
     print_distances(
         {
             "all": between_surfaces(mine, surface),

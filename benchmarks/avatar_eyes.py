@@ -26,7 +26,7 @@ from benchmarks.scan_studio.drawing import TexturedMesh, draw_over, empty_depths
 from benchmarks.scan_studio.people.rigged_glb import read_in_clip
 from benchmarks.scan_studio.truth import Truth, read_truth
 from engine.avatar.landmarks.in_frames import EYE_MESH_VERTICES
-from engine.avatar.landmarks.spatial import LID_LANDMARKS
+from engine.avatar.landmarks.spatial import LID_POINT_COUNT
 from engine.geometry.camera import Camera
 from engine.perception.faces import find_faces
 
@@ -34,7 +34,7 @@ ASKED_FRAME_STEP = 2
 """Each so many frames of the head's film are asked."""
 FRAME_ENLARGEMENT = 2.0
 """By how much larger than the film's frames they are drawn."""
-MAX_NOSE_OFFSET_SHARE = 0.35
+MAX_ASKED_NOSE_OFFSET_SHARE = 0.35
 """Of half the distance between the eyes' outer corners, what the nose may stand off their middle."""
 NOSE_TIP_VERTEX, RIGHT_EYE_CORNER_VERTEX, LEFT_EYE_CORNER_VERTEX = 1, 33, 263
 """Vertices of the face mesh."""
@@ -84,17 +84,17 @@ def _frontal(mesh: NDArray[np.float64]) -> bool:
         @ across
         / (across @ across)
     )
-    return bool(abs(off) < MAX_NOSE_OFFSET_SHARE / 2)
+    return bool(abs(off) < MAX_ASKED_NOSE_OFFSET_SHARE / 2)
 
 
 def _measures(mine: NDArray[np.float64], true: NDArray[np.float64]) -> NDArray[np.float64]:
     """Pixels: what `eye_errors` tells of one eye, (21, 2) each."""
-    half = LID_LANDMARKS // 2
+    half = LID_POINT_COUNT // 2
     gaps, irises, places = [], [], []
     for eye in (mine, true):
-        gaps.append(np.linalg.norm(eye[1:half] - eye[LID_LANDMARKS - 1 : half : -1], axis=1))
-        irises.append(np.linalg.norm(eye[LID_LANDMARKS + 1] - eye[LID_LANDMARKS + 3]) / 2)
-        places.append(eye[LID_LANDMARKS] - (eye[0] + eye[half]) / 2)
+        gaps.append(np.linalg.norm(eye[1:half] - eye[LID_POINT_COUNT - 1 : half : -1], axis=1))
+        irises.append(np.linalg.norm(eye[LID_POINT_COUNT + 1] - eye[LID_POINT_COUNT + 3]) / 2)
+        places.append(eye[LID_POINT_COUNT] - (eye[0] + eye[half]) / 2)
     return np.array(
         [
             gaps[0].mean() - gaps[1].mean(),
@@ -108,7 +108,7 @@ def _measures(mine: NDArray[np.float64], true: NDArray[np.float64]) -> NDArray[n
 def _pixels_per_metre(person: Drawn, camera: Camera, eye: NDArray[np.float64]) -> float:
     """Where the person's nearest vertices are that lie behind an eye (21, 2)."""
     projected = camera.project(person.vertices)
-    near = np.linalg.norm(projected[:, :2] - eye.mean(0), axis=1) < np.ptp(eye[:LID_LANDMARKS, 0])
+    near = np.linalg.norm(projected[:, :2] - eye.mean(0), axis=1) < np.ptp(eye[:LID_POINT_COUNT, 0])
     return float(camera.focal / np.quantile(projected[near, 2], 0.1))
 
 

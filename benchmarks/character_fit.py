@@ -45,7 +45,7 @@ from engine.media.limits import Limits
 from engine.perception.body import BODY_LANDMARKS
 from engine.render.rasteriser import rasterise
 
-LIMB_JOINTS = {"arms": "Arm", "forearms": "ForeArm", "thighs": "UpLeg", "shins": "Leg"}
+JOINT_OF_LIMB = {"arms": "Arm", "forearms": "ForeArm", "thighs": "UpLeg", "shins": "Leg"}
 COMPARED_JOINTS = ("Arm", "ForeArm", "Hand", "Leg", "Foot")
 """Joints of each side whose places are compared."""
 FOOT_MARGIN_SHARE = 0.05
@@ -99,7 +99,7 @@ def of_truth(fitted: FittedBody, truth: Truth) -> list[float | None]:
     """A row of the first table."""
     laid = lay(fitted)
     row: list[float | None] = []
-    for joint in LIMB_JOINTS.values():
+    for joint in JOINT_OF_LIMB.values():
         off = []
         for side in SIDE_NAMES:
             first, end = f"{side}{joint}", BONE_END_JOINTS[f"{side}{joint}"]
@@ -221,7 +221,7 @@ def main() -> None:
         sheet.append(Row([overlay(figure, silhouette, fitted)], name))
         return fitted
 
-    head = ["", *LIMB_JOINTS, "limbs", "joints cm", "left foot %", "right foot %", "IoU"]
+    head = ["", *JOINT_OF_LIMB, "limbs", "joints cm", "left foot %", "right foot %", "IoU"]
     digits: tuple[int, ...] = (0, 0, 0, 0, 1, 1, 1, 1, 3)
     rows: list[list[str]] = []
     values: list[list[float | None]] = []

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from benchmarks.character_truth import people
-from benchmarks.known_truth.known_person import PICTURE_SIZE, draw_into
+from benchmarks.known_truth.known_person import PERSON_PICTURE_SIZE, draw_into
 from benchmarks.known_truth.known_places import places
 from benchmarks.presentation.tables import machine, table
 from benchmarks.shared_media import media
@@ -42,7 +42,7 @@ GAP_HALF_WIDTH_SHARE = 0.035
 """Half the width of gaps, as a share of the person's height: what a disk of this radius closes."""
 MIN_GAP_HALF_WIDTH_SHARE = 0.004
 """Half the width of the narrowest gaps that count."""
-PAPER_GREY_LEVEL, WALL_RGB = 250, (196, 190, 180)
+PICTURE_PAPER_GREY_LEVEL, WALL_RGB = 250, (196, 190, 180)
 SHADOW_OFFSET_SHARES, SHADOW_SIGMA_SHARE, SHADOW_BRIGHTNESS = (0.06, 0.015), 0.012, 0.5
 """A cast shadow: how far it lies from the person along x and y and how soft it is, as shares of the picture's height, and what of
 the light is missing."""
@@ -81,8 +81,8 @@ def cut_outs() -> Iterator[tuple[str, NDArray[np.uint8], NDArray[np.float32]]]:
 
 def known_masks() -> Iterator[KnownMask]:
     """All pictures: each cut-out in three of the places, and the people of `character_truth` where they stand."""
-    rooms = places(PICTURE_SIZE)
-    plain = np.full((*PICTURE_SIZE, 3), PAPER_GREY_LEVEL, np.uint8)
+    rooms = places(PERSON_PICTURE_SIZE)
+    plain = np.full((*PERSON_PICTURE_SIZE, 3), PICTURE_PAPER_GREY_LEVEL, np.uint8)
     wall = np.broadcast_to(np.array(WALL_RGB, np.uint8), plain.shape).copy()
     grounds = [*rooms.items(), ("paper", plain), ("wall, shadow", wall)]
     for k, (name, rgb, alpha) in enumerate(cut_outs()):

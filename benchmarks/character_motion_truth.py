@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from benchmarks.character_figures.steps import Woken, wake
-from benchmarks.known_truth.known_person import PICTURE_SIZE, Person, draw_into
+from benchmarks.known_truth.known_person import PERSON_PICTURE_SIZE, Person, draw_into
 from benchmarks.known_truth.known_places import places
 from benchmarks.known_truth.scanned_bodies import texture_painter
 from benchmarks.presentation.contact_sheet import Row, at_height, contact_sheet, write_sheet
@@ -249,7 +249,7 @@ def limbs_off(truth: NDArray[np.float32], skeleton: SkinnedMesh, woken: Woken) -
 
 def cases(only: str) -> Iterator[tuple[str, str, str]]:
     """Who, how, and where."""
-    spots = list(places(PICTURE_SIZE))
+    spots = list(places(PERSON_PICTURE_SIZE))
     for number, (who, how) in enumerate((who, how) for who in RIGGED_PEOPLE for how in POSES):
         if only in f"{who}: {how}":
             yield who, how, spots[number % len(spots)]
@@ -264,7 +264,7 @@ def main() -> None:
     parser.add_argument("--sheet", type=Path)
     asked = parser.parse_args()
     print(machine())
-    spots = places(PICTURE_SIZE)
+    spots = places(PERSON_PICTURE_SIZE)
     rows: list[list[str]] = []
     templates: list[list[str]] = []
     counted: list[list[float | None]] = []

@@ -28,7 +28,7 @@ from scipy.ndimage import gaussian_filter1d
 from benchmarks.character_figures.truth_sheet import write_truth_sheet
 from benchmarks.known_truth.comparison import Comparison, MadeSurfaces
 from benchmarks.known_truth.dressed_template import DRESSED_LOOKS, dress
-from benchmarks.known_truth.known_person import PICTURE_SIZE, KnownPicture, Person, draw_into
+from benchmarks.known_truth.known_person import PERSON_PICTURE_SIZE, KnownPicture, Person, draw_into
 from benchmarks.known_truth.known_places import places
 from benchmarks.known_truth.scanned_bodies import read_scan
 from benchmarks.known_truth.surface_distance import align, compare, sample_outside
@@ -181,7 +181,7 @@ def main() -> None:
     parser.add_argument("--only", default="", help="people whose name contains this")
     parser.add_argument("--sheet", type=Path, help="write the pictures, with both surfaces from the side, here")
     asked = parser.parse_args()
-    backgrounds, results = places(PICTURE_SIZE), []
+    backgrounds, results = places(PERSON_PICTURE_SIZE), []
     for person, place in people():
         if asked.only not in person.name:
             continue

@@ -24,8 +24,8 @@ from benchmarks.presentation.tables import machine, table
 from benchmarks.service import service
 from benchmarks.service_figures.strangers import Sent, strangers
 
-ASK_SECONDS = 0.02
-PATIENCE_SECONDS = 300.0
+HEALTH_CHECK_SECONDS = 0.02
+BODY_PATIENCE_SECONDS = 300.0
 
 
 @dataclass
@@ -42,7 +42,7 @@ class Outcome:
 def send(address: str, token: str, one: Sent) -> tuple[int, bytes]:
     """The answer's status and body; 0 where the line was cut without an answer. No key is sent where `token` is empty."""
     place = urlsplit(address)
-    connection = http.client.HTTPConnection(place.hostname or "", place.port, timeout=PATIENCE_SECONDS)
+    connection = http.client.HTTPConnection(place.hostname or "", place.port, timeout=BODY_PATIENCE_SECONDS)
     try:
         connection.putrequest(one.method, one.path, skip_accept_encoding=True)
         key = {"Authorization": f"Bearer {token}"} if token else {}
@@ -75,7 +75,7 @@ def watch(address: str, orders: Connection) -> None:
     longest = 0.0
     while True:
         began = time.monotonic()
-        connection = http.client.HTTPConnection(place.hostname or "", place.port, timeout=PATIENCE_SECONDS)
+        connection = http.client.HTTPConnection(place.hostname or "", place.port, timeout=BODY_PATIENCE_SECONDS)
         try:
             connection.request("GET", "/healthz")
             connection.getresponse().read()
@@ -84,7 +84,7 @@ def watch(address: str, orders: Connection) -> None:
         finally:
             connection.close()
         longest = max(longest, time.monotonic() - began)
-        while orders.poll(ASK_SECONDS):
+        while orders.poll(HEALTH_CHECK_SECONDS):
             if orders.recv() is None:
                 return
             orders.send(longest)
@@ -103,7 +103,7 @@ def watched(address: str) -> Iterator[Connection]:
         yield here
     finally:
         here.send(None)
-        other.join(PATIENCE_SECONDS)
+        other.join(BODY_PATIENCE_SECONDS)
 
 
 def schedule(address: str, token: str, requests: Iterable[Sent]) -> Outcome:

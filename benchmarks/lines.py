@@ -34,7 +34,7 @@ from benchmarks.service import ROOT, portrait
 
 OPENING_SECONDS = 5.0
 ASKING_SECONDS = 0.2
-PATIENCE_SECONDS = 15.0
+LOCKED_AFTER_SECONDS = 15.0
 """After this long without an answer the service counts as locked."""
 
 SLOW_HEAD = b"GET /healthz HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Slow: "
@@ -124,7 +124,7 @@ async def behave(url: URL, seen: Observed, until: float) -> None:
     while time.monotonic() < until:
         began = time.perf_counter()
         try:
-            async with httpx.AsyncClient(timeout=PATIENCE_SECONDS) as http:
+            async with httpx.AsyncClient(timeout=LOCKED_AFTER_SECONDS) as http:
                 status = (await http.get(url.join("/healthz"))).status_code
         except httpx.HTTPError:
             status = 0

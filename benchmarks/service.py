@@ -34,7 +34,7 @@ from benchmarks.presentation.tables import machine, table
 ROOT = Path(__file__).parent.parent
 JOB_OPTIONS = {"size": [128, 160], "trim": [0, 0.2]}
 SAMPLE_SECONDS = 5.0
-MAX_PAUSE_SECONDS = 10.0
+MAX_ANSWER_PAUSE_SECONDS = 10.0
 ARRIVAL_SECONDS = 10.0
 """Over how long the clients come, and go. Whoever is told to come again waits up to half as long again, each another time, as
 clients of many people do: all in the same instant, they would measure their own herd."""
@@ -119,7 +119,7 @@ async def client(http: httpx.AsyncClient, token: str, picture: bytes, seen: Obse
         made = await call("POST /jobs", "POST", "/v1/jobs", json=job)
         if made.status_code != 202:
             await call("GET /jobs", "GET", "/v1/jobs?limit=5")
-            pause = min(float(made.headers.get("retry-after", 1)), MAX_PAUSE_SECONDS)
+            pause = min(float(made.headers.get("retry-after", 1)), MAX_ANSWER_PAUSE_SECONDS)
             await asyncio.sleep(pause * random.uniform(1, 1.5))
             continue
         path = made.headers["location"]

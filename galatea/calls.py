@@ -101,12 +101,12 @@ def wake_up(
     ------
     GalateaError : the picture, the motion or an option cannot be used; says what to do.
     """
-    built_in = isinstance(motion, str) and motion in character.MOTIONS and not Path(motion).is_file()
+    built_in = isinstance(motion, str) and motion in character.BUILT_IN_MOTIONS and not Path(motion).is_file()
     chosen = _checked(character.CharacterOptions, {**options, **({"motion": motion} if built_in else {})})
     with TemporaryDirectory(prefix="galatea-") as folder:
         inputs: dict[str, Given] = {"photo": picture_file(photo, "photo", Path(folder))}
         if not built_in:
-            inputs["motion"] = file(motion, "motion", Path(folder), character.MOTIONS)
+            inputs["motion"] = file(motion, "motion", Path(folder), character.BUILT_IN_MOTIONS)
         for name, painted in (("mask", mask), ("labels", labels)):
             if painted is not None:
                 inputs[name] = picture_file(painted, name, Path(folder))

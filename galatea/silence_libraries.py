@@ -23,7 +23,7 @@ LIBRARY_LINE_BEGINNING = re.compile(
     rb"(?:[IWE]\d{0,4}|[IWE]\d{4} .*|INFO: Cre.*|WARNING: All.*|I|IN|INF|INFO:?|INFO: (?:C|Cr)?|W|WA|WAR)$"
 )
 """A line's beginning that may yet turn out to be theirs."""
-PIECE_BYTES = 1 << 16
+READ_PIECE_BYTES = 1 << 16
 
 
 class _Sieve:
@@ -97,7 +97,7 @@ def _pass_on(source: int, target: int, wake: int, passed: threading.Event) -> No
                 selector.register(descriptor, selectors.EVENT_READ)
             while True:
                 ready = {key.fd for key, _ in selector.select(0 if ending else None)}
-                text = os.read(source, PIECE_BYTES) if source in ready else b""
+                text = os.read(source, READ_PIECE_BYTES) if source in ready else b""
                 rest = sift(rest + text, target)
                 if source in ready and not text:
                     break

@@ -15,7 +15,7 @@ from galatea_client.errors import Unavailable
 from galatea_client.models import Artifact, JobError, Model, Progress, Status
 from galatea_client.transport import Transport
 
-PAUSE_SECONDS = 1.0
+RECONNECT_SECONDS = 1.0
 SILENCE_SECONDS = 60.0
 """The service sends a sign of life every 15 s: a line that is silent for this long is broken."""
 MIN_ANSWER_SECONDS = 1.0
@@ -73,7 +73,7 @@ async def follow(transport: Transport, job_id: str, after: int = 0, deadline: fl
             failures += 1
             if failures > transport.retries:
                 raise
-            await transport.line.sleep(PAUSE_SECONDS)
+            await transport.line.sleep(RECONNECT_SECONDS)
 
 
 async def _once(transport: Transport, job_id: str, after: int, deadline: float) -> AsyncGenerator[Event]:

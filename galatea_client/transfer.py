@@ -16,8 +16,8 @@ from galatea_client.errors import DownloadBroken, Unreachable
 from galatea_client.lines import Line
 from galatea_client.transport import Transport
 
-PIECE_BYTES = 1 << 16
-PAUSE_SECONDS = 0.5
+TRANSFER_PIECE_BYTES = 1 << 16
+RESUME_SECONDS = 0.5
 
 Upload = str | Path | bytes | bytearray | BinaryIO
 """A file of this machine, what it holds, or one that is open for reading bytes."""
@@ -78,7 +78,7 @@ async def fetch(
             failures = 0 if now > have else failures + 1
             if failures > transport.retries:
                 raise Unreachable(f"{to.name}: {error or type(error).__name__}") from error
-            await transport.line.sleep(PAUSE_SECONDS)
+            await transport.line.sleep(RESUME_SECONDS)
             continue
         if part.stat().st_size != size:
             part.unlink()
@@ -98,7 +98,7 @@ async def _write(
 ) -> None:
     with part.open("ab") as file:
         file.truncate(start)
-        async for piece in line.pieces(response, PIECE_BYTES):
+        async for piece in line.pieces(response, TRANSFER_PIECE_BYTES):
             await line.aside(file.write, piece)
             if progress is not None:
                 progress(file.tell(), size)

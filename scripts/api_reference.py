@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).parent.parent))  # mkdocs runs hooks from 
 
 from scripts.openapi import document as openapi
 
-HTTP_METHODS = ("get", "head", "options", "post", "put", "patch", "delete")
+OPENAPI_METHODS = ("get", "head", "options", "post", "put", "patch", "delete")
 Document = Mapping[str, Any]
 
 
@@ -38,7 +38,7 @@ def reference(document: Document) -> dict[str, str]:
     """Every page by its name, in Markdown."""
     tags: dict[str, list[str]] = {}
     for path, item in document["paths"].items():
-        for method in HTTP_METHODS:
+        for method in OPENAPI_METHODS:
             if method in item:
                 operation = item[method]
                 tag = operation.get("tags", ["other"])[0]
@@ -58,7 +58,7 @@ def _overview(document: Document) -> str:
         "| --- | --- | --- |",
     ]
     for path, item in document["paths"].items():
-        for method in HTTP_METHODS:
+        for method in OPENAPI_METHODS:
             if method in item:
                 operation = item[method]
                 page = f"{operation.get('tags', ['other'])[0]}.md#{operation['operationId']}"

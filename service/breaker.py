@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import structlog
 
-ASK_SECONDS = 1.0
+BREAKER_CHECK_SECONDS = 1.0
 
 
 class Breaker:
@@ -47,4 +47,4 @@ class Breaker:
                 self._open = False
                 structlog.get_logger().info(f"{self._name}_answers")
                 return
-            self._over.wait(ASK_SECONDS)
+            self._over.wait(BREAKER_CHECK_SECONDS)

@@ -16,7 +16,7 @@ from service.auth.sessions import SESSION_COOKIE
 from service.http.guard import PUBLIC_PATH
 from service.jobs.schemas import JobIn, RevisionIn
 from service.problems import ProblemDocument, responses
-from service.traces.requests import ID_PATTERN, REQUEST_ID_HEADER
+from service.traces.requests import REQUEST_ID_HEADER, REQUEST_ID_PATTERN
 
 SCHEMA_REFERENCE = "#/components/schemas/{model}"
 DRAWN_BY_FASTAPI = ("HTTPValidationError", "ValidationError")
@@ -24,7 +24,7 @@ DRAWN_BY_FASTAPI = ("HTTPValidationError", "ValidationError")
 REQUEST_ID = {
     "description": "The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form.",
     "required": True,
-    "schema": {"type": "string", "pattern": f"^{ID_PATTERN}$"},
+    "schema": {"type": "string", "pattern": f"^{REQUEST_ID_PATTERN}$"},
 }
 """The header of every answer. It is no parameter: one of another form is not refused, but replaced."""
 

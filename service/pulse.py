@@ -12,7 +12,7 @@ from pathlib import Path
 
 PULSE_FOLDER = "workers"
 BEAT_SECONDS = 1.0
-FORGOTTEN_SECONDS = 3600.0
+PULSE_FORGOTTEN_SECONDS = 3600.0
 
 
 def worker_name(host: str, process: int) -> str:
@@ -27,7 +27,7 @@ class Pulse:
         self._file = data_dir / PULSE_FOLDER / name
         self._file.parent.mkdir(parents=True, exist_ok=True)
         for left in self._file.parent.iterdir():  # by workers that were killed
-            if not 0 <= _silence(left) < FORGOTTEN_SECONDS:
+            if not 0 <= _silence(left) < PULSE_FORGOTTEN_SECONDS:
                 left.unlink(missing_ok=True)
 
     def beat(self) -> None:

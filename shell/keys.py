@@ -12,7 +12,7 @@ from rich.table import Table
 from sqlalchemy.orm import Session
 
 from service.auth import repository
-from service.auth.tokens import HINT_CHARACTERS
+from service.auth.tokens import KEY_HINT_CHARACTERS
 from service.database.sessions import Database
 from service.keys import service
 from service.keys.schemas import KeyIn
@@ -66,7 +66,7 @@ def show() -> None:
     table.add_column("id", no_wrap=True, min_width=longest)  # it is copied, and asked for by other programs
     for heading in ("name", "begins with", "scopes", "state", "last used"):
         # What a key begins with is looked for, too: it stays in one piece.
-        whole = HINT_CHARACTERS if heading == "begins with" else None
+        whole = KEY_HINT_CHARACTERS if heading == "begins with" else None
         table.add_column(heading, overflow="fold", min_width=whole)
     for key in found:
         used = f"{key.last_used_at:%Y-%m-%d %H:%M}" if key.last_used_at else "never"

@@ -27,7 +27,7 @@ from worker.programs.interpreter import module_command
 from worker.programs.loading import loading
 
 START_TIMEOUT_SECONDS = 10.0
-REDIS_SECONDS = 2.0
+REDIS_START_SECONDS = 2.0
 """How long the embedded Redis may take to say that it lives."""
 
 WORKER_SECONDS = 3 * BEAT_SECONDS
@@ -125,7 +125,7 @@ def _await_redis(settings: Settings) -> None:
 
 
 def _redis(settings: Settings) -> redis.Redis:
-    return redis.Redis(unix_socket_path=str(socket_path(settings.data_dir)), socket_timeout=REDIS_SECONDS)
+    return redis.Redis(unix_socket_path=str(socket_path(settings.data_dir)), socket_timeout=REDIS_START_SECONDS)
 
 
 def _redis_lives(client: redis.Redis, process: int) -> bool:

@@ -21,8 +21,8 @@ import structlog
 from worker.programs.interpreter import module_environment
 from worker.programs.parent_death import tied_command
 
-LOOK_SECONDS = 0.2
-MAX_PAUSE_SECONDS = 30.0
+CHILD_POLL_SECONDS = 0.2
+MAX_RESTART_PAUSE_SECONDS = 30.0
 STEADY_SECONDS = 60.0
 """A process that lived this long is started again without a pause, should it end."""
 
@@ -102,7 +102,7 @@ class Supervisor:
                 for program in self._programs:
                     if program.wanted:
                         self._tend(program)
-            self._another.wait(LOOK_SECONDS)
+            self._another.wait(CHILD_POLL_SECONDS)
             self._another.clear()
 
     def _tend(self, program: Program) -> None:
@@ -113,7 +113,7 @@ class Supervisor:
             if moment - program.started < program.pause:
                 return
             steady = moment - program.started > STEADY_SECONDS
-            program.pause = 0.5 if steady else min(max(program.pause * 2, 0.5), MAX_PAUSE_SECONDS)
+            program.pause = 0.5 if steady else min(max(program.pause * 2, 0.5), MAX_RESTART_PAUSE_SECONDS)
             program.started = moment
             program.process = subprocess.Popen(  # noqa: S603  (our own programs)
                 tied_command(list(program.command), signal.SIGTERM),

@@ -20,7 +20,7 @@ from service.settings import Settings
 from worker.live.processes import starter
 from worker.programs.loading import loading
 
-STOP_SECONDS = 3
+REQUESTS_STOP_SECONDS = 3
 """How long requests may take to end once the service is to end; `Stopping` has told them."""
 
 SWITCH_SECONDS = 0.0005
@@ -71,6 +71,6 @@ def _config(settings: Settings, app: FastAPI) -> Config:
         access_log=settings.log_level == "DEBUG",
         proxy_headers=False,
         server_header=False,
-        timeout_graceful_shutdown=STOP_SECONDS,
+        timeout_graceful_shutdown=REQUESTS_STOP_SECONDS,
         lifespan="off",
     )

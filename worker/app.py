@@ -40,7 +40,7 @@ from worker.short_lane import ShortLane
 WEBHOOK_SECONDS = 0.5
 """How often is looked for webhooks that are due."""
 
-REDIS_SECONDS = 0.2
+REDIS_POLL_SECONDS = 0.2
 """How often is looked whether Redis answers again."""
 
 MAX_FAREWELL_SECONDS = 5.0
@@ -75,7 +75,7 @@ class Worker:
             self._run_next(kind, self.children)
         # Celery acknowledges the message now. Where that fails, it counts the message as under way for good, and once
         # all slots are full of such it listens no more, not even for the end of its connection.
-        while not self.context.queue.reachable() and not self.stopping.wait(REDIS_SECONDS):
+        while not self.context.queue.reachable() and not self.stopping.wait(REDIS_POLL_SECONDS):
             pass
 
     def _run_next(self, kind: str, children: WarmChildren) -> None:

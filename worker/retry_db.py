@@ -11,7 +11,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 T = TypeVar("T")
 
-PAUSE_SECONDS = 1.0
+DATABASE_RETRY_SECONDS = 1.0
 
 
 def retry_db(change: Callable[[], T], seconds: float) -> T:
@@ -27,4 +27,4 @@ def retry_db(change: Callable[[], T], seconds: float) -> T:
             if time.monotonic() > deadline:
                 raise
             structlog.get_logger().warning("database_not_written", reason=str(error).splitlines()[0])
-            time.sleep(PAUSE_SECONDS)
+            time.sleep(DATABASE_RETRY_SECONDS)

@@ -15,7 +15,7 @@ from service.context import Context
 from service.job_records import jobs as repository
 from worker.job_process.children import ChildLost, WarmChildren
 
-LOOK_SECONDS = 0.5
+SHORT_LANE_POLL_SECONDS = 0.5
 """How often is looked for a short job; a slot that is free has it at once."""
 
 
@@ -35,7 +35,9 @@ class ShortLane:
         the worker stops."""
         self._context, self._kinds, self.children, self._run_next = context, kinds, children, run_next
         self._threads = [
-            threading.Thread(target=repeat, args=(self._look, LOOK_SECONDS), name=f"short-lane-{place}", daemon=True)
+            threading.Thread(
+                target=repeat, args=(self._look, SHORT_LANE_POLL_SECONDS), name=f"short-lane-{place}", daemon=True
+            )
             for place in range(places)
         ]
         for thread in self._threads:

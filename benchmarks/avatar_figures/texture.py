@@ -41,7 +41,7 @@ from engine.render.texture_bake import charts_of, pad_charts
 
 PERSON_SUPERSAMPLING = 2
 """Along a side of a pixel, when the textured person is drawn."""
-OUTLINE_PIXELS = 5
+UNCOMPARED_OUTLINE_PIXELS = 5
 """Across the outline that is left out of the errors: frames are blurred there with the room behind."""
 COMPARED_FRAME_STEP = 5
 """Each so many frames are compared."""
@@ -92,7 +92,12 @@ def errors(surface: ChartedSurface, texture: NDArray[np.uint8], views: list[Fram
     squares = []
     for view, gain in list(zip(views, gains, strict=True))[::COMPARED_FRAME_STEP]:
         picture, covered = drawn(surface, np.asarray(small), view.camera)
-        inner = cv2.erode(covered.astype(np.uint8), np.ones((OUTLINE_PIXELS, OUTLINE_PIXELS), np.uint8)) > 0
+        inner = (
+            cv2.erode(
+                covered.astype(np.uint8), np.ones((UNCOMPARED_OUTLINE_PIXELS, UNCOMPARED_OUTLINE_PIXELS), np.uint8)
+            )
+            > 0
+        )
         away = to_lab(np.clip(picture / gain, 0, 255)[inner]) - to_lab(view.picture()[inner].astype(np.float32))
         squares.append(float((away**2).sum(1).mean()))
     return float(np.sqrt(np.mean(squares)))

@@ -24,7 +24,7 @@ MIN_COUNTED_VIEW_COSINE = np.cos(np.pi / 4)
 """Views that look at a triangle under a smaller cosine do not count."""
 CLOTH_FOLD_SIGMA = 0.1
 """Of cloth: by how much normals are off, as unit vectors."""
-SEAM_WEIGHT = 4.0
+CUT_SEAM_WEIGHT = 4.0
 """What seams weigh against data."""
 
 
@@ -57,7 +57,7 @@ def seam_cost(middles: NDArray, labels: int, random: np.random.Generator) -> Pai
 
     def cost(which: NDArray[np.intp], first: NDArray[np.intp], second: NDArray[np.intp]) -> NDArray:
         apart = colours[which, first].astype(np.float32) - colours[which, second]
-        return SEAM_WEIGHT * np.sqrt((apart**2).sum(2)).mean(1) / 255
+        return CUT_SEAM_WEIGHT * np.sqrt((apart**2).sum(2)).mean(1) / 255
 
     return cost
 

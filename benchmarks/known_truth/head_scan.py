@@ -22,7 +22,7 @@ CAMERA_DISTANCE_SCAN_HEIGHTS = 8.0
 """Heights of the scan from the camera to the head: a portrait lens."""
 SCAN_LIGHT_DIRECTION = np.array([0.25, 0.45, 0.85])
 """Where the light comes from; it stays where it is when the head turns."""
-AMBIENT_SHARE = 0.55
+SCAN_AMBIENT_SHARE = 0.55
 """Share of the light that comes from everywhere."""
 BACKGROUND_RGB = (150, 160, 170)
 AIM_SCAN_HEIGHTS = 0.17
@@ -74,7 +74,7 @@ def render_head(
     colours = sample_texture(scan.texture, interpolate(scan.uv, scan.triangles, raster), covered)
     normals = interpolate(vertex_normals(vertices, scan.triangles), scan.triangles, raster)
     lamp = np.clip(normals @ (SCAN_LIGHT_DIRECTION / np.linalg.norm(SCAN_LIGHT_DIRECTION)).astype(np.float32), 0, 1)
-    shaded = colours * (AMBIENT_SHARE + (1 - AMBIENT_SHARE) * lamp[..., None])
+    shaded = colours * (SCAN_AMBIENT_SHARE + (1 - SCAN_AMBIENT_SHARE) * lamp[..., None])
     alpha = box_downsample(covered.astype(np.float32)[..., None], SCAN_SUPERSAMPLING)[..., 0]
     premultiplied = box_downsample(np.asarray(np.where(covered[..., None], shaded, 0), np.float32), SCAN_SUPERSAMPLING)
     behind = np.asarray(BACKGROUND_RGB if background is None else background, np.float32)

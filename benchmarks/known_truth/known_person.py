@@ -16,7 +16,7 @@ from engine.render.film import box_downsample
 from engine.render.rasteriser import Raster, rasterise
 
 PICTURE_SUPERSAMPLING = 3
-PICTURE_SIZE = (960, 720)
+PERSON_PICTURE_SIZE = (960, 720)
 """(height, width) of the pictures."""
 FOCAL_LENGTH_PICTURE_HEIGHTS = 1.6
 """Focal length in picture heights. What is measured assumes another one, as it must with any photograph."""

@@ -16,7 +16,7 @@ SURFACE_SAMPLES = 40_000
 """Points drawn on a surface."""
 ALIGNMENT_SAMPLES = 4_000
 """Points by which two surfaces are aligned."""
-ALIGNMENT_ROUNDS = 40
+SURFACE_ALIGNMENT_ROUNDS = 40
 """Rounds in which two surfaces are aligned."""
 VIEW_PIXELS = 500
 """Pixels of the views that tell what lies outside."""
@@ -105,7 +105,7 @@ def align(made: Sampled, truth: Sampled) -> Similarity:
     move = Similarity(scale * np.eye(3), (true_low + true_high) / 2 - scale * (low + high) / 2)
     mine, theirs = made.points[:: max(1, len(made.points) // ALIGNMENT_SAMPLES)], truth.points[:: max(1, len(truth.points) // ALIGNMENT_SAMPLES)]  # fmt: skip
     fixed = cKDTree(theirs)
-    for _ in range(ALIGNMENT_ROUNDS):
+    for _ in range(SURFACE_ALIGNMENT_ROUNDS):
         moved = move(mine)
         _, there = fixed.query(moved)
         _, here = cKDTree(moved).query(theirs)

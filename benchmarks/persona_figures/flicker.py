@@ -32,7 +32,7 @@ GOAL_GREY_LEVELS, GOAL_SHARE = 0.3, 0.95
 """Grey levels, in this share of the frames."""
 UNCOUNTED_RIM_PIXELS = 15
 """Pixels of the face's rim that do not count: behind it something else may move."""
-FLOW_SIGMA_PIXELS = 6.0
+FLICKER_FLOW_SIGMA_PIXELS = 6.0
 
 
 def flicker(names: Sequence[str]) -> None:
@@ -77,7 +77,7 @@ def _changes(film: Path) -> NDArray[np.float64]:
     changes = []
     for before, after in pairwise(frames):
         raw = np.asarray(flow.calc(before, after, np.zeros((*before.shape, 2), np.float32)))
-        smooth = np.asarray(cv2.GaussianBlur(raw, (0, 0), FLOW_SIGMA_PIXELS))
+        smooth = np.asarray(cv2.GaussianBlur(raw, (0, 0), FLICKER_FLOW_SIGMA_PIXELS))
         laid = cv2.remap(after.astype(np.float32), columns + smooth[..., 0], rows + smooth[..., 1], cv2.INTER_CUBIC)
         changes.append(float(np.abs(np.asarray(laid) - before)[inner].mean()))
     return np.array(changes)

@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.portrait_figures.speed import PICTURE_SIZE, SMALL_CLIP, portrait
+from benchmarks.portrait_figures.speed import SMALL_CLIP, TIMED_PICTURE_SIZE, portrait
 from benchmarks.presentation.tables import table
 from benchmarks.shared_media import ROOT, media
 from engine.export.encoders import VideoTarget
@@ -45,7 +45,7 @@ def memory(seconds: Sequence[float] = CLIP_SECONDS) -> None:
             clip, frames = looped(media(SMALL_CLIP), length, folder / f"{length:g}.mp4")
             peaks.append(_peak(image, clip, folder))
             rows.append([f"{length:g} s", f"{frames}", f"{peaks[-1]:.0f}", f"{peaks[-1] - peaks[0]:+.0f}"])
-    title = f"Memory: a whole process, both new, {PICTURE_SIZE[0]}x{PICTURE_SIZE[1]}; the most that is resident, MB"
+    title = f"Memory: a whole process, both new, {TIMED_PICTURE_SIZE[0]}x{TIMED_PICTURE_SIZE[1]}; the most that is resident, MB"
     print(table(title, ["driver", "frames", "peak", "more than the first"], rows))
     print(f"\nGoal: at most {MAX_GROWTH_MB:.0f} more.")
 

@@ -36,7 +36,7 @@ WATCHED_TARGETS = (
     *("photo_diana.jpg", "pair2_smile.png"),
 )
 WATCHED_CLIPS = ("woman_wow_d10", "man_laugh_d12")
-WATCHED_SIZE_PIXELS, WATCHED_FPS = (480, 480), 12.5
+WATCHED_SIZE_PIXELS, FILM_FPS = (480, 480), 12.5
 MIN_OPEN_MOUTH_OPENING = 0.12
 """Of a mouth, from which on its inside is looked at."""
 ROW_COUNT, SPARED_ROW_COUNT = 12, 2
@@ -52,7 +52,7 @@ WHITE_SHARE = 0.6
 def mouths_and_eyes(names: Sequence[str]) -> None:
     """Print what of mouths is out of the target's palette, how they change against the driver's, and what of eyes' whites is white."""
     rows = []
-    options = PortraitOptions(crop="bust", size=WATCHED_SIZE_PIXELS, fps=WATCHED_FPS)
+    options = PortraitOptions(crop="bust", size=WATCHED_SIZE_PIXELS, fps=FILM_FPS)
     for clip in driving_clips(list(names) or WATCHED_CLIPS):
         for name in WATCHED_TARGETS:
             with TemporaryDirectory() as folder:

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.presentation.contact_sheet import PAPER_GREY_LEVEL, Row, contact_sheet, fitted, write_sheet
+from benchmarks.presentation.contact_sheet import SHEET_GREY_LEVEL, Row, contact_sheet, fitted, write_sheet
 from benchmarks.presentation.tables import machine
 from benchmarks.shared_media import driving_clips, media
 from engine.errors import InputError
@@ -76,7 +76,7 @@ def performances(out: Path, options: Mapping[str, Any]) -> None:
 
 
 def _driven(label: str, driver: Path, part: Part = None) -> Row:
-    return Row([np.full((1, 1, 3), PAPER_GREY_LEVEL, np.uint8), *_frames(driver, part)], label)
+    return Row([np.full((1, 1, 3), SHEET_GREY_LEVEL, np.uint8), *_frames(driver, part)], label)
 
 
 def _acted(picture: Path, driver: Path, options: Mapping[str, Any], cache: Path, part: Part = None) -> Row:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from benchmarks.known_truth.head_scan import project_scan, read_head_scan, render_head
 from benchmarks.portrait_figures.acting import Acting, read_driver, read_target
-from benchmarks.portrait_figures.turn import HEAD_ZOOM_FACTOR, PICTURE_SIZE, REST_FRAMES
+from benchmarks.portrait_figures.turn import HEAD_ZOOM_FACTOR, REST_FRAMES, TURNED_PICTURE_SIZE
 from benchmarks.presentation.tables import table
 from benchmarks.shared_media import media, tool, write_clip
 from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget
@@ -24,7 +24,7 @@ FILMED_YAW_DEGREES = (0.0, -6.0, -12.0, -18.0, -25.0, -18.0, -12.0, -6.0, 0.0, 6
 """Degrees, after the frames at rest: no step is longer than people's turns are."""
 PICTURED_FACE_PIXELS = 256.0
 """Width of the face, pixels, at which distances are given."""
-MIN_FACING_COSINE = 0.25
+MIN_WELL_SEEN_COSINE = 0.25
 """Cosine between a surface and the line of sight from which on a vertex is seen well, at rest and turned."""
 
 
@@ -34,7 +34,7 @@ def solidity() -> None:
     angles = [0.0] * REST_FRAMES + [
         a for pair in zip(FILMED_YAW_DEGREES, FILMED_YAW_DEGREES, strict=True) for a in pair
     ]
-    rendered = [render_head(scan, angle, PICTURE_SIZE, None, HEAD_ZOOM_FACTOR) for angle in angles]
+    rendered = [render_head(scan, angle, TURNED_PICTURE_SIZE, None, HEAD_ZOOM_FACTOR) for angle in angles]
     true = [picture for picture, _ in rendered]
     disguised = tool("disguise").disguise(true, tool("face_measures").Landmarker()(true[0]))
     options = PortraitOptions(neutral_frame=0)
@@ -45,15 +45,15 @@ def solidity() -> None:
         acting = Acting(track, neutral, target, layers, rig, options.acting())
     animation = FaceAnimation(RiggedTarget(target, layers, rig), RegisteredDriver(track, neutral), acting.options)
     motions = list(animation.motions())
-    rest, seen = project_scan(scan, 0.0, PICTURE_SIZE, HEAD_ZOOM_FACTOR)
+    rest, seen = project_scan(scan, 0.0, TURNED_PICTURE_SIZE, HEAD_ZOOM_FACTOR)
     width = float(np.ptp(target.mesh[:, 0]))
     beside = rim_distance(target.mesh, rest) > 0
     above = rest[:, 1] < target.mesh[152, 1] - 0.1 * width
     rows = []
     for degrees in sorted(set(FILMED_YAW_DEGREES) - {0.0}):
         index = len(angles) - 1 - angles[::-1].index(degrees)
-        there, still_seen = project_scan(scan, degrees, PICTURE_SIZE, HEAD_ZOOM_FACTOR)
-        chosen = np.flatnonzero(beside & above & (seen > MIN_FACING_COSINE) & (still_seen > MIN_FACING_COSINE))
+        there, still_seen = project_scan(scan, degrees, TURNED_PICTURE_SIZE, HEAD_ZOOM_FACTOR)
+        chosen = np.flatnonzero(beside & above & (seen > MIN_WELL_SEEN_COSINE) & (still_seen > MIN_WELL_SEEN_COSINE))
         made = _carried(animation, motions[index], rig.mesh, rest[chosen])
         apart = np.linalg.norm(made - there[chosen], axis=1) * PICTURED_FACE_PIXELS / width
         still = np.linalg.norm(rest[chosen] - there[chosen], axis=1) * PICTURED_FACE_PIXELS / width

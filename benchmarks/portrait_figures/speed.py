@@ -27,7 +27,7 @@ from engine.portrait.pipeline import STAGES, animate_portrait
 from engine.run import Run
 from engine.store import StageStore
 
-PICTURE_SIZE, CLIP_FRAMES = (600, 800), 100
+TIMED_PICTURE_SIZE, CLIP_FRAMES = (600, 800), 100
 TIMED_PORTRAIT = "portraits/photo_man_suit.png"
 SMALL_CLIP, PHONE_CLIP = "driving/man_mouth_open_d18.mp4", "driving/man_selfie_talk_d13.mp4"
 """A small clip, as drivers are passed around (480x480), and a phone's, cut and reduced to the portrait's own size."""
@@ -50,32 +50,34 @@ def speed(repeats: int, frames: int) -> None:
 
 
 def portrait(folder: Path) -> Path:
-    """A portrait of exactly `PICTURE_SIZE`."""
+    """A portrait of exactly `TIMED_PICTURE_SIZE`."""
     rgb = read_image(media(TIMED_PORTRAIT)).rgb
-    height = round(rgb.shape[1] * PICTURE_SIZE[1] / PICTURE_SIZE[0])
+    height = round(rgb.shape[1] * TIMED_PICTURE_SIZE[1] / TIMED_PICTURE_SIZE[0])
     path = folder / "portrait.png"
-    write_image(path, np.asarray(cv2.resize(rgb[:height], PICTURE_SIZE, interpolation=cv2.INTER_AREA)))
+    write_image(path, np.asarray(cv2.resize(rgb[:height], TIMED_PICTURE_SIZE, interpolation=cv2.INTER_AREA)))
     return path
 
 
 def _clip(folder: Path, frames: int, name: str = SMALL_CLIP) -> Path:
     """The first frames of a driving clip, at its own rate, as a phone would have compressed it; an upright one cut and
-    reduced to `PICTURE_SIZE`, others at their own size."""
+    reduced to `TIMED_PICTURE_SIZE`, others at their own size."""
     source = media(name)
     info = probe_video(source)
     upright = info.height > info.width
     path = folder / "driver.mp4"
-    with VideoWriter(VideoTarget(path, PICTURE_SIZE if upright else (info.width, info.height), info.fps)) as writer:
+    with VideoWriter(
+        VideoTarget(path, TIMED_PICTURE_SIZE if upright else (info.width, info.height), info.fps)
+    ) as writer:
         for frame, _ in zip(read_video(source), range(frames), strict=False):
             writer.write(_cut(frame.rgb) if upright else frame.rgb)
     return path
 
 
 def _cut(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """The middle of a taller picture, at `PICTURE_SIZE`."""
-    height = round(rgb.shape[1] * PICTURE_SIZE[1] / PICTURE_SIZE[0])
+    """The middle of a taller picture, at `TIMED_PICTURE_SIZE`."""
+    height = round(rgb.shape[1] * TIMED_PICTURE_SIZE[1] / TIMED_PICTURE_SIZE[0])
     top = (rgb.shape[0] - height) // 2
-    return np.asarray(cv2.resize(rgb[top : top + height], PICTURE_SIZE, interpolation=cv2.INTER_AREA), np.uint8)
+    return np.asarray(cv2.resize(rgb[top : top + height], TIMED_PICTURE_SIZE, interpolation=cv2.INTER_AREA), np.uint8)
 
 
 def _warm(image: Path, clip: Path, folder: Path, repeats: int, frames: int) -> None:
@@ -117,7 +119,7 @@ def _warm(image: Path, clip: Path, folder: Path, repeats: int, frames: int) -> N
         per_stage = [statistics.median(one.seconds.get(stage, 0.0) for one, _ in runs) for stage in STAGES]
         total = statistics.median(seconds for _, seconds in runs)
         rows.append([label, *(f"{s:.2f}" for s in per_stage), f"{total:.2f}", f"{frames / total:.0f}"])
-    title = f"Speed, warm process: {frames} frames at {PICTURE_SIZE[0]}x{PICTURE_SIZE[1]}, encoding included, seconds"
+    title = f"Speed, warm process: {frames} frames at {TIMED_PICTURE_SIZE[0]}x{TIMED_PICTURE_SIZE[1]}, encoding included, seconds"
     print(table(title, ["", *STAGES, "all", "frames/s"], rows))
     print(
         f"\nGoal for the first row: {GOAL_SECONDS * frames / 100:.1f} s; the paper: {PAPER_SECONDS * frames / 100:.0f} s."

@@ -25,7 +25,7 @@ SENSOR_SIGMA_GREY_LEVELS = 2.0
 STILL_FRAMES = 60
 """Frames of the still driver."""
 STEADY_TARGET = "portraits/photo_woman_white.png"
-BLINK_OPENING_SHARE = 0.6
+USUAL_OPENING_BLINK_SHARE = 0.6
 """Share of its usual opening below which an eye blinks."""
 MIN_BLINK_DEPTH_SHARE = 0.95
 """Share of its depth that a blink is to keep, at least."""
@@ -128,7 +128,7 @@ def blinks(raw: NDArray[np.float32], kept: NDArray[np.float32]) -> list[Blink]:
     usual = float(np.nanmedian(lids))
     found = []
     for i in range(3, len(lids) - 3):
-        if lids[i] == np.nanmin(lids[i - 3 : i + 4]) and lids[i] < BLINK_OPENING_SHARE * usual:
+        if lids[i] == np.nanmin(lids[i - 3 : i + 4]) and lids[i] < USUAL_OPENING_BLINK_SHARE * usual:
             before = slice(max(0, i - 12), max(1, i - 3))
             opened = float(np.nanmedian(lids[before]))
             depth = opened - float(lids[i])

@@ -17,9 +17,9 @@ from benchmarks.shared_media import media, tool, write_clip
 from engine.face_animation.warping.layers import Layers
 from engine.portrait.options import PortraitOptions
 
-PICTURE_SIZE = (480, 576)
+TURNED_PICTURE_SIZE = (480, 576)
 HEAD_ZOOM_FACTOR = 1.5
-MAX_DEGREES, SHOWN_DEGREES = 25, (-25, -20, -15, -10, -5, 0, 5, 10, 15, 20, 25)
+MAX_TURN_DEGREES, SHOWN_DEGREES = 25, (-25, -20, -15, -10, -5, 0, 5, 10, 15, 20, 25)
 REST_FRAMES = 6
 """Frames at rest in the beginning: the target and the neutral frame are of them."""
 GRID_PITCH_PIXELS = 24
@@ -35,11 +35,11 @@ def turn(pictures: Path | None) -> None:
     scan = read_head_scan(media("scans3d/head_lee_perry_smith/head.obj").parent)
     angles = (
         [0.0] * REST_FRAMES
-        + list(np.linspace(0, -MAX_DEGREES, 11)[1:])
-        + list(np.linspace(-MAX_DEGREES, MAX_DEGREES, 21)[1:])
+        + list(np.linspace(0, -MAX_TURN_DEGREES, 11)[1:])
+        + list(np.linspace(-MAX_TURN_DEGREES, MAX_TURN_DEGREES, 21)[1:])
     )
-    background = np.repeat(wall(PICTURE_SIZE[::-1])[..., None], 3, axis=2).astype(np.uint8)
-    rendered = [render_head(scan, angle, PICTURE_SIZE, background, HEAD_ZOOM_FACTOR) for angle in angles]
+    background = np.repeat(wall(TURNED_PICTURE_SIZE[::-1])[..., None], 3, axis=2).astype(np.uint8)
+    rendered = [render_head(scan, angle, TURNED_PICTURE_SIZE, background, HEAD_ZOOM_FACTOR) for angle in angles]
     true = [picture for picture, _ in rendered]
     at = [
         REST_FRAMES - 1 + int(np.abs(np.subtract(angles[REST_FRAMES - 1 :], degrees)).argmin())

@@ -21,7 +21,7 @@ TITLE_PIXELS = 22
 """Pixels of a title's line."""
 BASELINE_PIXELS = 15
 """Pixels from the top of a title's line to the letters' feet."""
-PAPER_GREY_LEVEL = 235
+SHEET_GREY_LEVEL = 235
 """Grey level of the sheet."""
 INK_GREY_LEVEL = 20
 """Grey level of the letters."""
@@ -53,7 +53,7 @@ def contact_sheet(
             lines.append(_paper(gap, width))
         if row.title:
             lines.append(_title(row.title, width))
-        lines.append(np.pad(strip, ((0, 0), (0, width - strip.shape[1]), (0, 0)), constant_values=PAPER_GREY_LEVEL))
+        lines.append(np.pad(strip, ((0, 0), (0, width - strip.shape[1]), (0, 0)), constant_values=SHEET_GREY_LEVEL))
     sheet = np.concatenate(lines)
     if max_width is None or width <= max_width:
         return sheet
@@ -96,7 +96,7 @@ def _side_by_side(pictures: Sequence[Picture], gap: int) -> Picture:
         if parts:
             parts.append(_paper(height, gap))
         parts.append(
-            np.pad(picture, ((0, height - picture.shape[0]), (0, 0), (0, 0)), constant_values=PAPER_GREY_LEVEL)
+            np.pad(picture, ((0, height - picture.shape[0]), (0, 0), (0, 0)), constant_values=SHEET_GREY_LEVEL)
         )
     return np.concatenate(parts, 1)
 
@@ -110,4 +110,4 @@ def _title(title: str, width: int) -> Picture:
 
 
 def _paper(height: int, width: int) -> Picture:
-    return np.full((height, width, 3), PAPER_GREY_LEVEL, np.uint8)
+    return np.full((height, width, 3), SHEET_GREY_LEVEL, np.uint8)

@@ -17,7 +17,7 @@ from benchmarks.scan_studio.drawing import TexturedMesh, draw_over, empty_depths
 from engine.geometry.camera import Camera
 from engine.media.tone_mapping import srgb_code, srgb_light, xyz_of
 
-OUTLINE_PIXELS = 2
+UNCOUNTED_OUTLINE_PIXELS = 2
 """Pixels along the outline that do not count."""
 
 
@@ -50,7 +50,7 @@ def film_colour_error(
     for frame, vertices, camera, gain in zip(frames, stands, cameras, given, strict=True):
         drawn = np.zeros((*camera.size, 3), np.uint8)
         covered = draw_over(drawn, empty_depths(camera), mesh, vertices, camera)
-        side = 2 * OUTLINE_PIXELS + 1
+        side = 2 * UNCOUNTED_OUTLINE_PIXELS + 1
         inside = cv2.erode(covered.astype(np.uint8), np.ones((side, side), np.uint8), borderValue=1) > 0
         counts.append(int(inside.sum()))
         if counts[-1]:

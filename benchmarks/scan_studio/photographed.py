@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.known_truth.known_person import PICTURE_SIZE, Person, draw_into, level_camera, telephone_camera
+from benchmarks.known_truth.known_person import PERSON_PICTURE_SIZE, Person, draw_into, level_camera, telephone_camera
 from benchmarks.known_truth.known_places import places
 from benchmarks.known_truth.scanned_bodies import texture_painter
 from benchmarks.scan_studio.people.pictured_moments import PICTURED_NAMES, pictured
@@ -42,7 +42,7 @@ class Truth:
 
 def cases(only: str) -> Iterator[tuple[str, str, str, str]]:
     """Who, how, by which camera and where."""
-    spots = list(places(PICTURE_SIZE))
+    spots = list(places(PERSON_PICTURE_SIZE))
     for who in PHOTOGRAPHED_PEOPLE:
         for number, how in enumerate(PICTURED_NAMES):
             for camera in NAMED_CAMERAS if how in NEAR_CAMERA_POSES else ("afar",):
@@ -61,7 +61,9 @@ def photograph(who: str, how: str, camera: str, where: str) -> tuple[NDArray[np.
     vertices, joints = vertices - ground, joints - ground
     painter = texture_painter(mesh.uv, mesh.triangles, [mesh.texture], [len(mesh.triangles)])
     person = Person(f"{who}: {how}, {camera}", vertices, mesh.triangles, T_POSE_HEIGHT_METRES, painter)
-    picture = draw_into(person, places(PICTURE_SIZE)[where], camera=NAMED_CAMERAS[camera](person, PICTURE_SIZE))
+    picture = draw_into(
+        person, places(PERSON_PICTURE_SIZE)[where], camera=NAMED_CAMERAS[camera](person, PERSON_PICTURE_SIZE)
+    )
     strongest = mesh.bones[np.arange(len(mesh.bones)), mesh.weights.argmax(1)]
     rows = picture.camera.project(vertices, np.float64)[:, 1]
     left, right = (float(rows[foot].max()) for foot in feet(mesh.skeleton.names, strongest))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from benchmarks.scan_studio import room_textures
 from benchmarks.scan_studio.room_textures import Texture
 
-TEXELS_PER_METRE = 256
+ROOM_TEXELS_PER_METRE = 256
 """Of the room's texture: 4 millimetres each."""
 WALL_DISTANCE_METRES = 3.2
 """Metres from the middle of the room to its walls."""
@@ -64,7 +64,7 @@ class Room:
     """(V,) by what the light multiplies the texture."""
 
 
-def furnished_room(seed: int, texels_per_metre: int = TEXELS_PER_METRE) -> Room:
+def furnished_room(seed: int, texels_per_metre: int = ROOM_TEXELS_PER_METRE) -> Room:
     """The room with its furniture; the seed decides what hangs on its walls."""
     random = np.random.default_rng(seed)
     return _assembled([*_shell(), *_rug(), *_posters(random), *_furniture()], texels_per_metre, random)

@@ -30,7 +30,7 @@ from engine.motion.retargeting.retarget import retarget
 from engine.run import Run
 from engine.run_report import write_report
 
-ANIMATING_STAGES = {"read_avatar": 0.2, "capture_face": 1.0, "write_avatar": 1.0, "animate": 2.0}
+AVATAR_ANIMATING_STAGES = {"read_avatar": 0.2, "capture_face": 1.0, "write_avatar": 1.0, "animate": 2.0}
 """The stages of an avatar that is there already, and their usual share of the time."""
 
 
@@ -45,7 +45,7 @@ def animate_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Pat
     path, motion, driver = (file_of(inputs, name) for name in ("avatar", "motion", "driver"))
     assert path is not None
     _require_no_capture(inputs, options)
-    run.plan(ANIMATING_STAGES)
+    run.plan(AVATAR_ANIMATING_STAGES)
     with run.timed("read_avatar"):
         avatar = _as_wanted(read_avatar(path), options)
     scene = chosen_scene(avatar, motion, driver, options, run)

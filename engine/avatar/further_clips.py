@@ -11,9 +11,9 @@ from engine.avatar.stages import ClipScan
 from engine.geometry.point_cloud import joined, thinned
 from engine.geometry.registration.iterative_closest_point import rigid_onto_cloud
 
-CLOUD_SPACING_METRES = 0.004
+FURTHER_CLOUD_SPACING_METRES = 0.004
 """Metres between the points by which clouds are laid onto one another."""
-MATCHING_GATES_METRES = (0.03, 0.015)
+CLOUD_GATES_METRES = (0.03, 0.015)
 """Metres within which points are taken to be of one surface: first, and once they are near."""
 ICP_ITERATIONS = 8
 """Of closest points, with each of these."""
@@ -21,9 +21,9 @@ ICP_ITERATIONS = 8
 
 def onto_body(further: ClipScan, body: ClipScan) -> ClipScan:
     """A further clip's scan, turned and shifted by what the person has moved since the body's clip."""
-    target = thinned(body.dense.cloud, CLOUD_SPACING_METRES)
-    for gate in MATCHING_GATES_METRES:
-        points = thinned(further.dense.cloud, CLOUD_SPACING_METRES).points
+    target = thinned(body.dense.cloud, FURTHER_CLOUD_SPACING_METRES)
+    for gate in CLOUD_GATES_METRES:
+        points = thinned(further.dense.cloud, FURTHER_CLOUD_SPACING_METRES).points
         further = further.moved(rigid_onto_cloud(points, target.points, target.normals, gate, ICP_ITERATIONS))
     return further
 

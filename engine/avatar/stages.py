@@ -18,7 +18,7 @@ from engine.avatar.capture.chosen_frames import ChosenFrames
 from engine.avatar.capture.dense import DenseCloud, dense_cloud
 from engine.avatar.capture.foot_masks import FootFrame, feet_of, told_from_floor
 from engine.avatar.capture.limb_masks import limbs_of, shown_limbs, with_limbs
-from engine.avatar.capture.person_frame import USUAL_HEIGHT_METRES
+from engine.avatar.capture.person_frame import TAKEN_HEIGHT_METRES
 from engine.avatar.landmarks.back_projection import back_projected, completed
 from engine.avatar.landmarks.detection import spatial_landmarks
 from engine.avatar.landmarks.given import GivenLandmark, placed_by_hand
@@ -211,7 +211,7 @@ def scan_clip(
 
 def in_metres(height_m: float | None) -> Similarity:
     """From somebody of usual height, as the clips measure everybody, to one of `height_m`."""
-    return Similarity((height_m or USUAL_HEIGHT_METRES) / USUAL_HEIGHT_METRES * np.eye(3), np.zeros(3))
+    return Similarity((height_m or TAKEN_HEIGHT_METRES) / TAKEN_HEIGHT_METRES * np.eye(3), np.zeros(3))
 
 
 def fit_template(body: ClipScan, head: ClipScan | None, check: Callable[[], None]) -> FittedTemplate:

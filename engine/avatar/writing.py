@@ -21,7 +21,7 @@ from engine.export.vrm_expressions import arkit_expressions
 from engine.geometry.camera import Camera
 from engine.run import Run
 
-MAX_GLB_BYTES = 40_000_000
+MAX_AVATAR_GLB_BYTES = 40_000_000
 """Of the GLB, with a texture of 4096 pixels."""
 
 
@@ -54,11 +54,11 @@ def write_avatar(out: Path, avatar: Avatar, scene: Scene, options: AvatarOptions
         model,
         name="avatar",
         synthetic=marked,
-        most=MAX_GLB_BYTES,
+        most=MAX_AVATAR_GLB_BYTES,
         compression=options.compression,
         check=run.check,
     )
-    if written.size > MAX_GLB_BYTES:
+    if written.size > MAX_AVATAR_GLB_BYTES:
         run.warn(
             "glb_too_large",
             f"avatar.glb has {written.size / 1e6:.1f} MB; a smaller texture helps, or fewer triangles.",

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from pydantic import BaseModel
 
-from engine.character.options import MOTIONS, CharacterOptions
+from engine.character.options import BUILT_IN_MOTIONS, CharacterOptions
 from engine.kind import Given, Input, Kind
 from engine.run import Run
 
@@ -80,4 +80,4 @@ KIND = Kind(
     rehearse=_rehearse,
 )
 
-__all__ = ["KIND", "MOTIONS", "CharacterOptions"]
+__all__ = ["BUILT_IN_MOTIONS", "KIND", "CharacterOptions"]

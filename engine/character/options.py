@@ -14,7 +14,7 @@ Coordinate = Annotated[float, Field(ge=-16384, le=16384)]
 Extent = Annotated[float, Field(gt=0, le=16384)]
 Angle = Annotated[float, Field(ge=-180, le=180)]
 Motion = Literal["idle", "walk", "run", "jump", "sit", "wave", "dance", "bow"]
-MOTIONS: tuple[Motion, ...] = get_args(Motion)
+BUILT_IN_MOTIONS: tuple[Motion, ...] = get_args(Motion)
 Part = Literal["head", "torso", "left_arm", "right_arm", "left_leg", "right_leg"]
 BodyPart = Literal["head", "torso", "left_arm", "right_arm", "left_leg", "right_leg", "arms", "legs"]
 

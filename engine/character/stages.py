@@ -62,7 +62,7 @@ MAX_EDGE_SCALE = 3.0
 """Pixels of a limb's edge for each of the grid's, at most."""
 MOVING_ARM_JOINT_NAMES, MIN_ARM_WEIGHT = ("Arm", "Hand"), 0.05
 """What is in the names of joints of arms, and the share in what moves the body from which on it is moved by them."""
-MIN_HAND_WEIGHT = 0.3
+MIN_MOVED_BY_HAND_WEIGHT = 0.3
 """Share in what moves an arm from which on it is moved by the hand."""
 HEAD_TRIANGLE_WEIGHT = 6.0
 """How much more a triangle of the head counts where triangles are saved."""
@@ -370,7 +370,7 @@ def _along_with_arms(mesh: ClosedMesh, labels: Labels) -> NDArray[np.bool_]:
 def _sleeve(mesh: ClosedMesh, arm: int, labels: Labels) -> NDArray[np.bool_]:
     """What the surface of an arm that is apart covers (h, w), without its hand."""
     hand = np.array(["Hand" in name for name in load_human().rig.names])
-    worn = (mesh.limb == arm) & ((mesh.weights * hand[mesh.bones]).sum(1) < MIN_HAND_WEIGHT)
+    worn = (mesh.limb == arm) & ((mesh.weights * hand[mesh.bones]).sum(1) < MIN_MOVED_BY_HAND_WEIGHT)
     return mesh.pixels(np.flatnonzero(worn), labels.labels.shape)
 
 

@@ -14,7 +14,7 @@ from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, UsdSkel, UsdUtils, Vt
 
 from engine.export.animation_tracks import tracks
 from engine.export.glb import jpeg
-from engine.export.influences import FULL_WEIGHT, quantise_influences
+from engine.export.influences import FULL_INFLUENCE, quantise_influences
 from engine.export.synthetic import SOURCE_TYPE, SYNTHETIC_STATEMENT
 from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
@@ -133,7 +133,7 @@ def _add_mesh(stage: Usd.Stage, mesh: SkinnedMesh, name: str, skeleton: UsdSkel.
     binding.CreateSkeletonRel().SetTargets([skeleton.GetPath()])
     binding.CreateJointIndicesPrimvar(False, 4).Set(Vt.IntArray.FromNumpy(joints.astype(np.int32).ravel()))
     binding.CreateJointWeightsPrimvar(False, 4).Set(
-        Vt.FloatArray.FromNumpy((weights.astype(np.float64) / FULL_WEIGHT).astype(np.float32).ravel())
+        Vt.FloatArray.FromNumpy((weights.astype(np.float64) / FULL_INFLUENCE).astype(np.float32).ravel())
     )
     binding.CreateGeomBindTransformAttr(Gf.Matrix4d(1))
     return shape

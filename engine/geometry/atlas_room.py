@@ -24,7 +24,7 @@ GAP_CELLS = 2
 """Cells between charts."""
 CHART_SCALE_STEP = 0.85
 """By how much smaller charts are tried until all fit."""
-MAX_STEPS = 24
+MAX_SCALE_STEPS = 24
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ def placed_between(taken: NDArray[np.bool_], atlas: TextureAtlas, scale: float) 
     Raises ValueError where there is none at any size.
     """
     charts = _charts(atlas)
-    for step in range(MAX_STEPS):
+    for step in range(MAX_SCALE_STEPS):
         placed = _placed(ndimage.binary_dilation(taken, iterations=GAP_CELLS), charts, scale * CHART_SCALE_STEP**step)
         if placed is not None:
             uv = np.zeros((len(atlas.uv), 2), np.float32)

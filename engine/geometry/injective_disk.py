@@ -14,11 +14,11 @@ from scipy.sparse.linalg import splu
 
 from engine.geometry.adjacency import neighbours
 
-MAX_STEPS = 60
+MAX_DISK_STEPS = 60
 """Steps in which triangles are made alike, at most."""
 MIN_ENERGY_GAIN_SHARE = 1e-4
 """The share of the energy that a step must gain for another to follow."""
-DIAGONAL_DAMPING_SHARE = 1e-8
+DISK_DAMPING_SHARE = 1e-8
 """What keeps the system of a step regular, as a share of its mean diagonal."""
 SAFE_SHARE = 0.8
 """Of the way to where a triangle would be turned over, how far a step leads at most."""
@@ -39,7 +39,7 @@ def injective_disk(corners: NDArray[np.integer], edge: NDArray[np.floating], fre
     if (np.linalg.det(_jacobians(places, triangles, reference)) <= 0).any():
         raise ValueError("the surface is no disk whose inner vertices hang together")
     before = _energy(places, triangles, reference)
-    for _ in range(MAX_STEPS):
+    for _ in range(MAX_DISK_STEPS):
         places = _step(places, triangles, reference, free)
         now = _energy(places, triangles, reference)
         if before - now < MIN_ENERGY_GAIN_SHARE * before:
@@ -112,7 +112,7 @@ def _step(
     left_over = wanted - system @ flat_places
     own = system[:, columns]
     normal = sp.csc_array(own.T @ own)
-    normal = normal + DIAGONAL_DAMPING_SHARE * normal.diagonal().mean() * sp.eye_array(2 * free)
+    normal = normal + DISK_DAMPING_SHARE * normal.diagonal().mean() * sp.eye_array(2 * free)
     moved = np.zeros_like(places)
     moved[:free] = splu(sp.csc_array(normal)).solve(own.T @ left_over).reshape(2, free).T
     share = min(1.0, SAFE_SHARE * _until_turned_over(places, moved, corners))

@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.imaging.features import Features
 
-MAX_RATIO = 0.8
+MAX_DESCRIPTOR_DISTANCE_RATIO = 0.8
 """Of the distances to the nearest and to the second nearest descriptor (Lowe's value)."""
 MAX_EPIPOLAR_ERROR_PIXELS = 4.0
 """Pixels from the epipolar line, of pictures 1000 pixels long: people who are to hold still sway by as much."""
 MIN_MATCHES = 15
 """In accord with one motion; fewer come by chance."""
-MIN_AGREEING_SHARE = 0.25
+MIN_AGREEING_MATCH_SHARE = 0.25
 """Share of the matches that must be in accord."""
 MANY_MATCHES = 400
 """So many tie two pictures; where there are fewer, more are looked for along epipolar lines."""
@@ -31,7 +31,7 @@ OVERLAP_FEATURES = 300
 """The largest features of each picture, by which it is seen which pictures show the same."""
 
 
-def match_features(a: Features, b: Features, max_ratio: float = MAX_RATIO) -> NDArray[np.intp]:
+def match_features(a: Features, b: Features, max_ratio: float = MAX_DESCRIPTOR_DISTANCE_RATIO) -> NDArray[np.intp]:
     """(M, 2) indices of features that are each other's nearest, and nearer than `max_ratio` of the second nearest."""
     if len(a) < 2 or len(b) < 2:
         return np.zeros((0, 2), np.intp)
@@ -40,7 +40,11 @@ def match_features(a: Features, b: Features, max_ratio: float = MAX_RATIO) -> ND
 
 
 def guided_matches(
-    a: Features, b: Features, fundamental: NDArray[np.float64], max_error: float, max_ratio: float = MAX_RATIO
+    a: Features,
+    b: Features,
+    fundamental: NDArray[np.float64],
+    max_error: float,
+    max_ratio: float = MAX_DESCRIPTOR_DISTANCE_RATIO,
 ) -> NDArray[np.intp]:
     """As `match_features`, where only what lies within `max_error` pixels of a feature's epipolar line is compared with it:
     what looks like others elsewhere in the picture is found as well.
@@ -69,7 +73,9 @@ def _guided(
     return matches[likeness[matches[:, 0], matches[:, 1]] >= MIN_DESCRIPTOR_COSINE]
 
 
-def verified_matches(a: Features, b: Features, length: float, max_ratio: float = MAX_RATIO) -> NDArray[np.intp]:
+def verified_matches(
+    a: Features, b: Features, length: float, max_ratio: float = MAX_DESCRIPTOR_DISTANCE_RATIO
+) -> NDArray[np.intp]:
     """As `match_features`, those alone that one motion of a camera in a still scene explains; none where these are too few.
 
     Parameters
@@ -92,14 +98,14 @@ def verified_matches(a: Features, b: Features, length: float, max_ratio: float =
     if mask is None:
         return none
     agreed = mask.ravel() > 0
-    if agreed.sum() < max(MIN_MATCHES, MIN_AGREEING_SHARE * len(matches)):
+    if agreed.sum() < max(MIN_MATCHES, MIN_AGREEING_MATCH_SHARE * len(matches)):
         return none
     if agreed.sum() >= MANY_MATCHES:
         return matches[agreed]
     return _guided(likeness, a, b, np.asarray(fundamental, np.float64)[:3], error, max_ratio)
 
 
-def overlaps(pictures: Sequence[Features], max_ratio: float = MAX_RATIO) -> NDArray[np.intp]:
+def overlaps(pictures: Sequence[Features], max_ratio: float = MAX_DESCRIPTOR_DISTANCE_RATIO) -> NDArray[np.intp]:
     """(N, N) how many of each two pictures' largest features match: few where they show different things."""
     largest = [one[np.argsort(-one.sizes, kind="stable")[:OVERLAP_FEATURES]] for one in pictures]
     found = np.zeros((len(pictures), len(pictures)), np.intp)

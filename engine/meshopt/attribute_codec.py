@@ -16,9 +16,9 @@ ROWS_PER_GROUP = 16
 """Rows that are coded together."""
 BLOCK_BYTES, BLOCK_ROWS = 8192, 256
 """A block has as many whole groups as fit into both."""
-TAIL_BYTES = 32
+ATTRIBUTE_TAIL_BYTES = 32
 """Of what follows the last block, at least: zeros, then the first row."""
-MAX_RATIO = 4 * ROWS_PER_GROUP
+MAX_BYTES_PER_STREAM_BYTE = 4 * ROWS_PER_GROUP
 """Bytes that a byte of a stream can stand for: four groups without a difference."""
 BROKEN_STREAM = -1
 
@@ -34,7 +34,7 @@ def encode_attributes(rows: NDArray[np.uint8]) -> bytes:
     room = np.empty(1 + 2 * rows.size + count // 4 * stride + 2 * BLOCK_ROWS * stride, np.uint8)
     room[0] = ATTRIBUTE_HEADER
     length = _encode(np.require(rows, requirements=["C", "W"]), _block_rows(stride), room)
-    return room[:length].tobytes() + bytes(max(TAIL_BYTES - stride, 0)) + rows[0].tobytes()
+    return room[:length].tobytes() + bytes(max(ATTRIBUTE_TAIL_BYTES - stride, 0)) + rows[0].tobytes()
 
 
 def decode_attributes(stream: bytes, count: int, stride: int) -> NDArray[np.uint8]:
@@ -42,8 +42,8 @@ def decode_attributes(stream: bytes, count: int, stride: int) -> NDArray[np.uint
     if not count or stride % 4 or not 0 < stride <= 256:
         raise ValueError(f"there is no stream of {count} rows of {stride} bytes")
     data = np.frombuffer(stream, np.uint8)
-    tail = len(data) - max(TAIL_BYTES, stride)
-    if tail < 1 or data[0] != ATTRIBUTE_HEADER or count * stride > MAX_RATIO * (len(data) + BLOCK_ROWS):
+    tail = len(data) - max(ATTRIBUTE_TAIL_BYTES, stride)
+    if tail < 1 or data[0] != ATTRIBUTE_HEADER or count * stride > MAX_BYTES_PER_STREAM_BYTE * (len(data) + BLOCK_ROWS):
         raise ValueError(f"no stream of {count} rows of {stride} bytes")
     rows = np.empty((count, stride), np.uint8)
     if _decode(data[1:tail], data[len(data) - stride :], _block_rows(stride), rows) != tail - 1:

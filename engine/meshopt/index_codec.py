@@ -12,7 +12,7 @@ from engine.compiled import njit
 from engine.meshopt.varint import BROKEN_STREAM, MAX_VARINT_BYTES, get_number, put_number, signed, zigzag
 
 INDEX_HEADER = 0xD1
-TAIL_BYTES = 4
+INDEX_TAIL_BYTES = 4
 """Reserved, zeros."""
 
 
@@ -20,15 +20,15 @@ def encode_indices(indices: NDArray[np.integer]) -> bytes:
     """The stream of any numbers (N,) from 0 to 2^29, small where each is near the one before."""
     out = np.empty(len(indices) * MAX_VARINT_BYTES, np.uint8)
     used = _encode(np.ascontiguousarray(indices, np.int64), out)
-    return bytes([INDEX_HEADER]) + out[:used].tobytes() + bytes(TAIL_BYTES)
+    return bytes([INDEX_HEADER]) + out[:used].tobytes() + bytes(INDEX_TAIL_BYTES)
 
 
 def decode_indices(stream: bytes, count: int) -> NDArray[np.uint32]:
     """(count,) the numbers of a stream. Raises ValueError where it is none of so many."""
-    if len(stream) < 1 + count + TAIL_BYTES or stream[0] != INDEX_HEADER:
+    if len(stream) < 1 + count + INDEX_TAIL_BYTES or stream[0] != INDEX_HEADER:
         raise ValueError(f"no stream of {count} indices")
     indices = np.empty(count, np.uint32)
-    if not _decode(np.frombuffer(stream, np.uint8)[1:-TAIL_BYTES], indices):
+    if not _decode(np.frombuffer(stream, np.uint8)[1:-INDEX_TAIL_BYTES], indices):
         raise ValueError("a stream of indices is broken")
     return indices
 

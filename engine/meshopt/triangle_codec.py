@@ -23,7 +23,7 @@ REMEMBERED_VERTEX = -1
 """Of a vertex that is remembered, and is not remembered anew."""
 FREE_TRIANGLES = (0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xA9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69)
 """Pairs of where the second and third vertex of a triangle without a shared edge come from, that one byte tells."""
-TAIL_BYTES = 16
+TRIANGLE_TAIL_BYTES = 16
 """Of the table of such pairs."""
 
 
@@ -40,11 +40,11 @@ def encode_triangles(triangles: NDArray[np.integer]) -> bytes:
 
 def decode_triangles(stream: bytes, count: int) -> NDArray[np.uint32]:
     """(count, 3) the triangles of a stream. Raises ValueError where it is none of so many, or its tail is broken."""
-    if len(stream) < 1 + count + TAIL_BYTES or stream[0] != TRIANGLE_HEADER:
+    if len(stream) < 1 + count + TRIANGLE_TAIL_BYTES or stream[0] != TRIANGLE_HEADER:
         raise ValueError(f"no stream of {count} triangles")
     data = np.frombuffer(stream, np.uint8)
     triangles = np.empty((count, 3), np.uint32)
-    if not _decode(data[1 : 1 + count], data[1 + count : -TAIL_BYTES], data[-TAIL_BYTES:], triangles):
+    if not _decode(data[1 : 1 + count], data[1 + count : -TRIANGLE_TAIL_BYTES], data[-TRIANGLE_TAIL_BYTES:], triangles):
         raise ValueError("a stream of triangles is broken")
     return triangles
 

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 _ARM_JOINTS = ("Shoulder", "Arm", "ForeArm", "Hand")
 _LEG_JOINTS = ("UpLeg", "Leg", "Foot", "ToeBase")
 
-BODY_PARTS: dict[str, tuple[str, ...]] = {
+KEPT_PART_JOINTS: dict[str, tuple[str, ...]] = {
     "head": ("Neck", "Head"),
     "torso": ("Spine", "Spine1", "Spine2"),
     "left_arm": tuple(f"Left{part}" for part in _ARM_JOINTS),
@@ -56,10 +56,10 @@ def keep_pictured_parts(skeleton: Skeleton, clip: Clip, pictured: Clip, parts: S
 
     Raises
     ------
-    ValueError : there is no such part in `BODY_PARTS`.
+    ValueError : there is no such part in `KEPT_PART_JOINTS`.
     """
     wanted = {part for name in parts for part in _parts(name)}
-    joints = {joint for part in wanted for joint in BODY_PARTS[part]}
+    joints = {joint for part in wanted for joint in KEPT_PART_JOINTS[part]}
     rotations, root = clip.rotations.copy(), clip.root.copy()
     if {"left_leg", "right_leg"} <= wanted:
         joints.add("Hips")
@@ -94,8 +94,8 @@ def _dragging(skeleton: Skeleton, clip: Clip, kept: Clip, side: int) -> Clip:
 def _parts(name: str) -> tuple[str, ...]:
     if name in ("arms", "legs"):
         return f"left_{name[:-1]}", f"right_{name[:-1]}"
-    if name not in BODY_PARTS:
-        raise ValueError(f"there is no part {name!r}: choose among {', '.join(BODY_PARTS)}, arms, legs")
+    if name not in KEPT_PART_JOINTS:
+        raise ValueError(f"there is no part {name!r}: choose among {', '.join(KEPT_PART_JOINTS)}, arms, legs")
     return (name,)
 
 

@@ -41,11 +41,11 @@ LOG_OFFSET_LEVELS = 8.0
 """Grey levels that are added before the logarithm: noise of black is none of a line."""
 ABOVE_LIP = ((2, 98, 92, 0, 167, 165), (2, 327, 322, 0, 393, 391))
 """Corners of the skin between nose and lip, of the right and the left half."""
-CHEEK_VERTICES = ((50, 101, 205, 36, 142, 187), (280, 330, 425, 266, 371, 411))
+CHEEK_HALVES_VERTICES = ((50, 101, 205, 36, 142, 187), (280, 330, 425, 266, 371, 411))
 """Those of the cheeks."""
 LIP_MARGIN_PIXELS = 7
 """Pixels of the copy about the lips that are none of the skin."""
-MIN_SKIN_PIXELS = 15
+MIN_REGION_PIXELS = 15
 """Pixels of a region that say what colour it is."""
 
 
@@ -124,10 +124,10 @@ def _lip_darkness(copy: NDArray[np.uint8], at: NDArray[np.float64]) -> float:
     light = np.log(srgb_light(copy.astype(np.float32) / 255) + 1e-3).mean(2)
     lips = cv2.dilate(_filled(at[list(LIPS_OUTER)]), np.ones((LIP_MARGIN_PIXELS, LIP_MARGIN_PIXELS), np.uint8)) > 0
     darker = []
-    for above, cheek in zip(ABOVE_LIP, CHEEK_VERTICES, strict=True):
+    for above, cheek in zip(ABOVE_LIP, CHEEK_HALVES_VERTICES, strict=True):
         skin, beside = (_filled(at[list(corners)]) > 0 for corners in (above, cheek))
         skin &= ~lips
-        if min(int(skin.sum()), int(beside.sum())) < MIN_SKIN_PIXELS:
+        if min(int(skin.sum()), int(beside.sum())) < MIN_REGION_PIXELS:
             return nan
         darker.append(float(np.median(light[beside]) - np.median(light[skin])))
     return min(darker)

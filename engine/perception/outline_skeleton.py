@@ -39,7 +39,7 @@ TIPS_APART = 0.06
 MIN_LIMB, STICKS_OUT = 0.08, 1.5
 """Length of a limb on the axis, at least: as a share of the outline's longer side, and in radii of the largest disk around the place where
 it leaves the trunk, which the corners of a bar do not reach."""
-MAX_COST = 1.2
+MAX_SKELETON_COST = 1.2
 """Cost of the best choice above which the outline is nobody's."""
 UNLIKE_COST, ASTRAY_COST, LEFT_OVER_COST = 0.5, 1.0, 3.0
 """What it costs where a limb is e times as long as the other, or an arm leaves the trunk a figure's size further down than the other; where
@@ -175,7 +175,7 @@ def _ends(axis: MedialAxis) -> _Ends:
 
 def _best_five(axis: MedialAxis, ends: _Ends) -> _Five | None:
     """Which ends are what; the person's left is at the picture's right."""
-    best, found = MAX_COST, None
+    best, found = MAX_SKELETON_COST, None
     numbers = range(len(ends.at))
     for feet in combinations(numbers, 2):
         for hands in combinations([k for k in numbers if k not in feet], 2):

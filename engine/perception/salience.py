@@ -29,7 +29,7 @@ NETWORK_SIDE_PIXELS = 320
 """Pixels of the square that the network looks at."""
 COLOUR_MEANS, COLOUR_DEVIATIONS = (0.485, 0.456, 0.406), (0.229, 0.224, 0.225)
 """Of the colours in [0, 1] that it was trained on."""
-SURROUNDINGS_SHARE = 0.2
+PEOPLE_MARGIN_SHARE = 0.2
 """How much of the picture around people it looks at, as a share of their box's longer side."""
 MIN_PEOPLE_PIXELS = 16
 """Pixels of people from which there is somebody to look at."""
@@ -62,7 +62,7 @@ def with_salience(rgb: NDArray[np.uint8], people: Mask, limbs: NDArray[np.bool_]
     small = resized(np.ascontiguousarray(rgb), size)
     rows, columns = bounding_box(seen)
     height = rows.stop - rows.start
-    box = bounding_box(seen, round(SURROUNDINGS_SHARE * max(height, columns.stop - columns.start)))
+    box = bounding_box(seen, round(PEOPLE_MARGIN_SHARE * max(height, columns.stop - columns.start)))
     salient = people.copy()
     part = np.ascontiguousarray(small[box])
     salient[box] = resized(salience(part), (part.shape[1], part.shape[0]))

@@ -21,7 +21,7 @@ from engine.performances.catalogue import FPS, POSTER_SIDE_PIXELS, VIDEOS, names
 from engine.performances.modelling.actor import build_actor
 from engine.performances.rendering.filming import film
 from engine.performances.rendering.lighting import lamps
-from engine.performances.rendering.studio import HAIR_LAMPS, PICTURE_SIZE
+from engine.performances.rendering.studio import FRAME_SIDE_PIXELS, HAIR_LAMPS
 from engine.performances.scores.score import SCORES
 
 VIDEO_CRF = 16
@@ -45,7 +45,7 @@ def render(chosen: tuple[str, ...], folder: Path, proof: bool) -> None:
         poses = [SCORES[name](index / FPS) for index in range(round(performance(name).seconds * FPS))]
         frames = film(actor, poses, 1, 0.35) if proof else film(actor, poses)
         with VideoWriter(
-            VideoTarget(folder / f"{name}.mp4", (PICTURE_SIZE, PICTURE_SIZE), FPS, crf=VIDEO_CRF)
+            VideoTarget(folder / f"{name}.mp4", (FRAME_SIDE_PIXELS, FRAME_SIDE_PIXELS), FPS, crf=VIDEO_CRF)
         ) as writer:
             for index, frame in enumerate(frames):
                 writer.write(frame)

@@ -18,7 +18,7 @@ FILM_EXTENT_RATIO = 1.25
 """Of the space that the face takes in all frames, that the picture has."""
 MAX_DRIVER_WIDTH_RATIO = 2.0
 """Times the puppet's width that a driver beside it may take."""
-TEXTURES_AT_ONCE = 16
+PUPPET_TEXTURES_AT_ONCE = 16
 
 
 def puppet_frames(
@@ -35,8 +35,8 @@ def puppet_frames(
 
     count = len(performance.faces)
     with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="film") as pool:
-        for start in range(0, count, TEXTURES_AT_ONCE):
-            textures = persona.synthesis(performance.weights[start : start + TEXTURES_AT_ONCE])
+        for start in range(0, count, PUPPET_TEXTURES_AT_ONCE):
+            textures = persona.synthesis(performance.weights[start : start + PUPPET_TEXTURES_AT_ONCE])
             yield from pool.map(draw, range(start, count), textures)
 
 

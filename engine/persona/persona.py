@@ -19,7 +19,7 @@ from engine.persona.texture.synthesis import TextureSynthesis, texture_synthesis
 from engine.persona.texture.texture_frame import TextureFrame, texture_frame
 
 PERSONA_FORMAT_VERSION = 1
-MAX_PHOTOS = 2000
+MAX_PERSONA_PHOTOS = 2000
 MAX_SIDE = 1024
 MAX_ARRAYS_BYTES = 3_000_000_000
 """Of a file's arrays together."""
@@ -157,7 +157,7 @@ def _require_sound(arrays: dict[str, NDArray[np.generic]]) -> None:
         if kind is not np.uint8 and not np.isfinite(np.asarray(array, np.float64)).all():
             raise ValueError(name)
     if (
-        not 1 <= sizes["N"] <= MAX_PHOTOS
+        not 1 <= sizes["N"] <= MAX_PERSONA_PHOTOS
         or not 32 <= min(sizes["H"], sizes["W"]) <= max(sizes["H"], sizes["W"]) <= MAX_SIDE
     ):
         raise ValueError("size")

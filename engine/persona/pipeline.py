@@ -25,7 +25,7 @@ from engine.run import Run
 from engine.run_report import write_report
 
 LEARNING_STAGES = {"read_photos": 1.0, "find_faces": 12.0, "learn_persona": 8.0}
-ANIMATING_STAGES = {"find_driver_at_rest": 4.0, "track_driver": 1.0, "perform": 2.0, "animate": 2.0}
+PERSONA_ANIMATING_STAGES = {"find_driver_at_rest": 4.0, "track_driver": 1.0, "perform": 2.0, "animate": 2.0}
 """The stages and their usual share of the time."""
 
 
@@ -91,7 +91,7 @@ def _plan(inputs: Mapping[str, Given], options: PersonaOptions) -> dict[str, flo
         driver = inputs["driver"]
         acts, still = options.composite in ("photo", "auto"), isinstance(driver, Path) and is_picture(driver)
         photo = {name: share for name, share in PHOTO_STAGES.items() if name in STILL_STAGES or not still}
-        stages |= ANIMATING_STAGES | (photo if acts else {})
+        stages |= PERSONA_ANIMATING_STAGES | (photo if acts else {})
         if "driver_photos" not in inputs or (acts and not still):
             del stages["find_driver_at_rest"]
     return stages

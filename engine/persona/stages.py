@@ -26,7 +26,7 @@ from engine.persona.collection.rest import at_rest
 from engine.persona.collection.sorting import Choice, Reason, reasons_against
 from engine.persona.learning import LearntPersona, learn_persona
 
-MIN_PHOTOS = 15
+MIN_PERSONA_PHOTOS = 15
 """That can be used, for a persona."""
 MIN_DRIVER_PHOTOS = 8
 """That can be used, for what a driver's face is like at rest: the quarter that shows least is of two then."""
@@ -34,7 +34,7 @@ EYE_SHARE = 67 / 194
 """Of a texture's width, between the eyes."""
 MAX_ENLARGEMENT_RATIO = 1.6
 """Of the median photograph's face, by which textures may be larger: many photographs together are finer than one."""
-MIN_TEXTURE_WIDTH_PIXELS, MAX_TEXTURE_WIDTH_PIXELS = 194, 400
+MIN_FACE_TEXTURE_WIDTH_PIXELS, MAX_FACE_TEXTURE_WIDTH_PIXELS = 194, 400
 """Pixels of a texture: the paper's, and one that a portrait of 800 pixels has use for."""
 FRAME_ASPECT_RATIO = 244 / 194
 
@@ -83,10 +83,10 @@ class SortedFaces:
         """Raises `InputError`: `several_people`, `too_few_photos`."""
         self.whose.require_one()
         kept = self.reasons.count(None)
-        if kept < MIN_PHOTOS:
+        if kept < MIN_PERSONA_PHOTOS:
             raise InputError(
                 "too_few_photos",
-                f"{MIN_PHOTOS} photos of the person are needed, and {kept} can be used: {MIN_PHOTOS - kept} more, from before."
+                f"{MIN_PERSONA_PHOTOS} photos of the person are needed, and {kept} can be used: {MIN_PERSONA_PHOTOS - kept} more, from before."
                 f"{_lacking(self.kept)}{_spoken(self.left_out)}",
                 ("photos",),
             )
@@ -189,7 +189,9 @@ def rest_of_photos(paths: Sequence[Path], limits: Limits, tick: Callable[[float]
 def texture_width(kept: Sequence[PhotoFace]) -> int:
     """Pixels, as the photographs have them."""
     usual = float(np.median([face.eye_distance for face in kept])) / EYE_SHARE
-    return int(np.clip(round(usual * MAX_ENLARGEMENT_RATIO), MIN_TEXTURE_WIDTH_PIXELS, MAX_TEXTURE_WIDTH_PIXELS))
+    return int(
+        np.clip(round(usual * MAX_ENLARGEMENT_RATIO), MIN_FACE_TEXTURE_WIDTH_PIXELS, MAX_FACE_TEXTURE_WIDTH_PIXELS)
+    )
 
 
 def _spoken(left_out: Mapping[Reason, int]) -> str:

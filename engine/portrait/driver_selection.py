@@ -35,7 +35,7 @@ LIGHT_SCALE = 0.4
 """Difference of light that brings a score down to 0.6, slope of the logarithm of luminance."""
 PALETTE_SCALE = 20.0
 """Colour difference that brings a score down to 0.6."""
-TURN_SCALE_DEGREES = 10.0
+SCORE_TURN_SCALE_DEGREES = 10.0
 """Degrees of turn beyond `MAX_DRIVER_TURN_DEGREES` that bring a score down to 0.6."""
 
 LIGHTNESS_WEIGHT = 0.5
@@ -100,7 +100,7 @@ def score_driver(target: Appearance, driver: Appearance) -> dict[str, float]:
         "proportions": _bell(float(apart) / PROPORTIONS_SCALE),
         "light": _bell(float(np.linalg.norm(target.light - driver.light)) / LIGHT_SCALE),
         "palette": _bell(float(np.linalg.norm(colour)) / PALETTE_SCALE),
-        "turn": _bell(max(target.turn + driver.turn - MAX_DRIVER_TURN_DEGREES, 0.0) / TURN_SCALE_DEGREES),
+        "turn": _bell(max(target.turn + driver.turn - MAX_DRIVER_TURN_DEGREES, 0.0) / SCORE_TURN_SCALE_DEGREES),
     }
     total = sum(CRITERION_WEIGHTS[name] * score for name, score in scores.items())
     return {name: round(value, 4) for name, value in {**scores, "total": total}.items()}

@@ -29,11 +29,11 @@ MAX_PICTURE_SIDE_PIXELS = 1920
 """Pixels of the result by default (the project's conventions)."""
 MAX_REACTIVE_SIDE_PIXELS = 640
 """Pixels of a reactive profile by default: pages show one smaller than that, and all of its clips are loaded."""
-MIN_EYE_DISTANCE_PIXELS = 16.0
+MIN_TARGET_EYE_DISTANCE_PIXELS = 16.0
 """Pixels; a smaller face has nothing to animate."""
 MAX_TARGET_TURN_DEGREES = (35.0, 30.0)
 """Degrees of yaw and pitch beyond which a target fails; see the limits in the documentation."""
-MAX_MOUTH_OPENING = 0.6
+MAX_TARGET_MOUTH_OPENING = 0.6
 """Mouth opening beyond which a target fails: its teeth, or the driver's in their place, would be drawn too long. The
 widest of real portraits is 0.2, of people who speak 0.5, of a shout 0.8."""
 NEUTRAL_LIMITS = (12.0, 12.0, 0.08, 0.03)
@@ -41,9 +41,9 @@ NEUTRAL_LIMITS = (12.0, 12.0, 0.08, 0.03)
 lips, up to which a target counts as neutral and frontal. The corners of neutral portraits lie up to 0.012 above it, of
 smiles with closed lips from 0.035; their widths do not tell the two apart."""
 
-CUT_SHARE = 0.95
+MIN_UNCUT_FACE_SHARE = 0.95
 """Share of the face that lies in the result below which it counts as cut."""
-MIN_INSIDE_SHARE = 0.5
+MIN_FACE_INSIDE_SHARE = 0.5
 """Share of a placed face that lies in the picture; of one that reaches further out, nothing is left to move."""
 CROP_WITHOUT_FACE = "The crop leaves the face out: let it hold more than half of it."
 SHUT_EYE_OPENING = 0.13
@@ -93,14 +93,14 @@ def find_target_face(
     scale = float(place[0, 0])
     moved[:, :2] = (mesh[:, :2] + 0.5) * scale + place[:, 2] - 0.5
     moved[:, 2] *= scale
-    if float(eye_distance(moved[:, :2])) < MIN_EYE_DISTANCE_PIXELS:
+    if float(eye_distance(moved[:, :2])) < MIN_TARGET_EYE_DISTANCE_PIXELS:
         raise InputError(
             "face_too_small",
-            f"The face is too small: its eyes must be at least {MIN_EYE_DISTANCE_PIXELS:.0f} pixels apart. Crop to the face or use a larger picture.",
+            f"The face is too small: its eyes must be at least {MIN_TARGET_EYE_DISTANCE_PIXELS:.0f} pixels apart. Crop to the face or use a larger picture.",
             ("crop", "size", "face_index"),
             found,
         )
-    if share_inside(moved, size) < CUT_SHARE:
+    if share_inside(moved, size) < MIN_UNCUT_FACE_SHARE:
         warn(
             "face_cut",
             "The picture cuts the face: what lies beyond its edge is not known, and cannot move in. Use a picture, or a crop, that shows all of it.",
@@ -143,7 +143,7 @@ def _with_placed(
 ) -> tuple[list[NDArray[np.float32]], int]:
     """The faces that were found, with the placed one instead of the one that it lies on, or after all of them; and its
     place among them."""
-    if share_inside(placed, size) < MIN_INSIDE_SHARE:
+    if share_inside(placed, size) < MIN_FACE_INSIDE_SHARE:
         raise InputError(
             "landmarks_invalid",
             "The placed landmarks lie outside of the picture: give them in pixels of the picture as it was uploaded, with more than half of the face inside.",
@@ -191,7 +191,7 @@ def _check_face(
             found,
         )
     opening = float(mouth_opening(mesh))
-    if opening > MAX_MOUTH_OPENING:
+    if opening > MAX_TARGET_MOUTH_OPENING:
         raise InputError(
             "mouth_too_open",
             "The mouth is open too wide for another expression to be shown: use a picture with a calmer face, or place the landmarks by hand.",

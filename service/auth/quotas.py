@@ -9,7 +9,7 @@ from service.problems import Problem
 from service.settings import BYTES_PER_MEGABYTE, Settings
 from service.tables.keys import LOCAL_KEY_ID, Key
 
-RETRY_SECONDS = 5
+QUOTA_RETRY_SECONDS = 5
 
 
 def require_job(session: Session, settings: Settings, owner: str, beside: int = 0) -> None:
@@ -21,7 +21,7 @@ def require_job(session: Session, settings: Settings, owner: str, beside: int = 
             429,
             "too_many_jobs",
             f"The key may have {most} jobs under way: wait until one of them has ended.",
-            headers={"Retry-After": str(RETRY_SECONDS)},
+            headers={"Retry-After": str(QUOTA_RETRY_SECONDS)},
         )
 
 
@@ -33,7 +33,7 @@ def require_upload(session: Session, settings: Settings, owner: str) -> None:
             429,
             "too_many_uploads",
             f"The key may have {most} unfinished uploads: finish one of them, or end it by DELETE.",
-            headers={"Retry-After": str(RETRY_SECONDS)},
+            headers={"Retry-After": str(QUOTA_RETRY_SECONDS)},
         )
 
 

@@ -15,7 +15,7 @@ from redis.commands.core import Script
 from service.problems import Problem
 from service.queue import Queue
 
-BURST_SECONDS = 15.0
+REQUESTS_BURST_SECONDS = 15.0
 
 BUCKET_SCRIPT = """
 local time = redis.call('TIME')
@@ -46,7 +46,7 @@ def take_one(queue: Queue, key_id: str, per_minute: float) -> None:
 
     While Redis is away nothing is counted: the service goes on without it, and so do its callers.
     """
-    seconds = take_from_bucket(queue, f"galatea:rate:{key_id}", per_minute, BURST_SECONDS)
+    seconds = take_from_bucket(queue, f"galatea:rate:{key_id}", per_minute, REQUESTS_BURST_SECONDS)
     if seconds > 0:
         raise Problem(
             429,

@@ -10,7 +10,7 @@ from base64 import b64encode, urlsafe_b64encode
 from service.vault import Secret
 
 KEY_PREFIX = "galatea_"
-HINT_CHARACTERS = len(KEY_PREFIX) + 4
+KEY_HINT_CHARACTERS = len(KEY_PREFIX) + 4
 
 
 def new_token() -> str:

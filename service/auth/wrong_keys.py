@@ -24,7 +24,7 @@ more than these however many addresses there are."""
 TOTAL_TO_ADDRESS_RATIO = 20
 """How many times what one address may send all may send together."""
 
-BURST_SECONDS = 60.0
+WRONG_KEYS_BURST_SECONDS = 60.0
 
 
 def count_wrong_key(context: Context, request: HTTPConnection) -> None:
@@ -32,8 +32,8 @@ def count_wrong_key(context: Context, request: HTTPConnection) -> None:
     most = context.settings.wrong_keys_per_minute
     place = zlib.crc32(caller_address(request, context.settings.trusted_proxies).encode()) % ADDRESS_BUCKETS
     seconds = max(
-        take_from_bucket(context.queue, f"galatea:wrong:{place}", most, BURST_SECONDS),
-        take_from_bucket(context.queue, "galatea:wrong:all", most * TOTAL_TO_ADDRESS_RATIO, BURST_SECONDS),
+        take_from_bucket(context.queue, f"galatea:wrong:{place}", most, WRONG_KEYS_BURST_SECONDS),
+        take_from_bucket(context.queue, "galatea:wrong:all", most * TOTAL_TO_ADDRESS_RATIO, WRONG_KEYS_BURST_SECONDS),
     )
     if seconds > 0:
         raise Problem(

@@ -22,7 +22,7 @@ from service.connections.websocket import WebSocketConnection
 from service.http import browser
 from service.problems import Problem, phrase
 
-HEAD_BYTES = 64 * 1024
+MAX_REQUEST_HEAD_BYTES = 64 * 1024
 """How much of an address and headers may come without their end; what comes whole at once may be more."""
 
 UNREAD_SECONDS = 30.0
@@ -42,7 +42,7 @@ class Config(uvicorn.Config):
     ):
         """`head_seconds` may the head of a request take, `send_seconds` may nothing be taken of an answer."""
         more = {"ws": WebSocketConnection, **more}
-        super().__init__(app, http=Protocol, h11_max_incomplete_event_size=HEAD_BYTES, **more)
+        super().__init__(app, http=Protocol, h11_max_incomplete_event_size=MAX_REQUEST_HEAD_BYTES, **more)
         self.connection_limit = connection_limit
         self.head_seconds = head_seconds
         self.send_seconds = send_seconds
@@ -56,7 +56,7 @@ class Protocol(SlicedReading):
 
     def __init__(self, *given: Any, **named: Any):
         super().__init__(*given, **named)
-        self.conn = StrictConnection(h11.SERVER, HEAD_BYTES)
+        self.conn = StrictConnection(h11.SERVER, MAX_REQUEST_HEAD_BYTES)
         self.address = ""
         self._timer: asyncio.TimerHandle | None = None
         self._timed = ""

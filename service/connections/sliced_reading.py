@@ -9,7 +9,7 @@ from typing import Any
 from uvicorn.protocols.http.flow_control import FlowControl
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-SLICE_BYTES = 1 << 15
+READ_SLICE_BYTES = 1 << 15
 """How much of what came is read in one go."""
 FINE_SLICE_BYTES = 1 << 12
 """How much of a body in chunks is read in one go: where each has one byte, it takes a thousand times as long."""
@@ -63,7 +63,7 @@ class SlicedReading(H11Protocol):
             return
         if self._held_back and self.flow.read_paused:
             return  # until what was read is taken
-        size = FINE_SLICE_BYTES if self._in_chunks() else SLICE_BYTES
+        size = FINE_SLICE_BYTES if self._in_chunks() else READ_SLICE_BYTES
         piece = bytes(self._backlog[:size])
         del self._backlog[:size]
         if piece:

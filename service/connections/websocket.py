@@ -22,7 +22,7 @@ from service.connections.transport import Transport
 from service.http import browser
 from service.problems import Problem, phrase
 
-MAX_MESSAGE_BYTES = 8 << 20
+MAX_WEBSOCKET_MESSAGE_BYTES = 8 << 20
 """Of a message that comes in; who takes them says what they may be."""
 MAX_WAITING = 4
 """Messages that wait to be taken before no more is read."""
@@ -36,7 +36,7 @@ class WebSocketConnection(asyncio.Protocol):
     def __init__(self, app: ASGIApp, scope: Scope, transport: Transport, lost: Callable[[Exception | None], None]):
         """`scope` is that of the HTTP request; `lost` is told when the connection is."""
         self._app, self._http, self._transport, self._lost = app, scope, transport, lost
-        self._protocol = Protocol(Side.SERVER, max_size=MAX_MESSAGE_BYTES)
+        self._protocol = Protocol(Side.SERVER, max_size=MAX_WEBSOCKET_MESSAGE_BYTES)
         self._opcode, self._parts = Opcode.TEXT, bytearray()  # of the message that comes in
         self._queue: asyncio.Queue[dict[str, Any]] = asyncio.Queue()
         self._state = "asked"  # then open, closing, closed

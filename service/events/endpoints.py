@@ -20,7 +20,7 @@ from service.tables.jobs import Status
 router = APIRouter(prefix="/jobs", tags=["jobs"])
 
 HEARTBEAT_SECONDS = 15
-STOP_SECONDS = 2
+STREAM_STOP_SECONDS = 2
 """How long a stream may take to end by itself when the service does."""
 AN_EVENT_ID: dict[str, Any] = {"pattern": "^[0-9]{1,18}$"}
 
@@ -65,5 +65,5 @@ def follow_job(
         follow(context, watch, job_id, events, seen),
         ping=HEARTBEAT_SECONDS,
         headers={"Cache-Control": "no-store"},
-        shutdown_grace_period=STOP_SECONDS,
+        shutdown_grace_period=STREAM_STOP_SECONDS,
     )

@@ -19,7 +19,7 @@ from service.connections.stopping import Stopping
 from service.context import Context
 from service.events import repository
 
-LOOK_SECONDS = 0.25
+EVENT_POLL_SECONDS = 0.25
 LATE_EVENT_IDS = 100
 """Ids before the newest that are looked at again: where several write at once, a smaller one may show later."""
 
@@ -72,7 +72,7 @@ class Watch:
                 for job in {job for _, job in fresh}:
                     for changed in self._following.get(job, ()):
                         changed.set()
-            await asyncio.sleep(LOOK_SECONDS)
+            await asyncio.sleep(EVENT_POLL_SECONDS)
 
     def _since(self, newest: int | None) -> list[tuple[int, str]]:
         with self._context.database.read() as session:

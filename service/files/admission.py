@@ -7,7 +7,7 @@ from engine.media.sniff import ARCHIVE_TYPES, IMAGE_TYPES, MOTION_TYPES, VIDEO_T
 from service.problems import Problem
 from service.settings import Settings
 
-HEAD_BYTES = 4096
+SNIFFED_BYTES = 4096
 """How many first bytes tell what a file is."""
 
 

@@ -29,9 +29,9 @@ MAX_FIELDS = 100
 """The most parts that are not files."""
 VALUE_BYTES = 4000
 """The longest text that stands for a file: an address."""
-SLICE_BYTES = 1 << 16
+INTAKE_SLICE_BYTES = 1 << 16
 """How much is read in one go: others have their turn in between."""
-WRITE_BYTES = 1 << 18
+FILE_WRITE_BYTES = 1 << 18
 """How much of files is held in memory before it is written."""
 
 FILE_FAMILIES = ("image", "video", "audio", "model")
@@ -89,15 +89,15 @@ class Form:
     async def _receive(self, parts: Parts) -> None:
         unchecked = waiting = 0
         async for chunk in self._request.stream():
-            for start in range(0, len(chunk), SLICE_BYTES):
-                parts.write(chunk[start : start + SLICE_BYTES])
+            for start in range(0, len(chunk), INTAKE_SLICE_BYTES):
+                parts.write(chunk[start : start + INTAKE_SLICE_BYTES])
                 await checkpoint()
             unchecked += len(chunk)
             if unchecked > 16 * BYTES_PER_MEGABYTE:
                 require_space(self._settings)
                 unchecked = 0
             waiting += len(chunk)
-            if self._pending and (waiting > WRITE_BYTES or parts.ended):
+            if self._pending and (waiting > FILE_WRITE_BYTES or parts.ended):
                 await run_sync(self._store, self._pending)
                 self._pending, waiting = [], 0
             if parts.ended:

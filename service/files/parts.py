@@ -12,7 +12,7 @@ from python_multipart.multipart import MAX_BOUNDARY_LENGTH, MultipartParser, par
 from service.problems import Problem
 
 MAX_HEADERS = 8
-HEAD_BYTES = 4000
+MAX_PART_HEAD_BYTES = 4000
 """The most bytes of all headers of a part."""
 CONTENT_TYPE_CHARACTERS = 1000
 """The longest `Content-Type` of a request: to read it takes time by the square of its length."""
@@ -67,8 +67,8 @@ class Parts:
 
     def _count(self, size: int) -> None:
         self._head_bytes += size
-        if self._head_bytes > HEAD_BYTES or len(self._headers) > MAX_HEADERS:
-            detail = f"The headers of a part may be {MAX_HEADERS}, with {HEAD_BYTES} bytes together, at most."
+        if self._head_bytes > MAX_PART_HEAD_BYTES or len(self._headers) > MAX_HEADERS:
+            detail = f"The headers of a part may be {MAX_HEADERS}, with {MAX_PART_HEAD_BYTES} bytes together, at most."
             raise Problem(413, "part_head_too_large", detail)
 
     # The parser's callbacks.

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO
 
-from service.files.admission import HEAD_BYTES, largest_mb, recognise, too_large
+from service.files.admission import SNIFFED_BYTES, largest_mb, recognise, too_large
 from service.problems import Problem
 from service.settings import BYTES_PER_MEGABYTE, Settings
 
@@ -36,7 +36,7 @@ class Received:
         self._hash.update(data)
         if not self.content_type:
             self._head += data
-            if len(self._head) < HEAD_BYTES:
+            if len(self._head) < SNIFFED_BYTES:
                 return
             data = self._recognise()
         limit = largest_mb(settings, self.content_type)

@@ -8,7 +8,7 @@ from datetime import timedelta
 from sqlalchemy.orm import Session
 
 from service.auth import repository
-from service.auth.tokens import HINT_CHARACTERS, digest, new_link_secret, new_signing_secret, new_token
+from service.auth.tokens import KEY_HINT_CHARACTERS, digest, new_link_secret, new_signing_secret, new_token
 from service.clock import now
 from service.context import Context
 from service.files import repository as files
@@ -35,7 +35,7 @@ def create(session: Session, requested: KeyIn) -> tuple[Key, str]:
         id=new_id(),
         name=requested.name,
         token_hash=digest(token),
-        hint=token[:HINT_CHARACTERS],
+        hint=token[:KEY_HINT_CHARACTERS],
         scopes=list(requested.scopes),
         signing_secret=new_signing_secret(),
         link_secret=new_link_secret(),

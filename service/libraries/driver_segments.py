@@ -12,7 +12,7 @@ from engine.performances.catalogue import Strength
 from service.context import Context
 from service.libraries import repository
 from service.libraries.inspections import Inspection, inspections_of
-from service.libraries.library import DRIVERS
+from service.libraries.library import DRIVER_LIBRARY
 from service.problems import Problem
 from service.tables.kept import Kept
 
@@ -44,7 +44,7 @@ class Segments(BaseModel):
 
 def of_drivers(context: Context, drivers: Sequence[Kept]) -> dict[str, Inspection[Segments]]:
     """What was found in each of an owner's drivers, by their names."""
-    return inspections_of(context, DRIVERS, Segments, drivers)
+    return inspections_of(context, DRIVER_LIBRARY, Segments, drivers)
 
 
 def segments(inspection: Inspection[Segments]) -> tuple[Segment, ...]:
@@ -55,7 +55,7 @@ def segments(inspection: Inspection[Segments]) -> tuple[Segment, ...]:
 def segment(context: Context, owner: str, name: str, segment_name: str) -> tuple[str, Segment]:
     """The file of a driver, and one of its segments. Raises a 422 problem where there is none of this name (yet)."""
     with context.database.read() as session:
-        driver = repository.get(session, DRIVERS, owner, name)
+        driver = repository.get(session, DRIVER_LIBRARY, owner, name)
     if driver is None:
         raise Problem(422, "unknown_driver", f"There is no driver “{name[:80]}”: GET /v1/drivers lists them.")
     inspection = of_drivers(context, [driver])[name]

@@ -38,8 +38,8 @@ class Library:
         return f"/v1/{self.noun}s"
 
 
-DRIVERS = Library("performances", Driver, "driver", "a video", VIDEO_TYPES, "moments", "moments.json")
-MOTIONS = Library("motions", Motion, "motion", "a BVH, GLB or glTF file", MOTION_TYPES, "motion", "motion.json")
+DRIVER_LIBRARY = Library("performances", Driver, "driver", "a video", VIDEO_TYPES, "moments", "moments.json")
+MOTION_LIBRARY = Library("motions", Motion, "motion", "a BVH, GLB or glTF file", MOTION_TYPES, "motion", "motion.json")
 
-LIBRARIES: Mapping[str, Library] = {library.name: library for library in (DRIVERS, MOTIONS)}
+LIBRARIES: Mapping[str, Library] = {library.name: library for library in (DRIVER_LIBRARY, MOTION_LIBRARY)}
 """All libraries, by their names."""

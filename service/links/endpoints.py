@@ -26,7 +26,7 @@ from service.tables.links import PublicLink
 
 router = APIRouter(tags=["links"], route_class=RequestModelRoute)
 
-HINT_CHARACTERS = 6
+LINK_HINT_CHARACTERS = 6
 
 CROSS_ORIGIN_HEADERS = {
     "Access-Control-Allow-Origin": "*",
@@ -46,7 +46,7 @@ def create_link(job_id: str, requested: LinkIn, caller: Submitter, response: Res
     link = PublicLink(
         id=new_id(),
         token_hash=digest(token),
-        hint=token[:HINT_CHARACTERS],
+        hint=token[:LINK_HINT_CHARACTERS],
         owner=caller.owner,
         job_id=job_id,
         names=requested.artifacts,

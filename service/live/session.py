@@ -13,9 +13,9 @@ from service.live.outlet import Outlet
 from service.live.process import COMMAND_TAG, EVENT_TAG, FRAME_TAG, LiveOrder, LiveProcess, StartLive
 from service.settings import BYTES_PER_MEGABYTE, Settings
 
-CONNECT_SECONDS = 60.0
+CAMERA_WAIT_SECONDS = 60.0
 """How long a session waits for its camera."""
-LOOK_SECONDS = 0.5
+SESSION_POLL_SECONDS = 0.5
 """How often is looked whether it is to end."""
 
 END_REASONS = {
@@ -127,13 +127,13 @@ class LiveSession:
     async def _watch(self) -> None:
         """End it when it is over its time, without a camera, or with nobody who looks."""
         while self.ended is None:
-            await asyncio.sleep(LOOK_SECONDS)
+            await asyncio.sleep(SESSION_POLL_SECONDS)
             moment, idle = time.monotonic(), self._settings.live_idle_seconds
             looked = max((outlet.taken_at for outlet in self._outlets), default=self._seen_at)
             if moment - self.began_at > self._settings.live_seconds:
                 self.end("live_time_limit")
             elif not self.has_camera:
-                if moment - self.began_at > CONNECT_SECONDS:
+                if moment - self.began_at > CAMERA_WAIT_SECONDS:
                     self.end("live_idle")
             elif self.status == "preparing":
                 self._fed_at = self._seen_at = moment

@@ -17,7 +17,7 @@ from service.ids import new_id
 from service.traces.current import CurrentRequest, begin
 from service.traces.tracer import fail, parent_of, trace_id
 
-ID_PATTERN = "[A-Za-z0-9._-]{1,64}"
+REQUEST_ID_PATTERN = "[A-Za-z0-9._-]{1,64}"
 """A request's id, as callers may give it."""
 
 REQUEST_ID_HEADER = "X-Request-Id"
@@ -42,7 +42,7 @@ class Requests:
             return
         headers = Headers(scope=scope)
         given = headers.get(REQUEST_ID_HEADER, "")
-        request = CurrentRequest(id=given if re.fullmatch(ID_PATTERN, given) else new_id())
+        request = CurrentRequest(id=given if re.fullmatch(REQUEST_ID_PATTERN, given) else new_id())
         request.span = self._span(scope, headers)
         # Never taken back: the server logs in the same context after we are done. What a request before may have left
         # there (one that was sent together with this one) goes.

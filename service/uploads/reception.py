@@ -15,7 +15,7 @@ from service.auth.quotas import require_room
 from service.clock import now
 from service.context import Context
 from service.disk import require_space
-from service.files.admission import HEAD_BYTES, largest_mb, recognise, too_large
+from service.files.admission import SNIFFED_BYTES, largest_mb, recognise, too_large
 from service.files.service import record
 from service.problems import Problem
 from service.settings import BYTES_PER_MEGABYTE
@@ -132,11 +132,11 @@ class Reception:
     def _look(self) -> None:
         """Find out what is coming as soon as that can be told. What cannot be accepted is erased at once: no byte that
         follows could mend it. Raises `Problem`."""
-        if self._content_type or (self._written < HEAD_BYTES and self._written != self.length):
+        if self._content_type or (self._written < SNIFFED_BYTES and self._written != self.length):
             return
         try:
             self._content_type = recognise(
-                spool.head(self._path, min(HEAD_BYTES, self._written)), self.upload.name, self.upload.declared
+                spool.head(self._path, min(SNIFFED_BYTES, self._written)), self.upload.name, self.upload.declared
             )
             limit = largest_mb(self._settings, self._content_type)
             if max(self._written, self.length or 0) > limit * BYTES_PER_MEGABYTE:

@@ -23,7 +23,7 @@ from service.uploads import metadata, repository, spool
 from service.uploads.reception import Reception
 from service.uploads.under_way import UploadHold
 
-WRITE_BYTES = 1 << 20
+UPLOAD_WRITE_BYTES = 1 << 20
 """How much of a piece that comes in is held in memory."""
 
 
@@ -126,7 +126,7 @@ async def _stream(request: Request, hold: UploadHold, reception: Reception) -> E
 async def _take(request: Request, reception: Reception) -> None:
     async for data in request.stream():
         reception.take(data)
-        if reception.waiting >= WRITE_BYTES:
+        if reception.waiting >= UPLOAD_WRITE_BYTES:
             await run_sync(reception.write)
 
 

@@ -13,7 +13,7 @@ from engine.body.fitting.body_fitting import Fit, fit_body
 from engine.body.fitting.contour import SEARCH_INSIDE_SHARE, Contour, match_contour, skin_points, trace_contour
 from engine.body.fitting.first_guess import first_guess
 from engine.body.fitting.observation import DIRECTED_LIMBS, Observation
-from engine.body.fitting.posing import FITTED_JOINTS, SHAPE_COEFFICIENTS, forward, rotation_matrices
+from engine.body.fitting.posing import FITTED_JOINTS, POSED_SHAPE_COEFFICIENTS, forward, rotation_matrices
 from engine.body.landmarks import landmark_model
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
@@ -25,7 +25,7 @@ TEMPLATE, SPACE, BONES = load_template(), load_body_space(), load_rig(HUMAN_RIG)
 MARKS, SKIN = landmark_model(TEMPLATE, SPACE, BONES), skin_points(TEMPLATE, SPACE, BONES)
 FOCAL, CENTRE, SIZE = 1400.0, (320.0, 400.0), (820, 640)
 CAMERA = Camera((0, 0, 0), FOCAL, CENTRE, SIZE)
-REST_PARAMETERS = np.concatenate([[0, 0, -4.5], np.zeros(3 * len(FITTED_JOINTS) + SHAPE_COEFFICIENTS)])
+REST_PARAMETERS = np.concatenate([[0, 0, -4.5], np.zeros(3 * len(FITTED_JOINTS) + POSED_SHAPE_COEFFICIENTS)])
 
 
 def parameters(coefficients: dict[int, float], **turns: tuple[float, float, float]) -> np.ndarray:
@@ -35,7 +35,7 @@ def parameters(coefficients: dict[int, float], **turns: tuple[float, float, floa
     for name, turn in given.items():
         found[3 + 3 * FITTED_JOINTS.index(name) :][:3] = turn
     for number, value in coefficients.items():
-        found[len(found) - SHAPE_COEFFICIENTS + number] = value
+        found[len(found) - POSED_SHAPE_COEFFICIENTS + number] = value
     return found
 
 
@@ -52,7 +52,7 @@ def seen_of(truth: np.ndarray) -> tuple[Observation, dict[str, np.ndarray]]:
 
 def mask_of(truth: np.ndarray) -> np.ndarray:
     """The body as the camera sees it."""
-    turns, coefficients = truth[3:-SHAPE_COEFFICIENTS].reshape(-1, 3), truth[-SHAPE_COEFFICIENTS:]
+    turns, coefficients = truth[3:-POSED_SHAPE_COEFFICIENTS].reshape(-1, 3), truth[-POSED_SHAPE_COEFFICIENTS:]
     rotations = np.broadcast_to(np.eye(3), (len(SPACE.names), 3, 3)).copy()
     rotations[[SPACE.names.index(name) for name in FITTED_JOINTS]] = rotation_matrices(turns)
     heads = SPACE.joints(coefficients)
@@ -128,7 +128,7 @@ def test_wide_clothes_do_not_make_stout_people() -> None:
     truth = parameters({})
     coat = cv2.dilate(mask_of(truth).astype(np.uint8), np.ones((61, 61), np.uint8)) > 0
     found = fitted(truth, trace_contour(coat))
-    assert waist(found.coefficients) - waist(truth[-SHAPE_COEFFICIENTS:]) < 0.04
+    assert waist(found.coefficients) - waist(truth[-POSED_SHAPE_COEFFICIENTS:]) < 0.04
 
 
 def test_a_gap_in_the_mask_has_an_outline_too_that_faces_into_it() -> None:

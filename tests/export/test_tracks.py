@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from engine.export.animation_tracks import SINGLE_FRAME_SECONDS, closing_root, tracks
-from engine.export.influences import FULL_WEIGHT, quantise_influences
+from engine.export.influences import FULL_INFLUENCE, quantise_influences
 from engine.geometry.skeleton import Skeleton
 from engine.motion.clip import Clip
 
@@ -56,11 +56,11 @@ def test_whole_weights_sum_to_one_and_name_no_joint_twice(row: list[tuple[int, f
     bones, weights = np.array([[joint for joint, _ in row]]), np.array([[weight for _, weight in row]])
     joints, whole = quantise_influences(bones, weights)
     used = joints[0][whole[0] > 0]
-    assert whole.sum() == FULL_WEIGHT and len(set(used)) == len(used) and (np.diff(whole[0].astype(int)) <= 0).all()
+    assert whole.sum() == FULL_INFLUENCE and len(set(used)) == len(used) and (np.diff(whole[0].astype(int)) <= 0).all()
     assert not joints[0][whole[0] == 0].any()
     for joint in range(6):
         exact = weights[bones == joint].sum() / weights.sum()
-        assert abs(whole[joints == joint].sum() / FULL_WEIGHT - exact) <= 3 / FULL_WEIGHT
+        assert abs(whole[joints == joint].sum() / FULL_INFLUENCE - exact) <= 3 / FULL_INFLUENCE
 
 
 def test_a_vertex_without_weight_is_refused() -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from engine.geometry.skeleton import Skeleton
 from engine.motion.clip import Clip
-from engine.motion.edit import BODY_PARTS, in_place, keep_pictured_parts, loop_travel, repeat_loop
+from engine.motion.edit import KEPT_PART_JOINTS, in_place, keep_pictured_parts, loop_travel, repeat_loop
 from engine.motion.feet.foot_contact import sole_places
 from engine.motion.feet.sole import leg_length
 from engine.motion.kinematics import joint_places
@@ -47,7 +47,7 @@ def test_what_is_kept_is_as_pictured_and_the_rest_is_not_touched(skeleton: Skele
     clip, pictured = built_in("dance", skeleton), first(built_in("sit", skeleton))
     kept = keep_pictured_parts(skeleton, clip, pictured, parts)
     names = {"arms": ("left_arm", "right_arm"), "legs": ("left_leg", "right_leg")}
-    held = {joint for part in parts for one in names.get(part, (part,)) for joint in BODY_PARTS[one]}
+    held = {joint for part in parts for one in names.get(part, (part,)) for joint in KEPT_PART_JOINTS[one]}
     for index, name in enumerate(skeleton.names):
         finger = any(f"{side}Hand" in held and name.startswith(f"{side}Hand") for side in ("Left", "Right"))
         if name in held or finger:
@@ -70,7 +70,7 @@ def test_with_one_leg_kept_straight_or_bent_the_lowest_sole_is_as_high_as_before
     clip, sit = built_in(name, skeleton), built_in("sit", skeleton)
     pictured = replace(sit, rotations=sit.rotations[pose][None], root=sit.root[pose][None])
     kept = keep_pictured_parts(skeleton, clip, pictured, ["left_leg"])
-    left = [skeleton.index(joint) for joint in BODY_PARTS["left_leg"]]
+    left = [skeleton.index(joint) for joint in KEPT_PART_JOINTS["left_leg"]]
     assert (kept.rotations[:, left] == pictured.rotations[:, left]).all()
     before, after = (sole_places(skeleton, one)[..., 1].min((1, 2)) for one in (clip, kept))
     assert np.allclose(after, before, atol=1e-5)

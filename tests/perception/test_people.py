@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 import pytest
 
-from benchmarks.known_truth.known_person import PICTURE_SIZE, draw_into
+from benchmarks.known_truth.known_person import PERSON_PICTURE_SIZE, draw_into
 from benchmarks.known_truth.known_places import places
 from benchmarks.known_truth.scanned_bodies import read_scan
 from engine.perception.body import find_body
@@ -20,7 +20,7 @@ from engine.perception.segmentation import people_confidence
 @pytest.mark.parametrize(("place", "stands_out"), [("yard", True), ("garage door", False)])
 def test_somebody_who_hardly_stands_out_is_found(media: Callable[[str], Path], place: str, stands_out: bool) -> None:
     soldier = read_scan(media("scans3d/body_soldier/soldier.glb"), -1)
-    known = draw_into(soldier, places(PICTURE_SIZE)[place])
+    known = draw_into(soldier, places(PERSON_PICTURE_SIZE)[place])
     assert (find_body(known.rgb) is not None) == stands_out
     (body,) = find_people(known.rgb)
     x, y, wide, high = np.rint(person_box(body, known.rgb.shape)).astype(int)
@@ -31,7 +31,9 @@ def test_somebody_who_hardly_stands_out_is_found(media: Callable[[str], Path], p
 
 def test_whoever_is_found_by_a_second_look_is_cut_out_by_one(media: Callable[[str], Path]) -> None:
     """What the networks believe is nearer to the truth if the one that finds joints is content with little here too."""
-    known = draw_into(read_scan(media("scans3d/body_soldier/soldier.glb"), -1), places(PICTURE_SIZE)["garage door"])
+    known = draw_into(
+        read_scan(media("scans3d/body_soldier/soldier.glb"), -1), places(PERSON_PICTURE_SIZE)["garage door"]
+    )
     there = cv2.resize(known.alpha, (600, 800), interpolation=cv2.INTER_AREA) > 0.5
     content, strict = (people_confidence(known.rgb, whole) > 0.5 for whole in (True, False))
     overlaps = [(seen & there).sum() / (seen | there).sum() for seen in (content, strict)]
@@ -39,5 +41,5 @@ def test_whoever_is_found_by_a_second_look_is_cut_out_by_one(media: Callable[[st
 
 
 def test_where_nobody_is_nobody_is_found() -> None:
-    for place in places(PICTURE_SIZE).values():
+    for place in places(PERSON_PICTURE_SIZE).values():
         assert find_people(place) == []

@@ -31,8 +31,8 @@ def figure() -> Figure:
 
 def at(field: np.ndarray, u: float, v: float) -> np.ndarray:
     row, column = (
-        int((chart.CHART_TOP - v) * chart.TEXELS_PER_METRE),
-        int((u - chart.CHART_LEFT) * chart.TEXELS_PER_METRE),
+        int((chart.CHART_TOP - v) * chart.CHART_TEXELS_PER_METRE),
+        int((u - chart.CHART_LEFT) * chart.CHART_TEXELS_PER_METRE),
     )
     return field[row - 8 : row + 9, column - 8 : column + 9].mean((0, 1))
 
@@ -85,8 +85,8 @@ def test_units_press_in_their_own_furrows(
 ) -> None:
     relief = wrinkle_relief(wrinkles, units) - wrinkle_relief(wrinkles, {})
     row, column = (
-        int((chart.CHART_TOP - place[1]) * chart.TEXELS_PER_METRE),
-        int((place[0] - chart.CHART_LEFT) * chart.TEXELS_PER_METRE),
+        int((chart.CHART_TOP - place[1]) * chart.CHART_TEXELS_PER_METRE),
+        int((place[0] - chart.CHART_LEFT) * chart.CHART_TEXELS_PER_METRE),
     )
     assert relief[row - 3 : row + 4, column - 3 : column + 4].min() < -1.5e-4
     assert np.isfinite(relief).all()

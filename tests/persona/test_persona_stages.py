@@ -18,7 +18,7 @@ from engine.persona.collection.photo_face import PhotoFace
 from engine.persona.collection.photos import Photos, read_photos
 from engine.persona.collection.sorting import Choice
 from engine.persona.stages import (
-    MIN_PHOTOS,
+    MIN_PERSONA_PHOTOS,
     PhotoFaces,
     find_faces_of_photos,
     learn,
@@ -67,7 +67,7 @@ def test_the_stranger_is_told_and_the_person_is_kept(photos: Photos, found: Phot
     sorted_ = sort_faces(found, IDENTITY_DISTANCES, Choice(), None)
     reasons = dict(zip((face.photo for face in sorted_.faces), sorted_.reasons, strict=True))
     assert reasons[12] == "somebody_else"
-    assert len(sorted_.kept) >= MIN_PHOTOS
+    assert len(sorted_.kept) >= MIN_PERSONA_PHOTOS
     learnt = learn(photos, sorted_, (), 194, lambda fraction: None)
     assert learnt.used.all() and learnt.persona.colours.shape == (len(sorted_.kept), 244, 194, 3)
 
@@ -91,7 +91,7 @@ def test_a_collection_in_profile_is_told_so(found: PhotoFaces) -> None:
     sides = [65.0 if number % 2 else -50.0 for number in range(len(found.faces))]
     turned = [replace(face, yaw=yaw) for face, yaw in zip(found.faces, sides, strict=True)]
     chosen = sort_faces(PhotoFaces(tuple(turned)), IDENTITY_DISTANCES, Choice(), None)
-    assert not chosen.kept and chosen.left_out["turned"] >= MIN_PHOTOS
+    assert not chosen.kept and chosen.left_out["turned"] >= MIN_PERSONA_PHOTOS
     with pytest.raises(InputError) as error:
         chosen.require_enough()
     assert error.value.code == "too_few_photos"

@@ -23,7 +23,7 @@ from engine.portrait.options import PortraitOptions
 from engine.portrait.target import (
     MAX_PICTURE_SIDE_PIXELS,
     MAX_TARGET_TURN_DEGREES,
-    MIN_EYE_DISTANCE_PIXELS,
+    MIN_TARGET_EYE_DISTANCE_PIXELS,
     TargetFace,
     find_target_face,
     share_inside,
@@ -184,7 +184,7 @@ def test_a_tiny_face_is_refused(woman: Path, tmp_path: Path) -> None:
 def test_the_least_face_is_measured_in_the_result(woman: Path, whole: TargetFace) -> None:
     """A face large enough in the picture is too small if the result is."""
     unit = float(eye_distance(whole.mesh[:, :2]))
-    side = round(320 * MIN_EYE_DISTANCE_PIXELS / unit)
+    side = round(320 * MIN_TARGET_EYE_DISTANCE_PIXELS / unit)
     assert refusal(woman, size=(side - 8, side - 8)).code == "face_too_small"
     assert find(woman, size=(side + 8, side + 8)).mesh.shape == (478, 3)
 

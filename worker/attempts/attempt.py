@@ -40,7 +40,7 @@ from worker.job_files.publish import publish
 from worker.job_process.children import Child, ChildLost
 
 TICK_SECONDS = 0.1
-LOOK_SECONDS = 0.4
+ATTEMPT_POLL_SECONDS = 0.4
 REPORT_SECONDS = 0.4
 STOPPED_SECONDS = 10.0
 """How long a process may stand still that a signal has stopped."""
@@ -190,7 +190,7 @@ class Attempt:
         """See to limits, orders, progress and the lease. Raises `Stop`."""
         self._check_limits()
         moment = time.monotonic()
-        if moment - self._looked > LOOK_SECONDS:
+        if moment - self._looked > ATTEMPT_POLL_SECONDS:
             self._looked = moment
             self._check_orders()
             self._check_going_on(moment)

@@ -18,7 +18,7 @@ from service.jobs.leases import Lease
 from service.tables.jobs import Job
 from service.traces.tracer import child_context, fail, parent_of, trace_id
 
-MAX_STAGES = 200
+MAX_ATTEMPT_STAGES = 200
 """The most stages of one attempt; what more it tells of is left out."""
 
 NANOSECONDS_PER_SECOND = 1_000_000_000
@@ -54,7 +54,7 @@ class AttemptSpans:
             if event.get("turn") != "ended":
                 fail(before)
             before.end(at)
-        if event.get("turn") == "began" and self._told < MAX_STAGES:
+        if event.get("turn") == "began" and self._told < MAX_ATTEMPT_STAGES:
             self._told += 1
             self._stages[name] = self._tracer.start_span(
                 f"stage {name}", child_context(self._whole), attributes={"galatea.stage": name}, start_time=at

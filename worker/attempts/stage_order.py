@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-MAX_STAGES = 100
+MAX_STAGE_NAMES = 100
 """Names that are kept: a pipeline has fewer."""
 
 
@@ -19,7 +19,7 @@ class Stages:
 
     def begin(self, name: str) -> None:
         """This stage begins, or goes on."""
-        if name not in self.names and len(self.names) < MAX_STAGES:
+        if name not in self.names and len(self.names) < MAX_STAGE_NAMES:
             self.names.insert(self._place, name)
         if name in self.names:
             self._place = max(self._place, self.names.index(name) + 1)

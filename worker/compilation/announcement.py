@@ -19,7 +19,7 @@ from service.tables.jobs import Job, Status
 
 PREPARING_STAGE = "prepare_engine"
 PREPARING_MESSAGE = "The engine is getting ready: this happens once and takes a few minutes."
-LOOK_SECONDS = 1.0
+WAITING_POLL_SECONDS = 1.0
 """How often is looked for jobs that wait; a worker that is ready takes one sooner."""
 
 
@@ -31,7 +31,7 @@ def announcing(context: Context, waiting: Sequence[str]) -> Iterator[None]:
     kinds = list(waiting)
 
     def keep_telling() -> None:
-        while not over.wait(LOOK_SECONDS):
+        while not over.wait(WAITING_POLL_SECONDS):
             announce(context, list(waiting))
             take_back(context, [kind for kind in kinds if kind not in waiting])
         take_back(context, kinds)
@@ -54,7 +54,9 @@ def _announce(context: Context, kinds: Sequence[str]) -> None:
     with context.database.read() as session:
         counts = repository.count_by_kind_and_status(session)
         idle = [kind for kind in kinds if not counts.get((kind, Status.RUNNING))]
-        untold = [job for kind in idle for job in repository.queued(session, kind, LOOK_SECONDS) if not _told(job)]
+        untold = [
+            job for kind in idle for job in repository.queued(session, kind, WAITING_POLL_SECONDS) if not _told(job)
+        ]
     _note(context, untold, PREPARING_STAGE, PREPARING_MESSAGE)
 
 

@@ -37,7 +37,7 @@ from worker.programs.niceness import lower_priority
 from worker.programs.parent_death import tied_command
 
 REHEARSAL_MARK = "rehearsed"
-FORGOTTEN_SECONDS = 90 * 24 * 3600.0
+COMPILED_FORGOTTEN_SECONDS = 90 * 24 * 3600.0
 """Seconds after which what was compiled is thrown away; compiled again it is there again."""
 
 
@@ -124,7 +124,7 @@ def main() -> None:
     draft.write_bytes(pickle.dumps(_compiled()))
     draft.rename(mark)
     for other in mark.parent.glob(f"{REHEARSAL_MARK}-*"):  # of an engine that is no more
-        if other.stat().st_mtime < time.time() - FORGOTTEN_SECONDS:
+        if other.stat().st_mtime < time.time() - COMPILED_FORGOTTEN_SECONDS:
             other.unlink(missing_ok=True)
 
 

@@ -18,14 +18,14 @@ from urllib.parse import unquote, urlsplit
 import httpx
 
 from service.disk import require_space
-from service.files.admission import HEAD_BYTES, largest_mb, recognise, shown_name
+from service.files.admission import SNIFFED_BYTES, largest_mb, recognise, shown_name
 from service.outbound.address import AddressRefused, require_callable
 from service.outbound.client import client
 from service.problems import Problem
 from service.settings import BYTES_PER_MEGABYTE, Settings
 
 MAX_REDIRECTS = 5
-CONNECT_SECONDS = 10.0
+FETCH_CONNECT_SECONDS = 10.0
 STALL_SECONDS = 20.0
 """How long a host may send nothing."""
 
@@ -71,7 +71,7 @@ def fetch(
     try:
         with ExitStack() as stack:
             http = stack.enter_context(
-                client(settings, connect_seconds=CONNECT_SECONDS, seconds=settings.fetch_seconds)
+                client(settings, connect_seconds=FETCH_CONNECT_SECONDS, seconds=settings.fetch_seconds)
             )
             response = _open(settings, http, url, deadline, stack)
             return _receive(settings, url, response, path, deadline, on_bytes, stopped)
@@ -90,7 +90,7 @@ def _open(settings: Settings, http: httpx.Client, url: str, deadline: float, sta
         left = deadline - time.monotonic()
         if left <= 0:
             raise _too_slow(settings)
-        timeout = httpx.Timeout(min(left, STALL_SECONDS), connect=min(left, CONNECT_SECONDS))
+        timeout = httpx.Timeout(min(left, STALL_SECONDS), connect=min(left, FETCH_CONNECT_SECONDS))
         response = http.send(http.build_request("GET", url, timeout=timeout, headers=ACCEPT_HEADERS), stream=True)
         stack.callback(response.close)
         if not response.has_redirect_location:
@@ -126,7 +126,7 @@ def _receive(
             file.write(data)
             sha256.update(data)
             size += len(data)
-            if not content_type and size >= HEAD_BYTES:
+            if not content_type and size >= SNIFFED_BYTES:
                 content_type = _recognise(path, file.flush, name)
                 limit = largest_mb(settings, content_type)
             _require_size(limit, max(size, total or 0) if content_type else size)
@@ -141,7 +141,7 @@ def _receive(
 def _recognise(path: Path, flush: Callable[[], None], name: str) -> str:
     flush()
     with path.open("rb") as file:
-        head = file.read(HEAD_BYTES)
+        head = file.read(SNIFFED_BYTES)
     try:
         return recognise(head, name, declared="")  # what hosts declare says little
     except Problem as problem:

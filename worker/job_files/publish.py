@@ -30,7 +30,7 @@ from worker.retry_db import retry_db
 
 REPORT_BYTES = 1_000_000
 """Bytes of a report that are read: the process that wrote it may be in a stranger's hands."""
-MAX_STAGES = 40
+MAX_REPORT_STAGES = 40
 """Stages of a report that are read."""
 
 
@@ -116,7 +116,7 @@ def _stage_seconds(out: Path) -> dict[str, float]:
     try:
         with open_plain(out / "report.json") as file:
             stages = json.loads(file.read(REPORT_BYTES))["stages"].items()
-        return {str(name): float(spent) for name, spent in list(stages)[:MAX_STAGES] if 0 <= float(spent) < 1e6}
+        return {str(name): float(spent) for name, spent in list(stages)[:MAX_REPORT_STAGES] if 0 <= float(spent) < 1e6}
     except (FileRefused, OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return {}
 

@@ -15,7 +15,7 @@ from typing import Any
 from service.live.process import LiveOrder, StartLive
 from service.settings import Settings
 from worker.job_process.children import engine_environment, process_limits
-from worker.live.wire import HEAD_BYTES, head, packed
+from worker.live.wire import MESSAGE_HEAD_BYTES, head, packed
 from worker.programs.interpreter import module_command
 from worker.sandbox.privileges import user_id
 
@@ -43,7 +43,7 @@ class Process:
     async def receive(self) -> tuple[bytes, bytes] | None:
         """As `LiveProcess.receive`."""
         try:
-            kind, length = head(await self._reader.readexactly(HEAD_BYTES))
+            kind, length = head(await self._reader.readexactly(MESSAGE_HEAD_BYTES))
             return kind, await self._reader.readexactly(length)
         except (asyncio.IncompleteReadError, OSError, ValueError):
             return None

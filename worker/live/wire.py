@@ -6,8 +6,8 @@ from __future__ import annotations
 import socket
 import threading
 
-HEAD_BYTES = 5
-MAX_MESSAGE_BYTES = 16 << 20
+MESSAGE_HEAD_BYTES = 5
+MAX_WIRE_MESSAGE_BYTES = 16 << 20
 
 
 def packed(kind: bytes, data: bytes) -> bytes:
@@ -17,8 +17,8 @@ def packed(kind: bytes, data: bytes) -> bytes:
 
 def head(given: bytes) -> tuple[bytes, int]:
     """What a message's head says: its kind, and its length. Raises `ValueError` where no message is that long."""
-    length = int.from_bytes(given[1:HEAD_BYTES], "big")
-    if length > MAX_MESSAGE_BYTES:
+    length = int.from_bytes(given[1:MESSAGE_HEAD_BYTES], "big")
+    if length > MAX_WIRE_MESSAGE_BYTES:
         raise ValueError("a message is too long")
     return given[:1], length
 
@@ -38,8 +38,8 @@ class Wire:
 
     def receive(self) -> tuple[bytes, bytes] | None:
         """The next message; None once the other side has gone."""
-        start = self._file.read(HEAD_BYTES)
-        if len(start) < HEAD_BYTES:
+        start = self._file.read(MESSAGE_HEAD_BYTES)
+        if len(start) < MESSAGE_HEAD_BYTES:
             return None
         kind, length = head(start)
         data = self._file.read(length)

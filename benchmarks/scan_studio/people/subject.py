@@ -13,7 +13,7 @@ LAMP_DIRECTIONS = ((0.5, 0.75, 0.6), (-0.7, 0.5, -0.2), (0.1, 0.6, -0.9))
 """Towards the room's lamps."""
 LAMP_SHARES = (0.24, 0.14, 0.12)
 """What each lamp adds at most to a surface that faces it."""
-AMBIENT_SHARE = 0.6
+ROOM_AMBIENT_SHARE = 0.6
 """What comes from everywhere."""
 
 
@@ -75,4 +75,4 @@ def room_light(normals: NDArray[np.floating]) -> NDArray[np.float32]:
     directions = np.array(LAMP_DIRECTIONS)
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
     lit = np.clip(normals @ directions.T, 0, 1) @ np.array(LAMP_SHARES)
-    return np.minimum(AMBIENT_SHARE + lit, 1).astype(np.float32)
+    return np.minimum(ROOM_AMBIENT_SHARE + lit, 1).astype(np.float32)

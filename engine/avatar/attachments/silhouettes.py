@@ -14,7 +14,7 @@ from engine.geometry.camera import Camera
 from engine.geometry.multiview.silhouette_depth import Beside, silhouette_depths
 from engine.render.rasteriser import rasterise
 
-MAX_MISSED_SILHOUETTES_SHARE = 0.3
+MAX_SILHOUETTES_WITHOUT_PIECE_SHARE = 0.3
 """Share of the silhouettes beside the body that may leave out what is there: thin things are seen edge-on in some, and the person
 sways."""
 BESIDE_BODY_METRES = 0.006
@@ -39,10 +39,10 @@ class Silhouettes:
 
     def depths(self, points: NDArray[np.floating]) -> tuple[NDArray[np.float32], NDArray[np.uint16]]:
         """(N,) metres by which `points` (N, 3) lie within the silhouettes of the views that have them beside the body, but for
-        `MAX_MISSED_SILHOUETTES_SHARE` of these, negative outside; and (N,) how many views have them there: +inf where
+        `MAX_SILHOUETTES_WITHOUT_PIECE_SHARE` of these, negative outside; and (N,) how many views have them there: +inf where
         none has."""
         beside = Beside(self.bare, BESIDE_BODY_METRES)
-        return silhouette_depths(points, self.masks, self.cameras, MAX_MISSED_SILHOUETTES_SHARE, beside)
+        return silhouette_depths(points, self.masks, self.cameras, MAX_SILHOUETTES_WITHOUT_PIECE_SHARE, beside)
 
     def confirm(self, vertices: NDArray[np.floating], triangles: NDArray[np.int32]) -> bool:
         """Whether enough views have a surface, vertices (V, 3) and triangles (T, 3), beside the body, and most of what it adds there

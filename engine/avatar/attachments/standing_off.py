@@ -33,7 +33,7 @@ STANDING_OFF_NEIGHBOUR_METRES, MIN_STANDING_OFF_NEIGHBOURS = 0.012, 10
 """Metres within which so many others stand off with a point."""
 MIN_PIECE_POINTS = 250
 """Points of a piece that stand off: at their spacing a hand's palm of it."""
-PIECE_GAP_METRES = 0.012
+ATTACHED_PIECE_GAP_METRES = 0.012
 """Metres that part pieces."""
 
 
@@ -85,10 +85,10 @@ def _mean_about(points: NDArray[np.floating], values: NDArray[np.float64]) -> ND
 
 
 def _pieces(points: NDArray[np.floating]) -> NDArray[np.intp]:
-    """(N,) which piece each of the points (N, 3) is of, from 0: those that an empty cell of `PIECE_GAP_METRES` parts."""
+    """(N,) which piece each of the points (N, 3) is of, from 0: those that an empty cell of `ATTACHED_PIECE_GAP_METRES` parts."""
     if not len(points):
         return np.zeros(0, np.intp)
-    cells = np.floor((points - points.min(0)) / PIECE_GAP_METRES).astype(int)
+    cells = np.floor((points - points.min(0)) / ATTACHED_PIECE_GAP_METRES).astype(int)
     grid = np.zeros(cells.max(0) + 1, np.bool_)
     grid[tuple(cells.T)] = True
     return np.asarray(ndimage.label(grid, np.ones((3, 3, 3)))[0][tuple(cells.T)] - 1, np.intp)

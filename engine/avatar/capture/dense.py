@@ -35,7 +35,7 @@ SIGHT_SUBSAMPLING = 16
 """One of so many points of the hull's surface tells which views share sight."""
 SOURCE_VIEW_COUNT, ASKED_VIEW_COUNT = 4, 12
 """Views that a view is measured against, and those that are asked about its points."""
-ALIGNMENT_ROUNDS = 2
+VIEW_ALIGNMENT_ROUNDS = 2
 """Rounds of laying views on the fused cloud."""
 FUSED_STEP = 2
 """Of a view's rows and of its columns one in so many gives points of the cloud: others show the same places."""
@@ -43,7 +43,7 @@ ALIGNMENT_STEP = 3
 """Of a view's rows and of its columns one in so many is fused to the cloud on which views are laid."""
 MAX_ALIGNED_VIEW_POINTS = 1500
 """Points of a view, at most, that are laid on the cloud."""
-ALIGNMENT_GATE_METRES = 0.02
+VIEW_ALIGNMENT_GATE_METRES = 0.02
 """Metres within which the cloud's surface is looked for."""
 CLOUD_SPACING_METRES = 0.003
 """Metres: of points in one cell so wide one stays."""
@@ -63,7 +63,7 @@ RIM_GAP_METRES = 0.015
 """Metres around a point of a silhouette's rim in which stereo found nothing."""
 RIM_RADIUS_METRES, MIN_RIM_CONFIRMATIONS = 0.01, 3
 """Metres within which so many others confirm it, and from one that is taken to the next."""
-PIECE_GAP_METRES, PIECE_SHARE = 0.02, 0.01
+CLOUD_PIECE_GAP_METRES, PIECE_SHARE = 0.02, 0.01
 """Metres that part pieces, and what a piece must have of the largest one's points."""
 
 
@@ -101,7 +101,7 @@ def dense_cloud(
     asked = [[int(v) for v in np.argsort(-row)[:ASKED_VIEW_COUNT] if row[v] > 0] for row in shared]
     maps = _measured(straight, hull, sources, told)
     images = [view.image for view in straight]
-    for _ in range(ALIGNMENT_ROUNDS):
+    for _ in range(VIEW_ALIGNMENT_ROUNDS):
         thin = fuse_depth_maps(maps, cameras, images, asked, agreement, ALIGNMENT_STEP)
         if not len(thin.cloud):
             raise _not_measured()
@@ -161,7 +161,7 @@ def _aligned(maps: Sequence[DepthMap], cameras: Sequence[Camera], fused: FusedPo
         y, x = y[::step], x[::step]
         points = camera.unproject(np.stack([x, y], axis=-1).astype(np.float64), measured.depth[y, x])
         normals = measured.normals[y, x]
-        motion = align_to_surface(points, normals, tree, surface.normals, ALIGNMENT_GATE_METRES)
+        motion = align_to_surface(points, normals, tree, surface.normals, VIEW_ALIGNMENT_GATE_METRES)
         moved.append(camera.moved(motion))
     return moved
 
@@ -170,7 +170,7 @@ def _cleaned(fused: FusedPoints) -> tuple[PointCloud, NDArray[np.uint8]]:
     """One point in each cell, without lone points and pieces that hang apart, smoothed; and its support."""
     chosen = thinning(fused.cloud.points, CLOUD_SPACING_METRES)
     chosen = chosen[crowded(fused.cloud[chosen], SURFACE_NEIGHBOUR_METRES, MIN_SURFACE_NEIGHBOURS)]
-    chosen = chosen[in_large_pieces(fused.cloud[chosen], PIECE_GAP_METRES, PIECE_SHARE)]
+    chosen = chosen[in_large_pieces(fused.cloud[chosen], CLOUD_PIECE_GAP_METRES, PIECE_SHARE)]
     return smoothed_along_normals(fused.cloud[chosen], POINT_SMOOTHING_RADIUS_METRES), fused.support[chosen]
 
 

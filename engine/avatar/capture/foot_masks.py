@@ -23,21 +23,21 @@ from engine.imaging.masks.mask_pieces import without_small_pieces
 
 FOOT_LANDMARKS = ("Ankle", "Heel", "FootIndex")
 """Of a foot, without their side."""
-REACH_SHARE = 0.6
+FOOT_REACH_LENGTHS = 0.6
 """How far from its marks a foot may reach, in its lengths, and the floor is told from it."""
 CERTAIN_FOOT_SHARES = {"Heel": 0.5, "FootIndex": 0.7}
 """How far from the ankle to a corner it is surely a foot."""
 CERTAIN_SHIN_SHARE = 0.5
 """Of the way to the knee, how much is surely a leg."""
-SURE_SHARE = 0.04
+SURE_FOOT_HALF_WIDTH_LENGTHS = 0.04
 """Half the width of what surely is, in lengths of the foot."""
 CUT_ROUNDS = 2
 """How often masks and floor are found from each other."""
-COVER_PIXELS = 2
+MASK_COVER_PIXELS = 2
 """Around a mask, that are not taken for the floor's."""
 INNER_PIXELS = 1.5
 """From a mask's outline, beyond which it surely shows the person."""
-SPECK_SHARE = 0.02
+FOOT_SPECK_SHARE = 0.02
 """Of a square as wide as a foot is long: smaller pieces, and holes, are nobody's."""
 MIN_DEPTH_METRES = 0.1
 """Metres before the camera."""
@@ -116,7 +116,7 @@ def told_from_floor(frames: Sequence[FootFrame], feet: Sequence[Foot]) -> list[N
             if part is not None:
                 masks[n][part.rows, part.columns] = _told_apart(frame, part, masks[n], floor, person, floor.gains[n])
                 ours[n] = part.sure | (distance_inside(masks[n][part.rows, part.columns] & part.area) > INNER_PIXELS)
-        covered = [dilate_mask(mask, COVER_PIXELS) for mask in masks]
+        covered = [dilate_mask(mask, MASK_COVER_PIXELS) for mask in masks]
     return masks
 
 
@@ -134,8 +134,8 @@ def _near(frame: FootFrame, feet: Sequence[Foot]) -> _Near | None:
         pixels_per_metre = frame.person.focal / float(frame.person.depth(foot.corners.mean(0)))
         length = pixels_per_metre * float(np.linalg.norm(foot.corners[1] - foot.corners[2]))
         lines = frame.person.project(foot.lines.reshape(-1, 3), np.float64)[:, :2].reshape(-1, 2, 2)
-        area |= near_lines(area.shape, corners[[[0, 1], [1, 2], [2, 0]]], REACH_SHARE * length)
-        sure |= near_lines(area.shape, lines, SURE_SHARE * length)
+        area |= near_lines(area.shape, corners[[[0, 1], [1, 2], [2, 0]]], FOOT_REACH_LENGTHS * length)
+        sure |= near_lines(area.shape, lines, SURE_FOOT_HALF_WIDTH_LENGTHS * length)
         lengths.append(length)
     if not area.any():
         return None
@@ -146,7 +146,7 @@ def _near(frame: FootFrame, feet: Sequence[Foot]) -> _Near | None:
 
 def _covered(mask: NDArray[np.bool_], part: _Near | None) -> NDArray[np.bool_]:
     """Where the person may be, before anything is known of the floor."""
-    covered = dilate_mask(mask, 2 * COVER_PIXELS)
+    covered = dilate_mask(mask, 2 * MASK_COVER_PIXELS)
     if part is not None:
         covered[part.rows, part.columns] |= part.area
     return covered
@@ -186,6 +186,6 @@ def _told_apart(
     graph = ContrastGraph.of(image.astype(np.float64), part.area)
     found = before.copy()
     found[part.area] = graph.cut(costs, np.zeros(len(costs), np.intp)) == 1
-    least = SPECK_SHARE * part.foot_pixels**2
+    least = FOOT_SPECK_SHARE * part.foot_pixels**2
     found = without_small_pieces(~without_small_pieces(~found, least), least)
     return np.where(part.area, found, before)

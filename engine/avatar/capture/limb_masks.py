@@ -20,19 +20,19 @@ from engine.geometry.joint_names import SIDE_NAMES
 from engine.imaging.masks.colour_segmentation import grab_cut
 from engine.imaging.masks.mask_distance import near_lines
 
-PALM_LANDMARKS = ("Wrist", "Index", "Pinky")
+PALM_CORNER_LANDMARKS = ("Wrist", "Index", "Pinky")
 """The corners of a palm, without their side."""
 BONE_LANDMARKS = (("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Hip", "Knee"), ("Knee", "Ankle"))
 """Both ends of what is long, without their side."""
 MAX_LOST_SHARE = 0.2
 """The same in the mean of all frames, beyond which it is the landmarks that are wrong: networks do not lose a limb so often."""
-REACH_SHARE, BONE_REACH_SHARE = 0.35, 0.2
+LIMB_REACH_LENGTHS, BONE_REACH_SHARE = 0.35, 0.2
 """How far a hand, and how far an arm or a leg may reach beyond its marks, in lengths of what is marked."""
 LOST_SHARE = 0.1
 """Of the marks of an arm or a leg, which networks mostly find: where fewer are outside of a mask, it stays as it is."""
-SURE_SHARE = 0.03
+SURE_LIMB_HALF_WIDTH_LENGTHS = 0.03
 """Half the width of what is surely within a limb around its marks, in their lengths."""
-SURROUNDINGS_SHARE = 0.8
+LIMB_SURROUNDINGS_LENGTHS = 0.8
 """How much of what is around a limb tells its colours, in lengths of what is marked."""
 SETTLED_PIXELS = 3
 """From the outline of the mask, where away from limbs the mask stands."""
@@ -48,7 +48,7 @@ class Limb:
     be `lost` in a mask for it to be looked for."""
 
     lines: NDArray[np.float64]
-    reach: float = REACH_SHARE
+    reach: float = LIMB_REACH_LENGTHS
     lost: float = 0.0
 
 
@@ -60,7 +60,7 @@ def limbs_of(landmarks: SpatialLandmarks) -> list[Limb]:
             both = [landmarks.body.get(f"{side}{end}") for end in ends]
             if all(place is not None for place in both):
                 limbs.append(Limb(np.array([both], np.float64), BONE_REACH_SHARE, LOST_SHARE))
-        named = [landmarks.body.get(f"{side}{corner}") for corner in PALM_LANDMARKS]
+        named = [landmarks.body.get(f"{side}{corner}") for corner in PALM_CORNER_LANDMARKS]
         if all(place is not None for place in named):
             a, b, c = (np.asarray(place) for place in named)
             limbs.append(Limb(np.array([[a, b], [b, c], [c, a]])))
@@ -109,8 +109,10 @@ def with_limbs(
         if length < MIN_LIMB_LENGTH_PIXELS:
             continue
         height, width = mask.shape
-        least = np.maximum(np.floor(lines.min((0, 1)) - SURROUNDINGS_SHARE * length).astype(int), 0)
-        most = np.minimum(np.ceil(lines.max((0, 1)) + SURROUNDINGS_SHARE * length).astype(int) + 1, [width, height])
+        least = np.maximum(np.floor(lines.min((0, 1)) - LIMB_SURROUNDINGS_LENGTHS * length).astype(int), 0)
+        most = np.minimum(
+            np.ceil(lines.max((0, 1)) + LIMB_SURROUNDINGS_LENGTHS * length).astype(int) + 1, [width, height]
+        )
         if (most - least < MIN_LIMB_LENGTH_PIXELS).any():
             continue
         part = np.s_[least[1] : most[1], least[0] : most[0]]
@@ -130,7 +132,7 @@ def _limb(
 ) -> NDArray[np.bool_]:
     """The mask of what is around a limb, which is free within the limb's reach alone."""
     near = near_lines(mask.shape, lines, reach * length)
-    sure = near_lines(mask.shape, lines, SURE_SHARE * length)
+    sure = near_lines(mask.shape, lines, SURE_LIMB_HALF_WIDTH_LENGTHS * length)
     kernel = np.ones((2 * SETTLED_PIXELS + 1,) * 2, np.uint8)
     inner = cv2.erode(mask.astype(np.uint8), kernel) > 0
     ours = sure | inner

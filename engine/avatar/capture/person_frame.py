@@ -18,7 +18,7 @@ from engine.geometry.multiview.bundle import Bundle, undistorted
 from engine.geometry.registration.rigid import Similarity
 from engine.perception.body import Body
 
-USUAL_HEIGHT_METRES = 1.7
+TAKEN_HEIGHT_METRES = 1.7
 """Metres that the person is taken to be tall: how tall they are is a matter of scale, which nothing that is measured tells."""
 FLOOR_REACH_CAMERA_DISTANCES = 0.6
 """Distances of the cameras around the person within which the floor is looked for."""
@@ -63,7 +63,7 @@ def person_frame(
     front = _front(bundle, scene.reconstruction.registered, bodies, up, middle)
     axes = np.stack([np.cross(up, front), up, front])
     origin = middle + (lowest - middle @ up) * up
-    linear = USUAL_HEIGHT_METRES / height * axes
+    linear = TAKEN_HEIGHT_METRES / height * axes
     return PersonFrame(Similarity(linear, -linear @ origin), height, floor is not None)
 
 

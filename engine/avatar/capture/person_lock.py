@@ -26,7 +26,7 @@ SWAY_CAMERA_DISTANCES = 0.0025
 """How far they sway in the mean, in distances of the camera: 5 mm at two metres."""
 FEATURE_NOISE_PIXELS = 0.4
 """Pixels by which features of cloth and skin are off in the mean."""
-MIN_INSIDE_SHARE = 0.6
+MIN_TRACK_INSIDE_SHARE = 0.6
 """Share of a track's observations that must lie on the person's masks."""
 
 
@@ -86,7 +86,7 @@ def person_tracks(scene: ClipScene, masks: Sequence[NDArray[np.bool_]] | None) -
         on[mine] = mask[at[:, 1], at[:, 0]]
     counts = np.bincount(found.seen.point, minlength=len(points))
     share = np.bincount(found.seen.point, on, len(points)) / np.maximum(counts, 1)
-    return (inside | ~np.isfinite(points[:, 0])) & (share >= MIN_INSIDE_SHARE)
+    return (inside | ~np.isfinite(points[:, 0])) & (share >= MIN_TRACK_INSIDE_SHARE)
 
 
 def lock_to_person(scene: ClipScene, person: NDArray[np.bool_]) -> PersonLock:

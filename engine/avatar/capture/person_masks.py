@@ -20,7 +20,7 @@ MASK_SIDE_PIXELS = 480
 """Pixels of the longer side."""
 MIN_SURE_PROBABILITY = 0.9
 """Belief of the networks from which they are trusted, and below one less which."""
-SPECK_SHARE = 0.002
+MASK_SPECK_SHARE = 0.002
 """Of a mask's pixels: smaller pieces are nobody's, and smaller holes are nothing between arm and body."""
 SIDES_PER_MARK_RADIUS = 100
 """A point marks what is around it: a spot with a radius of this part of the longer side."""
@@ -64,7 +64,7 @@ def settled_masks(
 
 def _without_specks(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """A mask (h, w) without pieces and holes as small as the spots that points mark."""
-    least = SPECK_SHARE * mask.size
+    least = MASK_SPECK_SHARE * mask.size
     filled = ~without_small_pieces(~mask, least)
     return without_small_pieces(filled, least)
 

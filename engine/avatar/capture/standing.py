@@ -18,7 +18,7 @@ MAX_OFFSET_CAMERA_DISTANCES = 0.1
 """Distances of the cameras by which the person may be seen beside their place: 20 cm at two metres."""
 MAX_EMPTY_FRAMES_SHARE = 0.25
 """Share of the frames that may see nobody there."""
-REWEIGHTING_ROUNDS = 20
+PLACE_REWEIGHTING_ROUNDS = 20
 """Rounds of least squares for the place that most frames agree on."""
 
 
@@ -72,7 +72,7 @@ def _nearest_to_lines(eyes: NDArray[np.float64], across: NDArray[np.float64]) ->
     weights = np.ones(len(eyes))
     offsets = (eyes * across).sum(1)
     place = np.zeros(2)
-    for _ in range(REWEIGHTING_ROUNDS):
+    for _ in range(PLACE_REWEIGHTING_ROUNDS):
         system = np.einsum("n,ni,nj->ij", weights, across, across) + 1e-12 * np.eye(2)
         place = np.linalg.solve(system, (weights * offsets) @ across)
         off = np.abs(across @ place - offsets)

@@ -10,17 +10,17 @@ from numpy.typing import NDArray
 from engine.avatar.landmarks.in_frames import FrameLandmarks
 from engine.avatar.landmarks.robust_triangulation import triangulate_robustly
 from engine.avatar.landmarks.spatial import (
-    EYE_POINT_COUNTS,
+    EYE_POINT_COUNT,
     FACE_LANDMARKS,
     HAND_LANDMARKS,
-    LID_LANDMARKS,
+    LID_POINT_COUNT,
     SpatialLandmarks,
 )
 from engine.body.fitting.hand_fitting import hand_length
 from engine.geometry.camera import Camera
 from engine.geometry.joint_names import SIDE_NAMES
 
-SIGMA_SHARE = 6 / 720
+DETECTED_SIGMA_SHARE = 6 / 720
 """By what share of a frame's shorter side a landmark of the body is off, usually."""
 FACE_SIGMA_SHARE = 0.02
 """By what share of a face's size in the frame one of the face is."""
@@ -41,7 +41,7 @@ def spatial_landmarks(seen: Sequence[tuple[Camera, FrameLandmarks]]) -> SpatialL
     for name in sorted({name for _, found in seen for name in found.body}):
         having = [(camera, *found.body[name]) for camera, found in seen if name in found.body]
         cameras = [camera for camera, _, _ in having]
-        sigma = np.array([SIGMA_SHARE * min(camera.size) for camera in cameras])
+        sigma = np.array([DETECTED_SIGMA_SHARE * min(camera.size) for camera in cameras])
         confidence = np.array([value for _, _, value in having])
         placed = triangulate_robustly(cameras, np.stack([at for _, at, _ in having]), confidence, sigma)
         if placed is not None and placed.agreeing >= MIN_LANDMARK_VIEWS:
@@ -91,7 +91,7 @@ def _eye(seen: Sequence[tuple[Camera, FrameLandmarks]], side: int) -> NDArray[np
         for camera, found in seen
         if found.face is not None and found.eyes is not None and _frontal(found.face)
     ]
-    out = np.full((EYE_POINT_COUNTS, 3), np.nan)
+    out = np.full((EYE_POINT_COUNT, 3), np.nan)
     if len(having) < MIN_LANDMARK_VIEWS:
         return out
     opening = np.array([eye_opening(eye) for _, _, eye in having])
@@ -103,7 +103,7 @@ def _eye(seen: Sequence[tuple[Camera, FrameLandmarks]], side: int) -> NDArray[np
     cameras = [camera for camera, _, _ in having]
     eyes = np.stack([eye for _, _, eye in having])
     sigma = FACE_SIGMA_SHARE * np.array([np.linalg.norm(np.ptp(face, axis=0)) for _, face, _ in having])
-    for k in range(EYE_POINT_COUNTS):
+    for k in range(EYE_POINT_COUNT):
         placed = triangulate_robustly(cameras, eyes[:, k], np.ones(len(eyes)), sigma)
         if placed is not None and placed.agreeing >= MIN_LANDMARK_VIEWS:
             out[k] = placed.place
@@ -112,8 +112,8 @@ def _eye(seen: Sequence[tuple[Camera, FrameLandmarks]], side: int) -> NDArray[np
 
 def eye_opening(eye: NDArray[np.floating]) -> float:
     """How far the lids of an eye (21, D) are apart in the mean, as a share of its width."""
-    upper, lower = eye[1 : LID_LANDMARKS // 2], eye[LID_LANDMARKS - 1 : LID_LANDMARKS // 2 : -1]
-    width = float(np.linalg.norm(eye[0] - eye[LID_LANDMARKS // 2]))
+    upper, lower = eye[1 : LID_POINT_COUNT // 2], eye[LID_POINT_COUNT - 1 : LID_POINT_COUNT // 2 : -1]
+    width = float(np.linalg.norm(eye[0] - eye[LID_POINT_COUNT // 2]))
     return float(np.linalg.norm(upper - lower, axis=1).mean()) / max(width, 1e-9)
 
 

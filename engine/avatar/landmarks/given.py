@@ -14,7 +14,7 @@ from engine.errors import InputError
 from engine.geometry.camera import Camera
 from engine.perception.body import BODY_LANDMARKS
 
-SIGMA_SHARE = 12 / 720
+POINTED_AT_SIGMA_SHARE = 12 / 720
 """By what share of a frame's shorter side a landmark is off that somebody has pointed at in a small picture of it."""
 
 
@@ -57,7 +57,7 @@ def placed_by_hand(given: GivenLandmark, cameras: Sequence[Camera]) -> NDArray[n
     Raises `InputError`: `landmarks_needed` where the views do not agree, or all look along one line.
     """
     seeing = [cameras[view] for view in given.views]
-    sigma = np.array([SIGMA_SHARE * min(camera.size) for camera in seeing])
+    sigma = np.array([POINTED_AT_SIGMA_SHARE * min(camera.size) for camera in seeing])
     found = triangulate_robustly(seeing, given.pixels, np.ones(len(seeing)), sigma)
     if found is None:
         raise InputError(

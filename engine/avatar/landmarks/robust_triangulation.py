@@ -19,7 +19,7 @@ MAX_VIEW_PAIRS = 60
 """Pairs of views that propose a place."""
 MAX_PAIR_COSINE = 0.97
 """Between the lines of sight of a pair: nearly parallel ones do not say how far away a landmark is."""
-REWEIGHTING_ROUNDS = 15
+TRIANGULATION_ROUNDS = 15
 """Rounds of least squares."""
 INLIER_SIGMAS = 2.0
 """Deviations within which a view agrees."""
@@ -64,7 +64,7 @@ def triangulate_robustly(
     if best is None:
         return None
     place = best[1]
-    for _ in range(REWEIGHTING_ROUNDS):
+    for _ in range(TRIANGULATION_ROUNDS):
         weights = confidence / (1 + off(place) ** 2) ** 2 / np.maximum(np.linalg.norm(eyes - place, axis=1), 0.01) ** 2
         place = nearest(weights)
     residuals = off(place)

@@ -15,7 +15,7 @@ FACE_LANDMARKS = 68
 """Points of a face (iBUG)."""
 HAND_LANDMARKS = 21
 """Points of a hand (`engine.perception.hands.HAND_JOINTS`)."""
-LID_LANDMARKS, EYE_POINT_COUNTS = 16, 21
+LID_POINT_COUNT, EYE_POINT_COUNT = 16, 21
 """Points of an eye between its lids, from the outer corner over the upper lid, and with those of its iris, the middle first."""
 
 
@@ -32,7 +32,7 @@ class SpatialLandmarks:
     body: Mapping[str, NDArray[np.float64]]
     face: NDArray[np.float64] = field(default_factory=lambda: np.full((FACE_LANDMARKS, 3), np.nan))
     hands: NDArray[np.float64] = field(default_factory=lambda: np.full((len(SIDE_NAMES), HAND_LANDMARKS, 3), np.nan))
-    eyes: NDArray[np.float64] = field(default_factory=lambda: np.full((len(SIDE_NAMES), EYE_POINT_COUNTS, 3), np.nan))
+    eyes: NDArray[np.float64] = field(default_factory=lambda: np.full((len(SIDE_NAMES), EYE_POINT_COUNT, 3), np.nan))
 
     def without(self, names: frozenset[str]) -> SpatialLandmarks:
         """Those of the body whose names are not among `names`, and all of the face."""

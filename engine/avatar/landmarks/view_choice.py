@@ -19,7 +19,7 @@ FRONT_VIEW_LANDMARKS = ("Nose", "EyeInner", "Eye", "EyeOuter", "MouthLeft", "Mou
 """Landmarks, but for their side, by where they are looked at from."""
 SIDE_TELLING_LANDMARKS = ("Index", "Ear")
 """Landmarks whose confidence says which side of the person is seen."""
-UPPER_LID_FACE_POINTS, LOWER_LID_FACE_POINTS, EYE_CORNER_FACE_POINTS = (
+UPPER_LID_FACE_POINTS, LOWER_LID_FACE_POINTS, EYE_CORNER_POINT_PAIRS = (
     ((37, 38), (43, 44)),
     ((41, 40), (47, 46)),
     ((36, 39), (42, 45)),
@@ -74,7 +74,7 @@ def frontality(face: NDArray[np.float64]) -> float:
         np.linalg.norm(face[list(upper)].mean(0) - face[list(lower)].mean(0))
         / (np.linalg.norm(face[a] - face[b]) + 1e-9)
         for upper, lower, (a, b) in zip(
-            UPPER_LID_FACE_POINTS, LOWER_LID_FACE_POINTS, EYE_CORNER_FACE_POINTS, strict=True
+            UPPER_LID_FACE_POINTS, LOWER_LID_FACE_POINTS, EYE_CORNER_POINT_PAIRS, strict=True
         )
     ]
     return symmetry + float(np.mean(heights))

@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.body_model import BodyModel
 from engine.body.fitting.least_squares import levenberg_marquardt
-from engine.body.fitting.pose_prior import LOWERED_ARMS_RADIANS, joint_limits, pose_prior
+from engine.body.fitting.pose_prior import MEAN_LOWERED_ARMS_RADIANS, joint_limits, pose_prior
 from engine.body.fitting.posing import FITTED_JOINTS
 from engine.body.landmarks import LandmarkModel
 from engine.errors import InputError
@@ -25,7 +25,7 @@ from engine.geometry.closest_points import closest_points
 from engine.geometry.point_cloud import PointCloud
 from engine.geometry.surface import face_normals
 
-SHAPE_COEFFICIENTS = 20
+COARSE_SHAPE_COEFFICIENTS = 20
 """Directions of the body space in which a body may differ from the mean."""
 SHAPE_WEIGHT = 3.0
 """By how much more a coefficient counts than its standard deviation: of the bodies sampled, the few are as odd as clothes are."""
@@ -42,7 +42,7 @@ USUAL_SIGMA = 0.02
 """... and all others."""
 ROUGH_SIGMA = 0.03
 """What is assumed of landmarks at first, at least."""
-LANDMARK_CUTOFF_SIGMAS = 6.0
+COARSE_LANDMARK_CUTOFF_SIGMAS = 6.0
 """Deviations at which a landmark's pull is at its strongest (Geman-McClure)."""
 MAX_LANDMARK_RESIDUAL_METRES = 0.12
 """Metres from the fit beyond which a landmark is wrong: right ones come within 0.03, those of another limb are 0.4 off."""
@@ -51,7 +51,7 @@ MAX_SIGMAS = 2.5
 MIN_LANDMARKS = 8
 SOLE_SIGMA = 0.01
 """Metres that soles reach below the ground, usually: nothing says where feet are that the cloud lacks, except that."""
-POINT_SIGMA_METRES = 0.006
+CLOTHED_POINT_SIGMA_METRES = 0.006
 """Metres by which points are off, usually, for clothes ..."""
 INDEPENDENT_CLOUD_POINTS = 500.0
 """... and as how many independent measurements all of them count: clothes are off alike, and sleeves slide arms along, against
@@ -70,7 +70,7 @@ class Round:
     points: int
 
 
-CLOSEST_POINT_ROUNDS = (*[Round(0.06, 0.3, 4000)] * 5, *[Round(0.04, 0.4, 6000)] * 4, *[Round(0.03, 0.5, 8000)] * 5)
+COARSE_ROUNDS = (*[Round(0.06, 0.3, 4000)] * 5, *[Round(0.04, 0.4, 6000)] * 4, *[Round(0.03, 0.5, 8000)] * 5)
 """The rounds of closest points: gates close and more points are looked at as the body comes nearer."""
 
 
@@ -122,7 +122,7 @@ def fit_to_points(
     landmarks: SpatialLandmarks,
     cloud: PointCloud,
     start: NDArray[np.float64],
-    rounds: Sequence[Round] = CLOSEST_POINT_ROUNDS,
+    rounds: Sequence[Round] = COARSE_ROUNDS,
 ) -> NDArray[np.float64]:
     """The parameters (P,), from `start` (P,), for which the skin is near the cloud as well."""
     names = [name for name in carried.names if name in landmarks.body]
@@ -154,7 +154,7 @@ def _first_guess(
     """Arms half lowered, the whole body turned and placed as the landmarks are."""
     turns = np.zeros((len(FITTED_JOINTS), 3))
     for side, sign in (("Left", -1), ("Right", 1)):
-        turns[FITTED_JOINTS.index(f"{side}Arm"), 2] = sign * LOWERED_ARMS_RADIANS
+        turns[FITTED_JOINTS.index(f"{side}Arm"), 2] = sign * MEAN_LOWERED_ARMS_RADIANS
     parameters = np.concatenate([np.zeros(3), turns.ravel(), np.zeros(model.coefficients)])
     at = model.poser(parameters[None]).carry(carried)[0, chosen]
     turn = Rotation.align_vectors(places - places.mean(0), at - at.mean(0))[0]
@@ -175,7 +175,7 @@ def _residuals(
     """(N, R) landmarks, priors and the ground in standard deviations, for parameters (N, P)."""
     posed = model.poser(parameters)
     off = (posed.carry(carried)[:, chosen] - places) / sigmas[:, None]
-    off = off / np.sqrt(1 + (off**2).sum(-1, keepdims=True) / LANDMARK_CUTOFF_SIGMAS**2)
+    off = off / np.sqrt(1 + (off**2).sum(-1, keepdims=True) / COARSE_LANDMARK_CUTOFF_SIGMAS**2)
     _, turns, coefficients = model.poser.split(parameters)
     stiff = np.array([STIFF_WEIGHT if name in STIFF_JOINTS else 1.0 for name in FITTED_JOINTS[1:]]).repeat(3)
     heights = posed.carry(model.soles)[..., 1]
@@ -206,7 +206,7 @@ def _point_term(
     between /= np.linalg.norm(between, axis=1, keepdims=True)
     weights = 1 / (1 + (nearest.distance[used] / turn.gate) ** 2)
     weights *= np.where(skin.regions["hands"][corners].all(1), HAND_LANDMARK_WEIGHT, 1.0)
-    scale = np.sqrt(weights * INDEPENDENT_CLOUD_POINTS / max(len(weights), 1)) / POINT_SIGMA_METRES
+    scale = np.sqrt(weights * INDEPENDENT_CLOUD_POINTS / max(len(weights), 1)) / CLOTHED_POINT_SIGMA_METRES
     across = np.hypot(1, TANGENTIAL_SHARE) - TANGENTIAL_SHARE
     metric = TANGENTIAL_SHARE * np.eye(3) + across * between[:, :, None] * between[:, None, :]
     metric *= scale[:, None, None]

@@ -39,9 +39,9 @@ FIRST_INNER_FACE_POINT = 17
 """Face landmarks before it lie on the jaw's outline, at another place of it in every view."""
 LID_RIM_FACE_POINTS = (37, 38, 40, 41, 43, 44, 46, 47)
 """Face landmarks on the rims of upper and lower lids, between the corners of the eyes."""
-LID_LANDMARKS = 3000.0
+LID_LANDMARK_WEIGHT = 3000.0
 """What those count in the head's own fit, where nothing else tells how far eyes are open."""
-LANDMARK_SIGMA_METRES = 0.008
+FINE_LANDMARK_SIGMA_METRES = 0.008
 """Metres from the fit before at which a landmark counts a quarter (Geman-McClure): a moustache moves those of the mouth."""
 MAX_FACE_DISTANCE_METRES = 0.03
 """Metres from the coarse fit beyond which, in the median, face landmarks are of a visor or a mask and not used."""
@@ -64,7 +64,7 @@ def fit_head(
     body. Both are one system: a head that is fitted alone drags its neck."""
     stiffness = _stiffness(skin, {"lips": LIP_STIFFNESS, "lids": LID_STIFFNESS, "inner": INNER_STIFFNESS})
     surface = _elastic(skin, body, stiffness)
-    drawn = face_landmarks(skin, body, face, LID_LANDMARKS)
+    drawn = face_landmarks(skin, body, face, LID_LANDMARK_WEIGHT)
     return lay_on_points(surface, cloud.points, cloud.normals, HEAD_STEPS, drawn)
 
 
@@ -89,7 +89,7 @@ def face_landmarks(
     ahead = _straight_ahead(vertices[skin.face_points])
     places = face[known] + ((vertices[at] - face[known]) @ ahead)[:, None] * ahead
     off = np.linalg.norm(vertices[at] - places, axis=1)
-    believed = 1 / (1 + (off / LANDMARK_SIGMA_METRES) ** 2) ** 2
+    believed = 1 / (1 + (off / FINE_LANDMARK_SIGMA_METRES) ** 2) ** 2
     weights = believed * np.where(np.isin(known, LID_RIM_FACE_POINTS), lids, 1.0)
     return SurfaceLandmarks(rows, np.asarray(places, np.float64), weights)
 

@@ -20,7 +20,7 @@ from engine.geometry.point_cloud import PointCloud
 
 FOOT_REACH_METRES = 0.02
 """Metres from the coarse fit's feet within which points are of them."""
-FLOOR_REACH_METRES = 0.012
+SHOE_FLOOR_REACH_METRES = 0.012
 """Metres above the lowest of them below which points may be the floor's."""
 NOSE_LANDMARKS = slice(27, 36)
 """Of the 68 face landmarks: about them there is skin, and no hair."""
@@ -67,7 +67,7 @@ def seen_barefoot(feet: Feet, coarse: NDArray[np.float64], cloud: PointCloud, fa
     `face` (68, 3), NaN where unknown. Where either are not seen, nobody was seen barefoot."""
     own = coarse[feet.masks[0] | feet.masks[1]]
     near = _about(cloud, own, FOOT_REACH_METRES)
-    near = near[near.points[:, 1] > own[:, 1].min() + FLOOR_REACH_METRES]
+    near = near[near.points[:, 1] > own[:, 1].min() + SHOE_FLOOR_REACH_METRES]
     nose = face[NOSE_LANDMARKS]
     nose = nose[np.isfinite(nose).all(1)]
     if not len(nose):

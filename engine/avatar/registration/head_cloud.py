@@ -13,16 +13,16 @@ from engine.geometry.point_cloud import PointCloud, joined
 from engine.geometry.registration.iterative_closest_point import rigid_onto_cloud
 from engine.geometry.registration.rigid import Similarity, fit_rigid, fit_robustly, fit_similarity
 
-LANDMARK_SIGMA_METRES = 0.006
+HEAD_CLOUD_LANDMARK_SIGMA_METRES = 0.006
 """Metres by which face landmarks are off, usually."""
 MIN_FACE_LANDMARKS = 20
 """Face landmarks without which a head's cloud has no place."""
-ALIGNMENT_ROUNDS = 12
+HEAD_CLOUD_ROUNDS = 12
 """Of closest points, rigid."""
 ALIGNMENT_REACH_METRES = 0.25
 """Metres about the head's middle within which the two clouds are laid on each other: hair, neck and shoulders tell how a round
 head is turned."""
-ALIGNMENT_GATE_METRES = 0.03
+HEAD_CLOUD_GATE_METRES = 0.03
 """Metres within which points of one cloud are of what the other shows there."""
 AGREEMENT_DISTANCE_METRES = 0.005
 """Metres within which a point agrees with the other cloud."""
@@ -54,18 +54,18 @@ def head_to_body(
         return None
     target = fitted[skin.face_points[known]]
     fit = fit_rigid if sized else fit_similarity
-    starts = [fit_robustly(landmarks.face[known], target, LANDMARK_SIGMA_METRES, fit).transform]
+    starts = [fit_robustly(landmarks.face[known], target, HEAD_CLOUD_LANDMARK_SIGMA_METRES, fit).transform]
     if sized:
         starts.append(Similarity(np.eye(3), np.zeros(3)))
     middle = fitted[skin.regions["head"]].mean(0)
-    around = body[np.linalg.norm(body.points - middle, axis=1) < ALIGNMENT_REACH_METRES + ALIGNMENT_GATE_METRES]
+    around = body[np.linalg.norm(body.points - middle, axis=1) < ALIGNMENT_REACH_METRES + HEAD_CLOUD_GATE_METRES]
     tree = cKDTree(around.points)
     best, most = starts[0], -1
     for start in starts:
         points = start(cloud.points)
         points = points[np.linalg.norm(points - middle, axis=1) < ALIGNMENT_REACH_METRES]
         points = points[:: max(len(points) // MAX_ALIGNED_HEAD_POINTS, 1)]
-        turn = rigid_onto_cloud(points, around.points, around.normals, ALIGNMENT_GATE_METRES, ALIGNMENT_ROUNDS)
+        turn = rigid_onto_cloud(points, around.points, around.normals, HEAD_CLOUD_GATE_METRES, HEAD_CLOUD_ROUNDS)
         agreed = int(
             np.count_nonzero(np.isfinite(tree.query(turn(points), distance_upper_bound=AGREEMENT_DISTANCE_METRES)[0]))
         )

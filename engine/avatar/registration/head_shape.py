@@ -22,11 +22,11 @@ GATE_METRES = (*[0.02] * 5, *[0.008] * 7)
 """Metres within which points are of the surface there, by rounds."""
 POINTS_PER_ROUND = 5000
 """Points of the cloud that are looked at in each round."""
-POINT_SIGMA_METRES = 0.002
+HEAD_POINT_SIGMA_METRES = 0.002
 """Metres by which the head's points are off, usually ..."""
 INDEPENDENT_HEAD_POINTS = 1000.0
 """... and as how many independent measurements all of them count."""
-LANDMARK_SIGMA_METRES = 0.004
+HEAD_LANDMARK_SIGMA_METRES = 0.004
 """Metres by which face landmarks are off, usually."""
 MIN_HEAD_NORMAL_COSINE = 0.5
 """Between the normals of a point and of the surface there."""
@@ -84,8 +84,8 @@ def head_shape(
         rows, off = _point_rows(head, corners, picked, gate)
         if not len(rows):
             break
-        slopes = head.slopes()[marks].reshape(-1, rows.shape[1]) / LANDMARK_SIGMA_METRES
-        marks_off = (head.vertices()[marks] - face[known]).ravel() / LANDMARK_SIGMA_METRES
+        slopes = head.slopes()[marks].reshape(-1, rows.shape[1]) / HEAD_LANDMARK_SIGMA_METRES
+        marks_off = (head.vertices()[marks] - face[known]).ravel() / HEAD_LANDMARK_SIGMA_METRES
         prior = np.concatenate([np.full(6, 1e-6), np.ones(len(head.coefficients))])
         gradient = rows.T @ off + slopes.T @ marks_off + np.concatenate([np.zeros(6), head.coefficients])
         head = head.moved(-np.linalg.solve(rows.T @ rows + slopes.T @ slopes + np.diag(prior), gradient))
@@ -101,7 +101,7 @@ def _point_rows(
     normals = face_normals(vertices, corners)[nearest.triangle]
     used = (nearest.distance < gate) & ((normals * picked.normals).sum(1) > MIN_HEAD_NORMAL_COSINE)
     at, shares, across = corners[nearest.triangle[used]], nearest.barycentrics[used], normals[used]
-    scale = np.sqrt(INDEPENDENT_HEAD_POINTS / max(int(used.sum()), 1)) / POINT_SIGMA_METRES
+    scale = np.sqrt(INDEPENDENT_HEAD_POINTS / max(int(used.sum()), 1)) / HEAD_POINT_SIGMA_METRES
     off = np.einsum("mk,mkc->mc", shares, vertices[at]) - picked.points[used]
     moved = np.einsum("mk,mkcp->mcp", shares, head.slopes()[at])
     return scale * np.einsum("mc,mcp->mp", across, moved), scale * (off * across).sum(1)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 
 from engine.avatar.registration.body_model import BodyModel
-from engine.avatar.registration.coarse import SHAPE_COEFFICIENTS
+from engine.avatar.registration.coarse import COARSE_SHAPE_COEFFICIENTS
 from engine.avatar.registration.footwear import Feet, load_feet
 from engine.avatar.registration.template_skin.skin import Skin, load_skin
 from engine.body.body_space import BodySpace, load_body_space
@@ -39,7 +39,7 @@ def load_models() -> HumanModels:
     """Load them, once; the first time of all, everything that is made once is made (some minutes)."""
     template, space, rig = load_template(), load_body_space(), load_rig(HUMAN_RIG)
     skin = load_skin(template, space, rig)
-    body = BodyModel(space, skin, SHAPE_COEFFICIENTS)
+    body = BodyModel(space, skin, COARSE_SHAPE_COEFFICIENTS)
     feet = load_feet(skin, space.mean[skin.vertices])
     left, right = hand_model(template, space, rig, "Left"), hand_model(template, space, rig, "Right")
     hands = {"Left": left, "Right": right}

@@ -40,7 +40,7 @@ class Level(NamedTuple):
 ALIGNMENT_LEVELS = (Level(240, 256, 14, 4), Level(480, 448, 28, 3), Level(960, 640, 40, 2))
 BLUR_SIGMA_PIXELS = 1.2
 """Pixels: the deviation by which pictures are blurred, so that between pixels they change as their slopes say."""
-STEEPEST_DEGREES = 70.0
+MAX_ALIGNED_DEGREES = 70.0
 """Between a normal and the way to the camera, from which on a frame has nothing to say about a point."""
 MAX_SHIFT_SIDES = 1 / 30
 """The most that a place is shifted, in shares of the longer side: an arm that drifts by 5 cm, seen from two metres."""
@@ -127,7 +127,7 @@ def _sight(
     pixels = camera.project(points)
     back = np.asarray(camera.eye) - points
     cosine = np.einsum("nk,nk->n", back, normals) / np.maximum(np.linalg.norm(back, axis=1), 1e-9)
-    own = (cosine > np.cos(np.radians(STEEPEST_DEGREES))) & (pixels[:, 2] > 0) & (pixels[:, 2] < view.farthest)
+    own = (cosine > np.cos(np.radians(MAX_ALIGNED_DEGREES))) & (pixels[:, 2] > 0) & (pixels[:, 2] < view.farthest)
     own[own] = seen_points(depth_buffer(camera, surface.vertices, surface.triangles), pixels[own])
     number = np.flatnonzero(own)
     return _Sight(np.asarray(layers), number, pixels[number, :2].copy(), (cosine[number] ** 2).astype(np.float32))

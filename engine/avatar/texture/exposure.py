@@ -15,7 +15,7 @@ MIN_GREY_LEVEL, MAX_GREY_LEVEL = 12.0, 245.0
 """Grey levels, means along an edge, beyond which nothing is learnt: noise, and what is blown out."""
 MAX_COMPARED_EDGES = 6000
 """Edges that are asked, evenly spread over all: each shows it in many frames."""
-REWEIGHTING_ROUNDS = 6
+GAIN_REWEIGHTING_ROUNDS = 6
 """How often frames that disagree are weighted less and the gains found anew."""
 CAUCHY_SCALE = 0.05
 """Difference of logarithms from which two frames are thought to show other things."""
@@ -45,7 +45,7 @@ def _offsets(values: NDArray[np.float32], used: NDArray[np.bool_], lengths: NDAr
     base = used * (lengths / lengths.mean())[:, None]
     weights = base
     offsets = np.zeros(values.shape[1])
-    for _ in range(REWEIGHTING_ROUNDS):
+    for _ in range(GAIN_REWEIGHTING_ROUNDS):
         total = np.maximum(weights.sum(1), 1e-12)
         # each edge's own colour is its mean over the frames, and so drops out of the normal equations
         shared = weights / total[:, None]

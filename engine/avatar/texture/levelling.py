@@ -17,7 +17,7 @@ from engine.imaging.filling.poisson import membrane
 MAX_JUMP_GREY_LEVELS = 24.0
 """Grey levels: a larger difference of two frames is something that they show at different places, no exposure, and counts so
 much."""
-V_CYCLES = 3
+LEVELLING_V_CYCLES = 3
 LEVELLED_STRIP_ROWS = 256
 """Rows that are corrected at once."""
 
@@ -36,7 +36,7 @@ def level_seams(painted: PaintedTexture, charts: NDArray[np.int32]) -> None:
         divergence = np.zeros(size * size, np.float32)
         np.subtract.at(divergence, painted.seams[:, 0], limited[:, channel])
         np.add.at(divergence, painted.seams[:, 1], limited[:, channel])
-        correction = membrane(nothing, inside, V_CYCLES, divergence.reshape(size, size, 1))[..., 0]
+        correction = membrane(nothing, inside, LEVELLING_V_CYCLES, divergence.reshape(size, size, 1))[..., 0]
         for first in range(0, size, LEVELLED_STRIP_ROWS):
             rows = slice(first, first + LEVELLED_STRIP_ROWS)
             corrected = np.clip(np.rint(painted.colours[rows, :, channel] + correction[rows]), 0, 255)

@@ -28,7 +28,7 @@ NORMAL_SMOOTHING_ROUNDS, NORMAL_SMOOTHING_SHARE = 6, 0.5
 """Rounds in which normals become half their neighbours': folds of cloth do not change who sees it best, and patches get fewer."""
 RIM_SHARE = 0.004
 """Of a frame's longer side, by which masks of the person err."""
-STEEPEST_DEGREES = 65.0
+MAX_TAKEN_DEGREES = 65.0
 """Between a normal and the way to the camera, from which on nothing is taken at all."""
 
 
@@ -37,7 +37,7 @@ class ViewSamples:
     """What N frames show of T faces, and of the E edges between two of them that are stitched.
 
     `cosine` (T, N) float32: of the angle between each face's normal and the way to the camera; 0 where the face is not wholly
-    seen, or at more than `STEEPEST_DEGREES`. `density` (T, N) float32: pixels per metre, of a face seen from the front.
+    seen, or at more than `MAX_TAKEN_DEGREES`. `density` (T, N) float32: pixels per metre, of a face seen from the front.
     `pairs` (E, 2) intp: the two faces of each edge. `lengths` (E,) metres. `colours` (E, N, `SAMPLES_PER_SEAM_EDGE`, 3) uint8: the
     frames' pixels along each edge, whether they show it or not.
     """
@@ -71,7 +71,7 @@ def sample_views(surface: ChartedSurface, views: Sequence[FrameView]) -> ViewSam
             seen[seen] = _at(_without_rim(view.person()), view.places(on_faces[seen]))
         middles = points[faces].mean(1)
         towards = view_cosines(view.camera, middles, facing_to)
-        whole = seen.reshape(len(faces), -1).all(1) & (towards > np.cos(np.radians(STEEPEST_DEGREES)))
+        whole = seen.reshape(len(faces), -1).all(1) & (towards > np.cos(np.radians(MAX_TAKEN_DEGREES)))
         whole &= surface.stitched & (view.camera.depth(middles) < view.farthest)
         cosine[:, n] = np.where(whole, towards, 0)
         density[:, n] = view.camera.focal / np.maximum(view.camera.depth(middles), 1e-6)

@@ -36,7 +36,7 @@ EYE_LANDMARK_VERTICES = {
 """The outer and the inner corner of each eye, and its iris, as vertices of the tracked mesh."""
 MAX_GAZE_TRAVEL_EYE_WIDTHS = {"In": 0.2, "Out": 0.2, "Up": 0.13, "Down": 0.17}
 """Eye widths that an iris travels in the picture when a unit of gaze is whole: eyeballs turn by 30 degrees aside, 25 up, 30 down."""
-DEPTH_WEIGHT = 0.1
+UNIT_DEPTH_WEIGHT = 0.1
 """What a difference in depth counts against one across the picture: a single camera guesses at depth."""
 RIDGE_WEIGHT = 0.005
 """Weight of the squares of the weights, as a share of each unit's own sum of squares: all shrink alike by it."""
@@ -91,7 +91,7 @@ def capture_face_units(
     scale, rotation, shift = fit_similarities(rest, meshes, _rigid(len(rest)))
     laid = np.einsum("nji,nvj->nvi", rotation, meshes[:, at] - shift[:, None]) / scale[:, None, None]
     moved = (laid - rest[at]) / float(eye_distance(rest[None])[0])
-    axes = np.array([1.0, 1.0, DEPTH_WEIGHT])
+    axes = np.array([1.0, 1.0, UNIT_DEPTH_WEIGHT])
     basis = (model.units * axes).reshape(len(model.units), -1)
     gaze = np.isin(CAPTURED_UNITS, GAZE_UNITS)
     basis[gaze] = 0

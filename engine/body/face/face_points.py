@@ -14,7 +14,7 @@ from engine.perception.landmarks import fiducials
 
 PICTURE_TO_TEMPLATE = np.diag([1.0, -1.0, -1.0])
 """From the axes of pictures (y down, z away) to the template's."""
-CLOSEST_POINT_ROUNDS = 12
+CANONICAL_FACE_ROUNDS = 12
 """Rounds in which the canonical face is laid on the template's."""
 EYE_CORNER_FACE_POINTS = {"RightEyeOuter": 36, "RightEyeInner": 39, "LeftEyeInner": 42, "LeftEyeOuter": 45}
 MOUTH_CORNER_FACE_POINTS = {"MouthRight": 48, "MouthLeft": 54}
@@ -39,7 +39,7 @@ def lay_canonical_face(template: Template, space: BodySpace) -> tuple[NDArray[np
     laid = canonical_face().astype(np.float64) @ PICTURE_TO_TEMPLATE * unit + middle
     laid += mesh[nose_tip(template, space)] - laid[1]
     tree = cKDTree(mesh[face])
-    for _ in range(CLOSEST_POINT_ROUNDS):
+    for _ in range(CANONICAL_FACE_ROUNDS):
         laid = _similar(laid, mesh[face][tree.query(laid)[1]])
     return face.astype(np.intp), laid
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.body.body_space import BodySpace
 from engine.body.fitting.observation import DIRECTED_LIMBS, Observation
-from engine.body.fitting.posing import FITTED_JOINTS, SHAPE_COEFFICIENTS
+from engine.body.fitting.posing import FITTED_JOINTS, POSED_SHAPE_COEFFICIENTS
 from engine.body.landmarks import LandmarkModel
 from engine.body.rest_pose import T_POSE_DIRECTIONS, shortest_rotation
 from engine.geometry.joint_names import SIDE_NAMES
@@ -39,7 +39,9 @@ def first_guess(
         rotation_vectors[FITTED_JOINTS.index(first)] = _vector(
             shortest_rotation(np.array(T_POSE_DIRECTIONS[first]), frame.T @ (to_world @ direction))
         )
-    return np.concatenate([_place(space, landmarks, view), rotation_vectors.ravel(), np.zeros(SHAPE_COEFFICIENTS)])
+    return np.concatenate(
+        [_place(space, landmarks, view), rotation_vectors.ravel(), np.zeros(POSED_SHAPE_COEFFICIENTS)]
+    )
 
 
 def facing(trunk: Mapping[str, NDArray[np.floating]]) -> NDArray[np.float64]:

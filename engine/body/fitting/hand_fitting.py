@@ -28,9 +28,9 @@ from engine.geometry.joint_names import FINGER_NAMES
 
 LANDMARK_SIGMA_HAND_LENGTHS = 0.05
 """How far landmarks are off, usually, in lengths of the hand seen."""
-DIRECTION_SIGMA = 0.25
+BONE_DIRECTION_SIGMA = 0.25
 """How far the directions of bones in space are off, usually (the difference of unit vectors)."""
-SCALE_SIGMA = 0.2
+SEEN_HAND_SCALE_SIGMA = 0.2
 """Share by which a hand seen is larger or smaller than the template's, usually."""
 SHIFT_SIGMA_HAND_LENGTHS = 0.15
 """Lengths of the hand by which it is elsewhere than the body's fit has it, usually."""
@@ -172,7 +172,7 @@ def _residuals(
     starts, ends = np.array(HAND_BONES).T
     bones = (
         _unit(places[:, ends] - places[:, starts]) - _unit((seen[ends] - seen[starts]) * PICTURE_TO_WORLD)
-    ) / DIRECTION_SIGMA
+    ) / BONE_DIRECTION_SIGMA
     count = len(parameters)
     return np.concatenate(
         [
@@ -180,7 +180,7 @@ def _residuals(
             robust(bones).reshape(count, -1),
             parameters[:, :3] / WRIST_SIGMA,
             parameters[:, 3:5] / (SHIFT_SIGMA_HAND_LENGTHS * length),
-            parameters[:, 5:6] / SCALE_SIGMA,
+            parameters[:, 5:6] / SEEN_HAND_SCALE_SIGMA,
             finger_priors(parameters[:, 6:]),
         ],
         axis=1,

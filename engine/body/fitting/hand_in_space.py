@@ -18,16 +18,16 @@ from engine.body.fitting.articulated_hand import (
     finger_priors,
     robust,
 )
-from engine.body.fitting.hand_on_points import MATCHING_GATES_METRES, HandSkin, PointsOfHand
+from engine.body.fitting.hand_on_points import HAND_GATES_METRES, HandSkin, PointsOfHand
 from engine.body.fitting.least_squares import levenberg_marquardt
 from engine.body.hands import HandModel, finger_landmarks
 from engine.geometry.joint_names import FINGER_NAMES
 
-LANDMARK_SIGMA_METRES = 0.006
+HAND_LANDMARK_SIGMA_METRES = 0.006
 """Metres by which landmarks are off, usually."""
 SHIFT_SIGMA_METRES = 0.02
 """Metres by which the wrist is elsewhere than the body's fit has it, usually."""
-SCALE_SIGMA = 0.15
+OWN_HAND_SCALE_SIGMA = 0.15
 """Share by which a hand is larger or smaller than one of that body, usually."""
 STEPS_OF_ROUND = 4
 """Steps of the search until other points of the cloud are the nearest."""
@@ -35,7 +35,7 @@ MAX_MEDIAN_ERROR_METRES = 0.015
 """Metres by which landmarks are off in the median: beyond, they are not those of a hand."""
 MIN_HAND_LANDMARKS = 12
 """Landmarks with which a hand is known."""
-PALM_LANDMARKS = (0, *(finger_landmarks(finger)[0] for finger in FINGER_NAMES[1:]))
+RIGID_PALM_LANDMARKS = (0, *(finger_landmarks(finger)[0] for finger in FINGER_NAMES[1:]))
 """Landmarks that do not move as fingers bend."""
 MIN_PALM = 4
 """Of those, how many have to be known."""
@@ -90,7 +90,7 @@ def _by_landmarks(hand: ArticulatedHand, seen: NDArray[np.float64]) -> tuple[NDA
     """The parameters (P,) by the landmarks that are `seen` (21, 3) around the wrist, and metres by which these are off in the median:
     NaN where they are too few."""
     known = np.asarray(np.isfinite(seen).all(1))
-    palm = [k for k in PALM_LANDMARKS if known[k]]
+    palm = [k for k in RIGID_PALM_LANDMARKS if known[k]]
     start = np.zeros(7 + HAND_ANGLE_COUNT)
     if known.sum() < MIN_HAND_LANDMARKS or len(palm) < MIN_PALM:
         return start, np.nan
@@ -112,7 +112,7 @@ def _on_points(
     parameters: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """The parameters (P,) for which the hand is near the points of the cloud as well."""
-    for gate in MATCHING_GATES_METRES:
+    for gate in HAND_GATES_METRES:
         points = skin.matched(posed(parameters[None])[0], gate)
         if points is None:
             break
@@ -135,13 +135,13 @@ def _residuals(
 ) -> NDArray[np.float64]:
     """(N, R): what is to be small, in standard deviations; landmarks that are not `seen` (21, 3), NaN, say nothing."""
     known = np.isfinite(seen).all(1)
-    off = robust((_places(hand, parameters)[:, known] - seen[known]) / LANDMARK_SIGMA_METRES)
+    off = robust((_places(hand, parameters)[:, known] - seen[known]) / HAND_LANDMARK_SIGMA_METRES)
     return np.concatenate(
         [
             off.reshape(len(parameters), -1),
             parameters[:, :3] / WRIST_SIGMA,
             parameters[:, 3:6] / SHIFT_SIGMA_METRES,
-            parameters[:, 6:7] / SCALE_SIGMA,
+            parameters[:, 6:7] / OWN_HAND_SCALE_SIGMA,
             finger_priors(parameters[:, 7:]),
         ],
         axis=1,

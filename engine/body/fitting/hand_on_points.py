@@ -12,7 +12,7 @@ from engine.geometry.closest_points import closest_points
 from engine.geometry.point_cloud import PointCloud
 from engine.geometry.surface import face_normals
 
-POINT_SIGMA_METRES = 0.003
+HAND_POINT_SIGMA_METRES = 0.003
 """Metres by which points are off a hand's skin, usually ..."""
 INDEPENDENT_POINTS = 60.0
 """... and as how many independent measurements all of them count: fingers drift while others are filmed, and drift as one."""
@@ -20,7 +20,7 @@ MIN_HAND_POINTS = 50
 """Points that say something of a hand."""
 MIN_HAND_NORMAL_COSINE = 0.4
 """The least cosine between the normals of a point and of the skin."""
-MATCHING_GATES_METRES = (0.015, 0.012, 0.010, 0.008)
+HAND_GATES_METRES = (0.015, 0.012, 0.010, 0.008)
 """Metres within which points are the hand's, one round after the other."""
 
 
@@ -96,7 +96,7 @@ class HandSkin:
         weights = np.maximum(1 - (nearest.distance[used] / gate) ** 2, 0)
         return PointsOfHand(
             np.asarray(cloud.points[used], np.float64),
-            normals[used] * (np.sqrt(weights * INDEPENDENT_POINTS / used.sum()) / POINT_SIGMA_METRES)[:, None],
+            normals[used] * (np.sqrt(weights * INDEPENDENT_POINTS / used.sum()) / HAND_POINT_SIGMA_METRES)[:, None],
             number[corners[used]],
             nearest.barycentrics[used],
         )

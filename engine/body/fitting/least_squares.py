@@ -12,14 +12,16 @@ from numpy.typing import NDArray
 
 DIFFERENCE_STEP = 1e-4
 """The difference of a parameter from which derivatives come."""
-MAX_STEPS = 40
+MAX_SEARCH_STEPS = 40
 """Most steps of a search."""
 MIN_RELATIVE_GAIN = 1e-5
 """The share of the sum of squares that a step must gain for the search to go on."""
 
 
 def levenberg_marquardt(
-    residuals: Callable[[NDArray[np.float64]], NDArray[np.float64]], start: NDArray[np.float64], steps: int = MAX_STEPS
+    residuals: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    start: NDArray[np.float64],
+    steps: int = MAX_SEARCH_STEPS,
 ) -> NDArray[np.float64]:
     """The parameters (P,) near `start` for which the sum of squares of `residuals`, (N, P) to (N, R), is least, as far as so
     many `steps` lead.

@@ -29,7 +29,7 @@ JOINT_SIGMA = {
 JOINT_LIMIT_SIGMA = 0.05
 """Radians beyond a joint's limit that weigh as much as one standard deviation."""
 
-LOWERED_ARMS_RADIANS = 0.8
+MEAN_LOWERED_ARMS_RADIANS = 0.8
 """Radians by which arms hang lower than in T-pose, in the mean."""
 
 
@@ -39,7 +39,7 @@ def pose_prior(rotation_vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     sigma = np.array([JOINT_SIGMA[_kind(name)] for name in FITTED_JOINTS[1:]])
     mean = np.zeros_like(sigma)
     for side, sign in (("Left", -1), ("Right", 1)):
-        mean[FITTED_JOINTS.index(f"{side}Arm") - 1, 2] = sign * LOWERED_ARMS_RADIANS
+        mean[FITTED_JOINTS.index(f"{side}Arm") - 1, 2] = sign * MEAN_LOWERED_ARMS_RADIANS
     return np.asarray(((rotation_vectors[:, 1:] - mean) / sigma).reshape(len(rotation_vectors), -1))
 
 

@@ -20,7 +20,7 @@ FITTED_JOINTS = (
 )
 """The joints whose rotations are sought; the others stay as at rest."""
 
-SHAPE_COEFFICIENTS = 12
+POSED_SHAPE_COEFFICIENTS = 12
 """Of the body space, that are sought."""
 
 

@@ -21,7 +21,7 @@ from engine.geometry.joint_names import SIDE_NAMES
 
 LANDMARK_CUTOFF_SIGMAS = 4.0
 """Deviations at which a landmark's pull is at its strongest (Geman-McClure)."""
-DIRECTION_SIGMA = np.array([[0.25, 0.25, 0.25]] * 4 + [[0.25, 0.25, 1.2]] * 4)
+LIMB_DIRECTION_SIGMA = np.array([[0.25, 0.25, 0.25]] * 4 + [[0.25, 0.25, 1.2]] * 4)
 """How far the directions of `DIRECTED_LIMBS` are off, usually (the difference of unit vectors). Perception has legs lean away from
 the viewer, by half a right angle at times: only where they bend much is it to be believed."""
 TRUNK_LEAN_SIGMA = 0.12
@@ -109,7 +109,7 @@ def _landmark_term(view: Observation, points: NDArray[np.float64], names: Sequen
 def _limb_terms(view: Observation, joints: NDArray[np.float64], names: Sequence[str]) -> list[NDArray[np.float64]]:
     """Each (N, R): directions of limbs and crossed forearms as a view has them."""
     limbs = (_limbs(view, joints, names) - view.directions) * np.sqrt(view.direction_confidence)[:, None]
-    data = [(limbs / DIRECTION_SIGMA).reshape(len(joints), -1)]
+    data = [(limbs / LIMB_DIRECTION_SIGMA).reshape(len(joints), -1)]
     if view.crossing is not None:
         data.append(_crossing_term(view.crossing, -view.camera.depth(joints), names))
     return data

@@ -24,7 +24,7 @@ HAND_SEARCH_RADIUS_FOREARMS = 0.175
 """How far around a hand's middle it is looked for, in lengths of a forearm."""
 MIN_VISIBILITY_MARGIN = 0.06
 """By how much more of its place one hand must show than the other to be the one that is seen."""
-MAX_SKIN_SHARE = 0.5
+MAX_SLEEVE_SKIN_SHARE = 0.5
 """Share of the sleeves that may look like skin; of bare arms nothing can be said."""
 COLOUR_COPY_SIZE_PIXELS, MIN_SAMPLE_PIXELS = 640, 60
 """Pixels of the longer side of the copy in which colours are compared, and of face or sleeves, at least, to be compared."""
@@ -114,7 +114,7 @@ def _skin(figure: Figure, mask: NDArray[np.bool_], at: dict[str, NDArray[np.floa
     if min(len(own), len(worn)) < MIN_SAMPLE_PIXELS:
         return None
     skin, cloth = ColourMixture.fit(own), ColourMixture.fit(worn)
-    if (skin.negative_log_likelihood(worn) < cloth.negative_log_likelihood(worn)).mean() > MAX_SKIN_SHARE:
+    if (skin.negative_log_likelihood(worn) < cloth.negative_log_likelihood(worn)).mean() > MAX_SLEEVE_SKIN_SHARE:
         return None
     found = np.zeros(person.shape, np.uint8)
     found[person] = skin.negative_log_likelihood(colours[person]) < cloth.negative_log_likelihood(colours[person])

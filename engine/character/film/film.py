@@ -22,7 +22,7 @@ from engine.render.ground_shadow import GroundShadow
 
 DEFAULT_VIDEO_PIXELS = 1280
 """Pixels of the video by default."""
-WALL_DISTANCE_METRES = 1.6
+WALL_BEHIND_METRES = 1.6
 """How far behind the person the picture's wall stands, metres."""
 
 
@@ -53,7 +53,7 @@ def film(
     main = people[0][0]
     camera = resized_camera(picture_camera(main, fitted, (height, width)), size)
     small = np.asarray(cv2.resize(plate, size, interpolation=cv2.INTER_AREA), np.uint8)
-    backdrop = Backdrop(small, camera, float(main.eye[2]) + WALL_DISTANCE_METRES)
+    backdrop = Backdrop(small, camera, float(main.eye[2]) + WALL_BEHIND_METRES)
     return film_cast(cast_of(people), moving_camera(main, camera, move), backdrop.seen_by, shadow, alone)
 
 

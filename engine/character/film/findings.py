@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from engine.character.figure.placed_joints import PLACEABLE_JOINTS
 from engine.character.figure.strokes import LABEL_COLOURS
-from engine.character.film.film import WALL_DISTANCE_METRES
+from engine.character.film.film import WALL_BEHIND_METRES
 from engine.character.film.person import Person
 from engine.character.rig.measures import picture_camera
 from engine.media.image import write_image
@@ -42,7 +42,7 @@ def write_findings(out: Path, people: Sequence[Person]) -> None:
             "focal": round(first.fitted.camera.focal, 3),
             "centre": list(first.fitted.camera.centre),
             "size": [width, height],
-            "wall": WALL_DISTANCE_METRES,
+            "wall": WALL_BEHIND_METRES,
         },
         "woken": woken(people),
     }

@@ -27,7 +27,7 @@ from engine.imaging.masks.mask_pieces import largest_piece
 from engine.render.rasteriser import rasterise
 
 HEAD_LABEL, TRUNK_LABEL = BODY_PARTS.index("head"), BODY_PARTS.index("torso")
-MIN_HEAD_WEIGHT = 0.3
+MIN_SHOWN_HEAD_WEIGHT = 0.3
 """Share of the head in what moves a vertex that may show in its outline."""
 HAIR_DEPTH_SHARE = 0.09
 """How far hair that keeps to the skull stands off it, as a share of the head's height."""
@@ -60,7 +60,7 @@ def hair_keeps_to_the_head(
     height, width = silhouette.alpha.shape
     if not own.any() or (places < 0).any() or (places > [width - 1, height - 1]).any():
         return False
-    of_head, size = mesh.parts[:, HEAD_LABEL] > MIN_HEAD_WEIGHT, np.ptp(skull[:, 1])
+    of_head, size = mesh.parts[:, HEAD_LABEL] > MIN_SHOWN_HEAD_WEIGHT, np.ptp(skull[:, 1])
     covered, neck = (_covered(mesh, template, each, own.shape) for each in (of_head, of_head & _below_the_mouth(mesh)))
     loose = (own & ~dilate_mask(covered, round(HAIR_DEPTH_SHARE * size))).sum() / own.sum()
     at_neck = dilate_mask(neck, round(NECK_SURROUND_SHARE * size)) & ~dilate_mask(

@@ -35,7 +35,7 @@ LEG_UNDER_CLOTH_SHARE = 0.06
 """How far a leg goes on under cloth that hangs, as a share of the person's height."""
 INSET_PIXELS = 1.5
 """Pixels by which what is within the trunk lies beneath its surface."""
-MIN_DEPTH_SHARE = 0.2
+MIN_LIMB_DEPTH_SHARE = 0.2
 """Share of the trunk's depth that a limb within it keeps about its middle, at least."""
 LIMB_EDGE_TOLERANCE_PIXELS = 3
 """Pixels from limbs that are seen within which nothing is taken to be hidden by the trunk: outlines do not lie on one another exactly."""
@@ -163,7 +163,7 @@ def _within(
     shape = trunk.mask.shape
     half = np.where(trunk.mask, (trunk.front.depth - trunk.back.depth) / 2, 0)
     middle = np.where(trunk.mask, (trunk.front.depth + trunk.back.depth) / 2, 0)
-    beneath = np.minimum(INSET_PIXELS, half * (1 - MIN_DEPTH_SHARE))
+    beneath = np.minimum(INSET_PIXELS, half * (1 - MIN_LIMB_DEPTH_SHARE))
     inner = cv2.erode(trunk.mask.astype(np.uint8), np.ones((3, 3), np.uint8), borderValue=0) > 0
     limb = limbs.limb >= 0
     x, y = np.clip(np.rint(vertices[:, :2]), 0, [shape[1] - 1, shape[0] - 1]).astype(int).T

@@ -26,7 +26,7 @@ MAX_GAP_WIDTH_SHARE = 0.08
 picture's height."""
 MIN_VISIBLE_PIECE_SHARE = 0.005
 """Share of what is seen below which a piece of it is not missed."""
-MIN_BORDER_PIXELS = 8
+MIN_OCCLUSION_BORDER_PIXELS = 8
 """Pixels of border that make an occlusion."""
 
 
@@ -39,7 +39,7 @@ def rest_places(
     """
     found = np.full((*labels.shape, 3), np.nan, np.float32)
     mask, source = largest_piece(labels == label), largest_piece(template == label)
-    if mask.sum() < MIN_BORDER_PIXELS or source.sum() < MIN_BORDER_PIXELS:
+    if mask.sum() < MIN_OCCLUSION_BORDER_PIXELS or source.sum() < MIN_OCCLUSION_BORDER_PIXELS:
         return found
     border, reference = outline(mask), outline(source)
     if len(border) < 4 or len(reference) < 4:
@@ -73,7 +73,7 @@ def occlusion_pixels(
             with np.errstate(invalid="ignore"):
                 far = np.linalg.norm(places[limb][own] - places[other][at[0][here], at[1][here]], axis=-1) > near
             found[own] |= far
-    return found if found.sum() >= MIN_BORDER_PIXELS else np.zeros_like(found)
+    return found if found.sum() >= MIN_OCCLUSION_BORDER_PIXELS else np.zeros_like(found)
 
 
 def occlusion_mask(pixels: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -139,7 +139,11 @@ def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
     start = int(np.flatnonzero(~flags)[0])
     turned = np.roll(flags, -start).astype(np.int8)
     begins, ends = np.flatnonzero(np.diff(turned) == 1) + 1, np.flatnonzero(np.diff(np.append(turned, 0)) == -1)
-    return [(int(b) + start, int(e) + start) for b, e in zip(begins, ends, strict=True) if e - b >= MIN_BORDER_PIXELS]
+    return [
+        (int(b) + start, int(e) + start)
+        for b, e in zip(begins, ends, strict=True)
+        if e - b >= MIN_OCCLUSION_BORDER_PIXELS
+    ]
 
 
 def _similarity(

@@ -21,7 +21,7 @@ SHOULDER_RADIUS_METRES, TRUNK_SAMPLE_RADIUS_METRES = 0.13, 0.35
 """Metres around a shoulder in which labels may go by colours, and in which the trunk's are learned."""
 MIN_LABEL_LOG_LIKELIHOOD_RATIO = 4.0
 """By how much a colour must be likelier of one than of the other, in units of equation 16."""
-MIN_AGREEING_SHARE, MAX_TRUNK_COLOURED_ARM_SHARE = 0.8, 0.3
+MIN_TRUNK_COLOURED_SHARE, MAX_TRUNK_COLOURED_ARM_SHARE = 0.8, 0.3
 """Share of the pixels that must be so, and of those labelled an arm that may be of the trunk's colours: more are a sleeve's, cut
 from the cloth of the trunk."""
 
@@ -51,7 +51,7 @@ def labelled_shoulders(
         of_the_trunk = (likelier < 0) & own[here]
         if (
             abs(likelier) > MIN_LABEL_LOG_LIKELIHOOD_RATIO
-        ).mean() > MIN_AGREEING_SHARE and of_the_trunk.sum() <= MAX_TRUNK_COLOURED_ARM_SHARE * own[here].sum():
+        ).mean() > MIN_TRUNK_COLOURED_SHARE and of_the_trunk.sum() <= MAX_TRUNK_COLOURED_ARM_SHARE * own[here].sum():
             found = ContrastGraph.of(colours, here).cut(costs, costs.argmin(1))
             whole = out.copy()
             whole[here] = np.array([BODY_PARTS.index("torso"), arm, BODY_PARTS.index("head")])[found]

@@ -34,7 +34,7 @@ MIN_FOOT_WEIGHT = 0.6
 ANKLE_HEIGHT_METRES = 0.1
 NOSE_FIDUCIALS = slice(27, 36)
 """Of the fiducials: about them there is skin."""
-MAX_FOOT_HUE_DISTANCE, MIN_FOOT_LIGHTNESS_RATIO, MAX_FOOT_LIGHTNESS_RATIO, MIN_BARE_FOOT_SHARE = 9.0, 0.6, 1.5, 0.6
+MAX_BARE_FOOT_HUE_DISTANCE, MIN_FOOT_LIGHTNESS_RATIO, MAX_FOOT_LIGHTNESS_RATIO, MIN_BARE_FOOT_SHARE = 9.0, 0.6, 1.5, 0.6
 """By how much the skin of a foot differs from the face's in CIELAB's a and b at most, how light it may be, in the face's lightness,
 and of how much of a foot that must hold for it to be bare."""
 MIN_SHIN_WEIGHT = 0.9
@@ -116,7 +116,7 @@ def barefoot(figure: Figure, silhouette: Silhouette, labels: Labels, template: N
         seen = lab[legs & (cv2.dilate(near, np.ones((5, 5), np.uint8)) > 0)]
         if len(seen) < MIN_COLOUR_PIXELS:
             return False
-        same = np.linalg.norm(seen[:, 1:] - own[1:], axis=1) < MAX_FOOT_HUE_DISTANCE
+        same = np.linalg.norm(seen[:, 1:] - own[1:], axis=1) < MAX_BARE_FOOT_HUE_DISTANCE
         same &= (seen[:, 0] > MIN_FOOT_LIGHTNESS_RATIO * own[0]) & (seen[:, 0] < MAX_FOOT_LIGHTNESS_RATIO * own[0])
         return bool(same.mean() > MIN_BARE_FOOT_SHARE)
 

@@ -20,7 +20,7 @@ from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
 TRUNK_LABEL, HEAD_LABEL = BODY_PARTS.index("torso"), BODY_PARTS.index("head")
 MIN_OUTLINED_PART_PIXELS = 60
 """Pixels of a part whose border is looked at."""
-MIN_BORDER_PIXELS = 30
+MIN_FOLLOWED_BORDER_PIXELS = 30
 """Pixels of a border that is worth following."""
 DIRECTION_SMOOTHING_PIXELS = 2.5
 """Pixels over which a border's direction is smoothed."""
@@ -95,7 +95,7 @@ def border_points(mask: NDArray[np.bool_]) -> tuple[NDArray[np.float64], NDArray
     """Pixels (N, 2) of the contours of a mask (h, w), those of its holes too, and their outward normals (N, 2)."""
     contours, _ = cv2.findContours(mask.astype(np.uint8), cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
     points = np.concatenate(
-        [np.zeros((0, 2), np.intp)] + [one[:, 0] for one in contours if len(one) >= MIN_BORDER_PIXELS]
+        [np.zeros((0, 2), np.intp)] + [one[:, 0] for one in contours if len(one) >= MIN_FOLLOWED_BORDER_PIXELS]
     )
     soft = cv2.GaussianBlur(mask.astype(np.float32), (0, 0), DIRECTION_SMOOTHING_PIXELS)
     slopes = [cv2.Sobel(soft, cv2.CV_32F, dx, 1 - dx)[points[:, 1], points[:, 0]] for dx in (1, 0)]

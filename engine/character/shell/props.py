@@ -29,7 +29,7 @@ MIN_PROP_REACH_PIXELS, MIN_HEAD_REACH_PIXELS = 6.0, 3.0
 """How far, in pixels, the furthest of a piece is from the shell at least; the same of a head's, for hair is all around it."""
 SHELL_UNDERLAP_PIXELS = 8
 """Pixels by which a piece goes on beneath the shell."""
-MAX_RIM_NORMAL_DEPTH = 0.45
+MAX_PROP_RIM_NORMAL_DEPTH = 0.45
 """Of a unit normal towards the viewer, at most, on a rim."""
 MIN_HAND_RIM_SHARE, MIN_HEAD_RIM_SHARE, MIN_FOOT_RIM_SHARE = 0.35, 0.5, 0.4
 """Share of the rim's nearest vertices that are a hand's, the head's or a foot's where a piece is theirs. At feet nothing is: what is left
@@ -79,7 +79,7 @@ def props_of(
     count, pieces, stats, _ = cv2.connectedComponentsWithStats(rest, connectivity=4)
     away = distance_transform_edt(~covered)
     normals = vertex_normals(pictured, mesh.triangles)
-    rim = np.flatnonzero((np.abs(normals[:, 2]) < MAX_RIM_NORMAL_DEPTH) & ~mesh.eye)
+    rim = np.flatnonzero((np.abs(normals[:, 2]) < MAX_PROP_RIM_NORMAL_DEPTH) & ~mesh.eye)
     tree = cKDTree(pictured[rim, :2])
     found = []
     for number in range(1, count):

@@ -24,7 +24,7 @@ from engine.character.shell.outlines import HEAD_LABEL, part_outlines
 from engine.character.shell.piece import Piece
 from engine.character.shell.props import props_of
 from engine.character.shell.skirt import skirt_of
-from engine.character.shell.template_mesh import MIN_HEAD_WEIGHT, TemplateMesh, template_mesh
+from engine.character.shell.template_mesh import MIN_SURE_HEAD_WEIGHT, TemplateMesh, template_mesh
 from engine.character.shell.thickness import thickened
 from engine.geometry.skinning import bone_transforms, skin
 from engine.imaging.masks.mask_distance import distance_to
@@ -102,7 +102,7 @@ def shaped_head(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
     mesh = template_mesh()
     straight, template = as_fitted(silhouette, fitted)
     places = load_human().space.mean[mesh.ids]
-    head = mesh.head > MIN_HEAD_WEIGHT
+    head = mesh.head > MIN_SURE_HEAD_WEIGHT
     reach = HEAD_SURROUND_METRES + np.linalg.norm(places[head] - places[head].mean(0), axis=1).max()
     near = np.linalg.norm(places - places[head].mean(0), axis=1) < reach
     own, which = mesh.part(near)
@@ -121,7 +121,7 @@ def ears_laid_back(mesh: TemplateMesh, pictured: NDArray[np.float64], mask: NDAr
     (h, w): hair lies over it, or it is closer to the head than the template's."""
     moved, beyond = pictured.copy(), distance_to(mask)
     ears = np.flatnonzero(mesh.ear)
-    middle = np.median(pictured[(mesh.head > MIN_HEAD_WEIGHT) & ~mesh.ear, 0])
+    middle = np.median(pictured[(mesh.head > MIN_SURE_HEAD_WEIGHT) & ~mesh.ear, 0])
     for ear in (ears[pictured[ears, 0] < middle], ears[pictured[ears, 0] >= middle]):
         if not len(ear):
             continue
@@ -141,7 +141,7 @@ def eyes_in_sockets(
 ) -> NDArray[np.float64]:
     """The vertices `pictured` (V, 3) with each eye moved as a whole from where it was in the `template` (V, 3), as the lids around it are:
     nothing joins it to them."""
-    moved, skin = pictured.copy(), np.flatnonzero((mesh.head > MIN_HEAD_WEIGHT) & ~mesh.eye)
+    moved, skin = pictured.copy(), np.flatnonzero((mesh.head > MIN_SURE_HEAD_WEIGHT) & ~mesh.eye)
     eyes = np.flatnonzero(mesh.eye)
     left = template[eyes, 0] < np.median(template[eyes, 0])
     for eye in (eyes[left], eyes[~left]):

@@ -15,7 +15,7 @@ from engine.geometry.surface import triangulate
 
 EAR_RADIUS_METRES, EAR_DEPTH_METRES = 0.045, 0.025
 """Metres around the outermost point of an ear, and inwards from it, that are the ear's."""
-MIN_HEAD_WEIGHT = 0.9
+MIN_SURE_HEAD_WEIGHT = 0.9
 """Share of the head in what moves a vertex that is surely of it."""
 MAX_VERTEX_INFLUENCES = 4
 
@@ -113,7 +113,7 @@ def template_mesh() -> TemplateMesh:
         share(np.array(["Foot" in name or "Toe" in name for name in rig.names])),
         head,
         np.isin(ids, np.unique(template.quads[template.faces("left_eye", "right_eye")])),
-        _ears(human.space.mean[ids], head > MIN_HEAD_WEIGHT),
+        _ears(human.space.mean[ids], head > MIN_SURE_HEAD_WEIGHT),
         tuple(rig.names),
     )
 

@@ -17,7 +17,7 @@ from engine.character.surface.sheets import MIN_HALF_DEPTH_PIXELS, Layer
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.imaging.masks.mask_pieces import largest_piece
 
-MIN_DEPTH_SHARE = 0.5
+MIN_BODY_DEPTH_SHARE = 0.5
 """Share of its depth that the body keeps behind a limb, at least."""
 MAX_FORWARD_PIXELS = 16.0
 """Pixels by which a limb may come forth."""
@@ -46,7 +46,7 @@ def hand_beneath(arm: Layer, body: Layer, hidden: NDArray[np.bool_]) -> Layer:
 
 def body_behind(body: Layer, limb: Layer, own: NDArray[np.bool_]) -> Layer:
     """The body with its front beneath the limb's where the limb is seen (`own` (h, w)) and so hides it; at most as deep as
-    leaves it `MIN_DEPTH_SHARE`. Where the limb is behind the middle and shows beside the body, the body was thought to
+    leaves it `MIN_BODY_DEPTH_SHARE`. Where the limb is behind the middle and shows beside the body, the body was thought to
     go on too far."""
     hidden = body.mask & limb.mask & own
     middle = (body.front.depth + body.back.depth) / 2
@@ -55,7 +55,7 @@ def body_behind(body: Layer, limb: Layer, own: NDArray[np.bool_]) -> Layer:
     beside = dilate_mask(shown, 1)  # or what is between pixels would gape
     mask = largest_piece(body.mask & ~(hidden & (reach < middle) & ~_between(shown) & ~beside))
     front = body.front.depth.copy()
-    front[hidden] = np.clip(reach, body.back.depth + MIN_DEPTH_SHARE * (front - body.back.depth), front)[hidden]
+    front[hidden] = np.clip(reach, body.back.depth + MIN_BODY_DEPTH_SHARE * (front - body.back.depth), front)[hidden]
     return replace(body, mask=mask, front=Surface(front, body.front.weights))
 
 

@@ -51,7 +51,7 @@ HAIR_COLOUR_RATIO = 0.7
 MAX_BACKGROUND_SHARE, BACKGROUND_SHARE_SLOPE, BACKGROUND_BAND_PIXELS = 0.2, 0.1, 8.0
 """How much of a colour at the outline may be the background's; how much more for each pixel of the grid inward, where
 that is less likely; and how far inward it is not possible."""
-MID_GREY_LEVEL = 128.0
+HAIR_MID_LEVEL = 128.0
 """The level on which what is fine about hair is looked at."""
 FULL_STRAND_COVERAGE, MIN_STRAND_COVERAGE = 0.1, 0.3
 """How much hair must be seen, as a share of what is to be covered, or patches of it repeat: these are shown more faintly,
@@ -205,11 +205,11 @@ def _covered(rgb: NDArray[np.uint8], hair: NDArray[np.bool_], head: Head, long: 
     patch, what is fine about it, or where little of it is seen, streaks. Patches alone would carry on whatever shade a
     little hair has at its edge."""
     shade = _interpolated(rgb, hair, head.scale)
-    fine = np.clip(MID_GREY_LEVEL + rgb.astype(np.float32) - shade, 0, 255).astype(np.uint8)
+    fine = np.clip(HAIR_MID_LEVEL + rgb.astype(np.float32) - shade, 0, 255).astype(np.uint8)
     hole = head.mask & ~hair
     whole = float(cv2.erode(hair.astype(np.uint8), np.ones((7, 7), np.uint8)).sum())
     strength = min(1.0, whole / max(FULL_STRAND_COVERAGE * hole.sum(), 1.0))
-    spread = np.abs(fine[hair].astype(np.float32) - MID_GREY_LEVEL).mean()
+    spread = np.abs(fine[hair].astype(np.float32) - HAIR_MID_LEVEL).mean()
     drawn = (
         STRAND_CONTRAST_FACTOR
         * np.sqrt(1 - strength**2)
@@ -217,7 +217,7 @@ def _covered(rgb: NDArray[np.uint8], hair: NDArray[np.bool_], head: Head, long: 
         * _strands(hair.shape, head.scale, LONG_STRAND_PIXELS if long else SHORT_STRAND_PIXELS)[..., None]
     )
     if strength > MIN_STRAND_COVERAGE:
-        drawn = drawn + strength * (inpaint(fine, hole, hair).astype(np.float32) - MID_GREY_LEVEL)
+        drawn = drawn + strength * (inpaint(fine, hole, hair).astype(np.float32) - HAIR_MID_LEVEL)
     return np.where(hair[..., None], rgb, shade + drawn).astype(np.float32)
 
 

@@ -33,7 +33,7 @@ MAX_SLIVER_PIXELS = 5
 """Pixels of the grid up to which a limb that shows beside its label is the outline's roughness."""
 COLOUR_LOOKUP_SHARE = 0.07
 """How far from what is hidden of a limb its colours are looked up, as a share of the person's height."""
-MID_GREY_LEVEL, MAX_DETAIL_LEVELS = 128, 60
+LIMB_MID_LEVEL, MAX_DETAIL_LEVELS = 128, 60
 """The level on which what is fine about a limb is looked at; and the levels beyond which it is no more than that."""
 MIN_SEEN_ARM_SHARE = 0.25
 """Share of an arm that is seen, below which the other one tells more of what it wears."""
@@ -143,11 +143,11 @@ def filled(
         return inpaint(rgb, hole, source)
     box = bounding_box(hole | source)
     like, lost = rings[box], hole[box]
-    fine = np.clip(MID_GREY_LEVEL + rgb[box].astype(np.float32) - like, 0, 255).astype(np.uint8)
-    kept = source[box] & (cv2.absdiff(fine, np.full_like(fine, MID_GREY_LEVEL)) < MAX_DETAIL_LEVELS).all(-1)
-    fine = inpaint(fine, lost, kept) if kept.any() else np.full_like(fine, MID_GREY_LEVEL)
+    fine = np.clip(LIMB_MID_LEVEL + rgb[box].astype(np.float32) - like, 0, 255).astype(np.uint8)
+    kept = source[box] & (cv2.absdiff(fine, np.full_like(fine, LIMB_MID_LEVEL)) < MAX_DETAIL_LEVELS).all(-1)
+    fine = inpaint(fine, lost, kept) if kept.any() else np.full_like(fine, LIMB_MID_LEVEL)
     out = rgb.copy()
-    made = like[lost] + fine[lost] - np.float32(MID_GREY_LEVEL) + np.float32(0.5)
+    made = like[lost] + fine[lost] - np.float32(LIMB_MID_LEVEL) + np.float32(0.5)
     out[box][lost] = np.clip(made, 0, 255).astype(np.uint8)
     return out
 

@@ -36,7 +36,7 @@ BackTexture = Literal["see_through", "mirror", "inpaint"]
 
 OPAQUE_ALPHA = 0.9
 """Alpha from which a pixel's colour is the person's own; colours of the others are continued from these."""
-MIN_PERSON_ALPHA = 0.05
+MIN_NOT_BACKGROUND_ALPHA = 0.05
 """Alpha from which a pixel's colour is not the background's alone."""
 MIN_PART_HALF_WIDTH_PIXELS = 4.0
 """Pixels from the edge of a part to its middle, below which it has no middle of its own."""
@@ -51,7 +51,7 @@ SEAM_START_PIXELS, SEAM_END_PIXELS = 2.0, 8.0
 HEAD_SEAM_START_PIXELS, HEAD_SEAM_END_PIXELS = 1.8, 4.9
 """The same for heads: the back's colours begin on the front, a pixel and a half within the outline, and hair where ears
 and temples end, which is about where the outline is."""
-LIMB_EDGE_BAND_PIXELS = 1.5
+MIXED_LIMB_EDGE_PIXELS = 1.5
 """Pixels of the grid within a limb's edge in which its colours are mixed with others."""
 LIMB_NEIGHBOURHOOD_SHARE = 0.04
 """How far from a limb the body is looked at for what it is made of behind it, as a share of the person's height: what is
@@ -128,7 +128,7 @@ def paint_tiles(
     around = soft_limbs(limbs, seen) > 0.5
     seen = continued_colours(seen, own)
     oval = None if face is None else face * np.array([*[scale] * 4, 1])
-    deep = own & (distance_inside(around | ~own) > LIMB_EDGE_BAND_PIXELS * scale) | own & ~around
+    deep = own & (distance_inside(around | ~own) > MIXED_LIMB_EDGE_PIXELS * scale) | own & ~around
     skin = None if oval is None else np.median(seen[within_oval(oval, own.shape) & own], axis=0)
     wanted = {int(limb) for limb in labels.apart}
     wanted |= set(LEG_LABELS) if wanted & set(LEG_LABELS) else set()
@@ -140,7 +140,9 @@ def paint_tiles(
     head = enlarged_mask(labels.labels == BODY_PARTS.index("head"), size) & own
     beside = body
     if oval is not None and turned is not None and head.any():
-        behind, beside = back_of_the_head(behind, bordered, covered > MIN_PERSON_ALPHA, own, head, oval, turned, scale)
+        behind, beside = back_of_the_head(
+            behind, bordered, covered > MIN_NOT_BACKGROUND_ALPHA, own, head, oval, turned, scale
+        )
     apart = paint_limbs(seen, own, around, labels, replace(surfaces, shown=limbs), oval, scale, round_them)
     hidden = None
     if labels.behind is not None:

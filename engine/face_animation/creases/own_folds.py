@@ -31,7 +31,7 @@ LIP_START_EYE_DISTANCES, LIP_END_EYE_DISTANCES, NOSE_START_EYE_DISTANCES = (0.0,
 """Eye distances from the lips from which folds are eased, and up to which; and from where on, down from the nose's base."""
 MIDLINE_START_EYE_DISTANCES = (0.12, 0.3)
 """Eye distances to either side of the face's middle from which folds are eased: the groove below a nose, a chin and what grows there are none."""
-CONTOUR_MARGIN_EYE_DISTANCES = 0.25
+FOLDS_CONTOUR_EYE_DISTANCES = 0.25
 """Eye distances from the face's contour to where they are eased fully."""
 NARROW_MOUTH_SHARES = (0.04, 0.16)
 """Shares by which the mouth is narrower than the picture's from which on folds fade, and at which they are gone."""
@@ -138,7 +138,7 @@ def _around_mouth(lips: NDArray[np.uint8], points: NDArray[np.float32], unit: fl
     grown = cv2.dilate(nose, np.ones((2 * round(0.05 * unit) + 1,) * 2, np.uint8))
     oval = np.zeros(lips.shape, np.uint8)
     cv2.fillPoly(oval, [points[list(FACE_OVAL)].round().astype(np.int32)], 1)
-    inside = np.clip(cv2.distanceTransform(oval, cv2.DIST_L2, 5) / (CONTOUR_MARGIN_EYE_DISTANCES * unit), 0, 1)
+    inside = np.clip(cv2.distanceTransform(oval, cv2.DIST_L2, 5) / (FOLDS_CONTOUR_EYE_DISTANCES * unit), 0, 1)
     near = (
         smoothstep(away, *LIP_START_EYE_DISTANCES)
         * (1 - smoothstep(away, *LIP_END_EYE_DISTANCES))

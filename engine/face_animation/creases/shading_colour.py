@@ -23,7 +23,7 @@ MIN_LOG_LUMINANCE_SPREAD = 0.04
 """Of the logarithm of luminance, standard deviation: skin that is more even than this shows no shading."""
 CHANNEL_SLOPE_RANGE = ((0.5, 0.8, 0.8), (1.1, 1.3, 1.6))
 """Least and most of each channel."""
-MIN_SKIN_PIXELS = 200
+MIN_SHADED_SKIN_PIXELS = 200
 
 
 def shading_slopes(rgb: NDArray[np.uint8], skin: NDArray[np.floating], unit: float) -> NDArray[np.float32]:
@@ -33,7 +33,7 @@ def shading_slopes(rgb: NDArray[np.uint8], skin: NDArray[np.floating], unit: flo
     """
     soft = cv2.GaussianBlur(rgb.astype(np.float32), (0, 0), max(SHADING_BLUR_EYE_DISTANCES * unit, 0.6))
     colours = np.log(soft[skin > 0.5] + np.float32(FLOOR_GREY_LEVELS))
-    if len(colours) < MIN_SKIN_PIXELS:
+    if len(colours) < MIN_SHADED_SKIN_PIXELS:
         return np.ones(3, np.float32)
     colours -= np.median(colours, axis=0)
     light = colours @ LUMINANCE_WEIGHTS

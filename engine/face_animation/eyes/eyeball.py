@@ -17,7 +17,7 @@ from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS
 from engine.face_animation.whites import eye_whites, white_tint
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
-EYE_VERTICES = ((RIGHT_EYE, RIGHT_IRIS, 33, 133), (LEFT_EYE, LEFT_IRIS, 263, 362))
+EYE_OUTLINE_IRIS_CORNERS = ((RIGHT_EYE, RIGHT_IRIS, 33, 133), (LEFT_EYE, LEFT_IRIS, 263, 362))
 CHEEK_BELOW_EYE_VERTICES = ((117, 118, 119, 120, 100, 101), (346, 347, 348, 349, 329, 330))
 """Vertices of the cheek below each eye."""
 LAYER_MARGIN_EYE_WIDTHS = 0.5
@@ -86,7 +86,7 @@ def prepare_eyes(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> tuple[Ey
 
 
 def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> Eyeball | None:
-    contour, iris, outer, inner = EYE_VERTICES[side]
+    contour, iris, outer, inner = EYE_OUTLINE_IRIS_CORNERS[side]
     ends = mesh[[outer, inner], :2].astype(np.float32)
     width = float(np.linalg.norm(ends[1] - ends[0]))
     opening = mesh[list(contour), :2].astype(np.float32)

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes.eyeball import EYE_VERTICES, LASH_LINE_EYE_WIDTHS, Eyeball, white_light
+from engine.face_animation.eyes.eyeball import EYE_OUTLINE_IRIS_CORNERS, LASH_LINE_EYE_WIDTHS, Eyeball, white_light
 
 FULL_OPENING_CHANGE = 0.15
 """Change of the opening's area, as a share of it, from which the eyeball's layer is fully drawn."""
@@ -52,7 +52,7 @@ def conjugate(looks: NDArray[np.floating]) -> NDArray[np.float64]:
 def iris_positions(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N, 2, 2) where each iris stands between the eye's corners, right eye first, from their middle, in eye widths along
     and across the line between them."""
-    return np.stack([_look(meshes, side) for side in EYE_VERTICES], axis=1)
+    return np.stack([_look(meshes, side) for side in EYE_OUTLINE_IRIS_CORNERS], axis=1)
 
 
 def _look(meshes: NDArray[np.floating], side: tuple) -> NDArray[np.float64]:
@@ -99,7 +99,7 @@ def draw_eye(
     ----------
     mesh : (478, 2) the face in this frame. side : 0 right, 1 left. look : (2,) from `held_looks`.
     """
-    contour, _, outer, inner = EYE_VERTICES[side]
+    contour, _, outer, inner = EYE_OUTLINE_IRIS_CORNERS[side]
     opening = mesh[list(contour), :2].astype(np.float32)
     low = np.maximum(np.floor(opening.min(axis=0)).astype(int) - 1, 0)
     high = np.minimum(np.ceil(opening.max(axis=0)).astype(int) + 2, (frame.shape[1], frame.shape[0]))
@@ -131,7 +131,7 @@ def draw_eye(
 
 def lid_closing_share(eye: Eyeball, mesh: NDArray[np.floating], side: int) -> float:
     """How far the upper lid of a face (478, 2) takes its own colours: 0 as long as it is open, 1 long before it is shut."""
-    by = _open_by(eye, mesh[list(EYE_VERTICES[side][0]), :2].astype(np.float32))
+    by = _open_by(eye, mesh[list(EYE_OUTLINE_IRIS_CORNERS[side][0]), :2].astype(np.float32))
     return float(np.clip((CLOSING_GAP_SHARES[0] - by) / (CLOSING_GAP_SHARES[0] - CLOSING_GAP_SHARES[1]), 0, 1))
 
 

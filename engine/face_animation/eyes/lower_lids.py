@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes.eyeball import EYE_VERTICES
+from engine.face_animation.eyes.eyeball import EYE_OUTLINE_IRIS_CORNERS
 from engine.imaging.masks.colour_segmentation import grab_cut
 
 EYE_PIXELS = 48
@@ -29,7 +29,7 @@ SKIN_FALLOFF_EYE_WIDTHS = 0.4
 def fit_lower_lids(rgb: NDArray[np.uint8], mesh: NDArray[np.float32]) -> NDArray[np.float32]:
     """`mesh` (478, 3), pixels of the picture (H, W, 3), with the lower lids where both eyes end."""
     fitted = mesh.copy()
-    for contour, _, _, _ in EYE_VERTICES:
+    for contour, _, _, _ in EYE_OUTLINE_IRIS_CORNERS:
         eye = _Eye(mesh, contour)
         reach = eye.reach_below(rgb)
         if reach[1:6].min() < MIN_REACH_BELOW or reach.max() > MAX_REACH_BELOW:

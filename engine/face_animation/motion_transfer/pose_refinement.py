@@ -19,7 +19,7 @@ from engine.face_animation.motion_transfer.head_proxy import HeadProxy, chin_len
 from engine.face_animation.motion_transfer.head_room import skull_centre, skull_shift
 from engine.perception.landmarks import MESH_SIZE, RIGID_VERTICES
 
-HAIR_WEIGHT, DEPTH_WEIGHT = 1.5, 2.0
+HAIR_WEIGHT, RIGID_DEPTH_WEIGHT = 1.5, 2.0
 """What all tracked points of the hair together, and the depths of the face's rigid vertices, count against 1 for where those lie in the picture."""
 HAIR_SIGMA_CHIN_LENGTHS = 0.1
 """Lengths from eyes to chin: points of the hair further away from where the pose has them have slipped, and count ever less."""
@@ -62,7 +62,7 @@ def refine_pose(
         depth = seen[..., 2] - face[..., 2]
         equations.add(across, seen[..., 0] - face[..., 0], share)
         equations.add(down, seen[..., 1] - face[..., 1], share)
-        equations.add(_centred(deep), _centred(depth), DEPTH_WEIGHT * share)
+        equations.add(_centred(deep), _centred(depth), RIGID_DEPTH_WEIGHT * share)
         outline = followed_outline(proxy, motion.rotation, skull_centre(neutral))[:, MESH_SIZE:]
         across, down, _ = _derivatives(skull - middle[:, None], outline)
         believed = hair / (1 + slipped**2) ** 2  # Geman and McClure

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from engine.geometry.registration.rigid import Similarity
 
-CLOSEST_POINT_ROUNDS = 4
+CLOUD_ALIGNMENT_ROUNDS = 4
 """How often closest points are found anew."""
 REST_WEIGHT = 1e-3
 """Weight of no motion beside the mean of the points': what they do not determine stays as it is."""
@@ -34,7 +34,7 @@ def align_to_surface(
     places: NDArray[np.float64] = surface.data
     rotation, shift = np.eye(3), np.zeros(3)
     centre = points.mean(axis=0)
-    for _ in range(CLOSEST_POINT_ROUNDS):
+    for _ in range(CLOUD_ALIGNMENT_ROUNDS):
         moved = points @ rotation.T + shift
         distance, nearest = (np.asarray(found) for found in surface.query(moved, distance_upper_bound=gate))
         near = np.flatnonzero(np.isfinite(distance))

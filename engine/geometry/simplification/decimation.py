@@ -21,7 +21,7 @@ from engine.geometry.welding import weld
 BORDER_WEIGHT = 30.0
 """Weight of the planes that hold open borders in place, against those of the surface."""
 
-SEAM_WEIGHT = 1.0
+SEAM_PLANE_WEIGHT = 1.0
 """Weight of the planes that hold seams of the texture in place, against those of the surface: charts should keep their
 outlines."""
 
@@ -69,7 +69,7 @@ def decimate(mesh: SkinnedMesh, triangles: int, importance: NDArray[np.floating]
         mesh.weights[first].astype(np.float64),
         factors,
         triangles,
-        np.array([BORDER_WEIGHT, SEAM_WEIGHT, INFLUENCE_WEIGHT]),
+        np.array([BORDER_WEIGHT, SEAM_PLANE_WEIGHT, INFLUENCE_WEIGHT]),
     )
     kept, index = np.unique(left, return_inverse=True)
     return Decimated(

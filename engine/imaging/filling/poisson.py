@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.imaging.masks.mask_pieces import bounding_box
 
-V_CYCLES = 2
+POISSON_V_CYCLES = 2
 """V-cycles on the finest grid after the full multigrid start: under 1% of the largest boundary step is left."""
 RELAXATION_SWEEPS = 1, 20
 """Of relaxation on a grid, and on the coarsest one, which they solve."""
 
 
 def poisson_blend(
-    source: NDArray[np.float32], target: NDArray[np.float32], mask: NDArray[np.bool_], cycles: int = V_CYCLES
+    source: NDArray[np.float32], target: NDArray[np.float32], mask: NDArray[np.bool_], cycles: int = POISSON_V_CYCLES
 ) -> NDArray[np.float32]:
     """`target` (H, W, C) with `source` cloned into `mask` (H, W): its gradients, the target's edge colours.
 
@@ -34,7 +34,7 @@ def poisson_blend(
 def membrane(
     boundary_difference: NDArray[np.float32],
     mask: NDArray[np.bool_],
-    cycles: int = V_CYCLES,
+    cycles: int = POISSON_V_CYCLES,
     divergence: NDArray[np.float32] | None = None,
 ) -> NDArray[np.float32]:
     """Laplace interpolation into `mask` (H, W) of the values (H, W, C) found just outside it; 0 elsewhere.

@@ -9,14 +9,14 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-FULL_WEIGHT = 0.5
+FULL_PIXEL_WEIGHT = 0.5
 """Of a pixel, from which on it is itself alone."""
 MIN_COARSE_SIDE_PIXELS = 2
 """Pixels of the coarsest level's shorter side, at least."""
 
 
 def pull_push(picture: NDArray[np.floating], weight: NDArray[np.floating]) -> NDArray[np.float32]:
-    """(H, W, C) float32 a picture (H, W, C) where its `weight` (H, W), in [0, 1], is `FULL_WEIGHT` and more; what is about it elsewhere, mixed
+    """(H, W, C) float32 a picture (H, W, C) where its `weight` (H, W), in [0, 1], is `FULL_PIXEL_WEIGHT` and more; what is about it elsewhere, mixed
     in between. Where nothing has a weight, zero."""
     known = np.asarray(weight, np.float32)[..., None]
     return _continued(np.asarray(picture, np.float32) * known, known)
@@ -30,12 +30,12 @@ def _continued(mixed: NDArray[np.float32], known: NDArray[np.float32]) -> NDArra
         coarse = np.broadcast_to(mean, mixed.shape)
     else:
         pulled, weight = _halved(mixed), _halved(known)
-        grown = np.minimum(weight / FULL_WEIGHT, 1) / np.maximum(
+        grown = np.minimum(weight / FULL_PIXEL_WEIGHT, 1) / np.maximum(
             weight, 1e-6
         )  # what little is known here is all that is known
         below = _continued(pulled * grown, weight * grown)
         coarse = _as_coloured(cv2.pyrUp(below, dstsize=(mixed.shape[1], mixed.shape[0])), mixed.shape)
-    share = np.minimum(known / FULL_WEIGHT, 1)
+    share = np.minimum(known / FULL_PIXEL_WEIGHT, 1)
     return np.asarray(share * own + (1 - share) * coarse, np.float32)
 
 

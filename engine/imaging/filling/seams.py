@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.imaging.filling.poisson import membrane
 
-V_CYCLES = 3
+SEAM_V_CYCLES = 3
 """Multigrid cycles on the finest grid: what is left of a seam cannot be seen."""
 
 
@@ -25,7 +25,7 @@ def heal_seams(picture: NDArray[np.float32], field: NDArray[np.int32], mask: NDA
     """
     divergence = np.zeros_like(picture)
     _divergence(np.ascontiguousarray(picture), field, mask, divergence)
-    healed = membrane(picture, mask, V_CYCLES, divergence)
+    healed = membrane(picture, mask, SEAM_V_CYCLES, divergence)
     return np.where(mask[..., None], healed, picture).astype(np.float32)
 
 

@@ -25,7 +25,7 @@ MAX_OFFSET_PIXELS = 1.0
 """Pixels by which a segment's ends may be off the line where it begins."""
 MAX_OFFSET_PER_PIXEL = 0.004
 """Pixels by which they may be off it besides, for each pixel of distance from there."""
-MAX_LINES = 120
+MAX_LINE_COUNT = 120
 """Lines that are looked at, at most."""
 
 
@@ -56,7 +56,7 @@ def lines_towards(picture: NDArray[np.float32], hole: NDArray[np.bool_], least: 
     used = np.zeros(len(ends), bool)
     lines: list[tuple[float, Line]] = []
     for seed in np.flatnonzero(apart.min(axis=1) < MAX_GAP_TO_HOLE_PIXELS):
-        if used[seed] or len(lines) == MAX_LINES:
+        if used[seed] or len(lines) == MAX_LINE_COUNT:
             continue
         line, members = _through(ends[seed][None]), np.array([seed])
         for _ in range(2):

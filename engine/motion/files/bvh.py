@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.motion import rotation
 from engine.motion.files.source_motion import (
-    MAX_FRAMES,
     MAX_JOINT_DEPTH,
     MAX_JOINTS,
     MAX_MOTION_BYTES,
+    MAX_MOTION_FRAMES,
     MAX_NUMBERS,
     Array,
     SourceMotion,
@@ -239,8 +239,8 @@ def _frame_header(count: str, seconds: str) -> tuple[int, float]:
         ) from None
     if frames <= 0:
         raise InputError("motion_empty", "The BVH file has no frames: export the motion, not the skeleton alone.")
-    if frames > MAX_FRAMES:
-        raise InputError("motion_too_large", f"A motion can have {MAX_FRAMES} frames: cut the recording.")
+    if frames > MAX_MOTION_FRAMES:
+        raise InputError("motion_too_large", f"A motion can have {MAX_MOTION_FRAMES} frames: cut the recording.")
     if not 1e-3 <= step <= 2:
         raise InputError("motion_unreadable", "The BVH file's frame time must lie between 0.001 and 2 seconds.")
     return frames, 1 / step

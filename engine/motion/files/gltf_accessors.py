@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.motion.files.gltf_file import GltfFile, Part, natural_number, unreadable
-from engine.motion.files.source_motion import MAX_FRAMES, MAX_NUMBERS
+from engine.motion.files.source_motion import MAX_MOTION_FRAMES, MAX_NUMBERS
 
 T = TypeVar("T")
 
 MAX_NUMBERS_READ = 4 * MAX_NUMBERS
 """Numbers that a file may have read in all: many accessors can point to the same bytes, or to none."""
 
-MAX_ZERO_ELEMENTS = 3 * MAX_FRAMES
+MAX_ZERO_ELEMENTS = 3 * MAX_MOTION_FRAMES
 """Elements of an accessor without bytes: keys with their tangents."""
 
 COMPONENT_TYPES = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}

@@ -21,7 +21,7 @@ from engine.motion.files.gltf_skeleton import (
     node_tree,
     skeleton_nodes,
 )
-from engine.motion.files.source_motion import MAX_FRAMES, MAX_NUMBERS, Array, SourceMotion, unique_names
+from engine.motion.files.source_motion import MAX_MOTION_FRAMES, MAX_NUMBERS, Array, SourceMotion, unique_names
 
 DEFAULT_FPS = 30.0
 """For clips whose keys are sparse."""
@@ -209,8 +209,8 @@ def _sampling(tracks: list[tuple[int, _Track]], joints: int) -> tuple[float, Arr
     fps = 1 / step if 1 / 240 <= step <= 1 / 20 else DEFAULT_FPS
     fps = round(fps) if abs(fps - round(fps)) < 0.05 else fps
     count = int(np.floor((last - first) * fps + 1e-3)) + 1
-    if count > MAX_FRAMES or count * joints * 3 > MAX_NUMBERS:
-        raise InputError("motion_too_large", f"A motion can have {MAX_FRAMES} frames: cut the recording.")
+    if count > MAX_MOTION_FRAMES or count * joints * 3 > MAX_NUMBERS:
+        raise InputError("motion_too_large", f"A motion can have {MAX_MOTION_FRAMES} frames: cut the recording.")
     return float(fps), np.minimum(first + np.arange(count) / fps, last)
 
 

@@ -18,7 +18,7 @@ MAX_JOINTS = 512
 MAX_JOINT_DEPTH = 128
 """Joints from a skeleton's root down to its farthest leaf."""
 
-MAX_FRAMES = 72_000
+MAX_MOTION_FRAMES = 72_000
 """Frames of a motion: ten minutes at 120 a second."""
 
 MAX_MOTION_BYTES = 64 << 20

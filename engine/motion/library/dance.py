@@ -12,7 +12,7 @@ from engine.motion.library.posture import Arm, Foot, Posture, Value, embody
 
 Array = NDArray[np.float64]
 
-BEAT_COUNT, BEAT_SECONDS = 8, 0.5
+BEAT_COUNT, DANCE_BEAT_SECONDS = 8, 0.5
 STEP_WIDTH = 0.3
 """Leg lengths from side to side."""
 
@@ -22,7 +22,7 @@ def dance(skeleton: Skeleton, fps: float) -> Clip:
 
     Each foot goes aside on one beat and comes back on another; it stands still in between.
     """
-    frames = max(round(BEAT_COUNT * BEAT_SECONDS * fps), 8)
+    frames = max(round(BEAT_COUNT * DANCE_BEAT_SECONDS * fps), 8)
     beat = np.arange(frames) / frames * BEAT_COUNT
     bar = beat % 4
     left_at, left_up = _goes(bar, out=0.0, back=3.0)

@@ -18,7 +18,7 @@ from engine.motion.interpolation import places_at, turns_at
 
 Array = NDArray[np.float64]
 
-MIN_LOOP_FRAMES = 8
+MIN_MOTION_LOOP_FRAMES = 8
 """A motion of fewer frames is no loop."""
 
 MAX_SEAM_ERROR = 0.3
@@ -37,7 +37,7 @@ WHOLE_FRAME_TOLERANCE_FRAMES = 0.15
 def as_loop(motion: SourceMotion, heights: Array) -> SourceMotion:
     """The motion as a loop, if it leads into itself and its file does not say otherwise; else the same motion.
     `heights` (F,): of the hips, leg lengths."""
-    if motion.loops is not None or len(motion.rotations) < MIN_LOOP_FRAMES:
+    if motion.loops is not None or len(motion.rotations) < MIN_MOTION_LOOP_FRAMES:
         return motion
     turns, places = motion.rotations, motion.translations
     speeds = rotation.angle(_change(turns[:-1], turns[1:])).max(1)

@@ -12,7 +12,7 @@ from engine.motion.interpolation import places_at, turns_at
 
 Array = NDArray[np.float64]
 
-MIN_LOOP_FRAMES = 8
+MIN_RESAMPLED_LOOP_FRAMES = 8
 """Frames of a loop, at least: it plays slower then."""
 
 
@@ -23,7 +23,7 @@ def resample_source(motion: SourceMotion, fps: float) -> SourceMotion:
     if frames == 1 or abs(fps - motion.fps) < 1e-6 * fps:
         return motion
     if motion.loops:
-        times = np.linspace(0, frames - 1, max(round((frames - 1) / motion.fps * fps), MIN_LOOP_FRAMES) + 1)
+        times = np.linspace(0, frames - 1, max(round((frames - 1) / motion.fps * fps), MIN_RESAMPLED_LOOP_FRAMES) + 1)
     else:
         times = _times(frames, motion.fps, fps)
     return replace(

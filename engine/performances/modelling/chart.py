@@ -21,13 +21,13 @@ AXIS_DEPTH = 0.045
 CHART_RADIUS_METRES = 0.1
 """Metres of u for one radian."""
 
-TEXELS_PER_METRE = 4000.0
+CHART_TEXELS_PER_METRE = 4000.0
 """Texels in a metre: four to the millimetre, a little finer than the supersampled picture."""
 
 CHART_LEFT, CHART_RIGHT, CHART_TOP, CHART_BOTTOM = -0.22, 0.22, 0.95, 0.55
 CHART_SHAPE = (
-    round((CHART_TOP - CHART_BOTTOM) * TEXELS_PER_METRE),
-    round((CHART_RIGHT - CHART_LEFT) * TEXELS_PER_METRE),
+    round((CHART_TOP - CHART_BOTTOM) * CHART_TEXELS_PER_METRE),
+    round((CHART_RIGHT - CHART_LEFT) * CHART_TEXELS_PER_METRE),
 )
 
 
@@ -50,26 +50,26 @@ def texture_coordinates(chart: NDArray[np.floating]) -> NDArray[np.float32]:
 
 def grid() -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """u and v at the centres of the texels, (H, W) float32 each."""
-    u = CHART_LEFT + (np.arange(CHART_SHAPE[1], dtype=np.float32) + 0.5) / TEXELS_PER_METRE
-    v = CHART_TOP - (np.arange(CHART_SHAPE[0], dtype=np.float32) + 0.5) / TEXELS_PER_METRE
+    u = CHART_LEFT + (np.arange(CHART_SHAPE[1], dtype=np.float32) + 0.5) / CHART_TEXELS_PER_METRE
+    v = CHART_TOP - (np.arange(CHART_SHAPE[0], dtype=np.float32) + 0.5) / CHART_TEXELS_PER_METRE
     return np.broadcast_to(u, CHART_SHAPE), np.broadcast_to(v[:, None], CHART_SHAPE)
 
 
 def slopes(height: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """How a relief (H, W), metres, rises along u and along v, (H, W) each."""
-    down, across = np.gradient(height, 1 / TEXELS_PER_METRE)
+    down, across = np.gradient(height, 1 / CHART_TEXELS_PER_METRE)
     return np.asarray(across, np.float32), np.asarray(-down, np.float32)
 
 
 def box(low: Sequence[float], high: Sequence[float]) -> tuple[slice, slice]:
     """The rows and columns of the chart's texels between two corners (u, v), metres."""
     columns = slice(
-        min(max(int((low[0] - CHART_LEFT) * TEXELS_PER_METRE), 0), CHART_SHAPE[1]),
-        min(max(int((high[0] - CHART_LEFT) * TEXELS_PER_METRE) + 1, 0), CHART_SHAPE[1]),
+        min(max(int((low[0] - CHART_LEFT) * CHART_TEXELS_PER_METRE), 0), CHART_SHAPE[1]),
+        min(max(int((high[0] - CHART_LEFT) * CHART_TEXELS_PER_METRE) + 1, 0), CHART_SHAPE[1]),
     )
     rows = slice(
-        min(max(int((CHART_TOP - high[1]) * TEXELS_PER_METRE), 0), CHART_SHAPE[0]),
-        min(max(int((CHART_TOP - low[1]) * TEXELS_PER_METRE) + 1, 0), CHART_SHAPE[0]),
+        min(max(int((CHART_TOP - high[1]) * CHART_TEXELS_PER_METRE), 0), CHART_SHAPE[0]),
+        min(max(int((CHART_TOP - low[1]) * CHART_TEXELS_PER_METRE) + 1, 0), CHART_SHAPE[0]),
     )
     return rows, columns
 
@@ -125,7 +125,8 @@ def noise(rng: np.random.Generator, size: float, octaves: int = 1) -> NDArray[np
     """Smooth random variation, mean 0 and standard deviation 1, with features of about `size` metres; each
     further octave halves the size and the strength."""
     frequencies = (
-        np.hypot(np.fft.fftfreq(CHART_SHAPE[0])[:, None], np.fft.rfftfreq(CHART_SHAPE[1])[None]) * TEXELS_PER_METRE
+        np.hypot(np.fft.fftfreq(CHART_SHAPE[0])[:, None], np.fft.rfftfreq(CHART_SHAPE[1])[None])
+        * CHART_TEXELS_PER_METRE
     ).astype(np.float32)
     total = np.zeros(CHART_SHAPE, np.float32)
     for octave in range(octaves):

@@ -44,7 +44,7 @@ BLINK_UNITS = ("eyeBlinkLeft", "eyeBlinkRight")
 NECK_SHARES = {"neck01": 0.12, "neck02": 0.16, "neck03": 0.22, "head": 0.5}
 """How a turn of the head is shared out between the joints."""
 
-LID_GAP_METRES = 0.0006
+EYEBALL_SKIN_GAP_METRES = 0.0006
 """Metres between the eyeball and the surface of the skin on it."""
 
 MIN_FRAMED_HEIGHT_METRES = 0.45
@@ -226,7 +226,7 @@ def _keep_off(surface: NDArray[np.float32], eye: NDArray[np.float64], centre: ND
     local = (surface[near] - centre) @ eye[:3, :3]
     distance = np.linalg.norm(local, axis=1)
     cosine = local[:, 2] / np.maximum(distance, 1e-9)
-    wanted = profile(cosine) + LID_GAP_METRES
+    wanted = profile(cosine) + EYEBALL_SKIN_GAP_METRES
     inside = (distance < wanted) & (cosine > 0.25)
     local[inside] *= (wanted[inside] / distance[inside])[:, None]
     surface[near] = local @ eye[:3, :3].T + centre

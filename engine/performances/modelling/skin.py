@@ -16,8 +16,8 @@ from engine.performances.modelling.brows import BROW_LINE
 from engine.performances.modelling.chart import (
     CHART_LEFT,
     CHART_SHAPE,
+    CHART_TEXELS_PER_METRE,
     CHART_TOP,
-    TEXELS_PER_METRE,
     blob,
     curve_coordinates,
     grid,
@@ -77,12 +77,16 @@ def _lips(rng: np.random.Generator) -> NDArray[np.float32]:
     upper, lower = smooth_curve(mirrored(UPPER_LIP_BORDER)), smooth_curve(mirrored(LOWER_LIP_BORDER))
     outline = np.concatenate([upper, lower[::-1]])
     texels = np.stack(
-        [(outline[:, 0] - CHART_LEFT) * TEXELS_PER_METRE - 0.5, (CHART_TOP - outline[:, 1]) * TEXELS_PER_METRE - 0.5], 1
+        [
+            (outline[:, 0] - CHART_LEFT) * CHART_TEXELS_PER_METRE - 0.5,
+            (CHART_TOP - outline[:, 1]) * CHART_TEXELS_PER_METRE - 0.5,
+        ],
+        1,
     )
     inside = np.zeros(CHART_SHAPE, np.uint8)
     cv2.fillPoly(inside, [np.rint(texels * 16).astype(np.int32)], 1, shift=4)
     distance = cv2.distanceTransform(inside, cv2.DIST_L2, 5) - cv2.distanceTransform(1 - inside, cv2.DIST_L2, 5)
-    ragged = distance / TEXELS_PER_METRE + 0.00022 * noise(rng, 0.0018)
+    ragged = distance / CHART_TEXELS_PER_METRE + 0.00022 * noise(rng, 0.0018)
     return smooth_step(ragged, -0.0009, 0.0010)
 
 

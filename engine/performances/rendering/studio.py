@@ -19,12 +19,15 @@ from engine.render.shading import Surface, illuminate
 from engine.render.strands import draw_strands, shade_strands
 from engine.render.subsurface import diffuse
 
-PICTURE_SIZE = 512
+FRAME_SIDE_PIXELS = 512
 SAMPLES_PER_PIXEL_SIDE = 2
 """Pixels are rendered as SAMPLES x SAMPLES and averaged."""
 
 STUDIO_CAMERA = Camera(
-    eye=(0.0, 0.775, 1.62), focal=PICTURE_SIZE * 1.50 / 0.294, centre=(255.5, 257.0), size=(PICTURE_SIZE, PICTURE_SIZE)
+    eye=(0.0, 0.775, 1.62),
+    focal=FRAME_SIDE_PIXELS * 1.50 / 0.294,
+    centre=(255.5, 257.0),
+    size=(FRAME_SIDE_PIXELS, FRAME_SIDE_PIXELS),
 )
 """A portrait lens 1.6 m away: little perspective, the face about 250 pixels wide."""
 

@@ -17,7 +17,7 @@ from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits
 from engine.persona.collection.photo_face import as_looked_at
 
-MAX_PHOTOS = 800
+MAX_COLLECTION_PHOTOS = 800
 """Of a collection: three hundred are more than enough."""
 JPEG_QUALITY = 95
 
@@ -60,9 +60,9 @@ def read_photos(paths: Sequence[Path], limits: Limits, tick: Callable[[float], N
     skipped: list[SkippedFile] = []
     with tempfile.TemporaryDirectory(prefix="galatea-") as folder, FilmStripWriter(JPEG_QUALITY) as writer:
         files = list(_files(paths, Path(folder)))
-        if len(files) > MAX_PHOTOS:
+        if len(files) > MAX_COLLECTION_PHOTOS:
             raise InputError(
-                "too_many_photos", f"These are {len(files)} photos; send {MAX_PHOTOS} at most.", ("photos",)
+                "too_many_photos", f"These are {len(files)} photos; send {MAX_COLLECTION_PHOTOS} at most.", ("photos",)
             )
         for number, (path, name) in enumerate(files):
             try:

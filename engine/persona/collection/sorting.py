@@ -14,7 +14,7 @@ from engine.persona.collection.photo_face import PhotoFace
 
 MAX_YAW_DEGREES, MAX_PITCH_DEGREES = 35.0, 30.0
 """Degrees: beyond, one side of the face, or its forehead or chin, is not seen."""
-MIN_EYE_DISTANCE_PIXELS = 22.0
+MIN_PHOTO_EYE_DISTANCE_PIXELS = 22.0
 """Pixels: in smaller faces lids and teeth are a pixel or two."""
 MAX_FACE_BLUR = 0.62
 """Of `PhotoFace.blur`."""
@@ -71,7 +71,7 @@ def _reason(face: PhotoFace, belongs: str, number: int, choice: Choice) -> Reaso
         return "other_years"
     if abs(face.yaw) > MAX_YAW_DEGREES or abs(face.pitch) > MAX_PITCH_DEGREES:
         return "turned"
-    if face.eye_distance < MIN_EYE_DISTANCE_PIXELS:
+    if face.eye_distance < MIN_PHOTO_EYE_DISTANCE_PIXELS:
         return "tiny"
     return "blurred" if face.blur > MAX_FACE_BLUR else None
 

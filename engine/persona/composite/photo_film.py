@@ -20,7 +20,7 @@ from engine.persona.persona import Persona
 from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 from engine.persona.texture.expression_weights import SMOOTHING_FRAMES, expression_points, expression_weights
 
-TEXTURES_AT_ONCE = 8
+PHOTO_TEXTURES_AT_ONCE = 8
 """So few that frames are drawn meanwhile."""
 
 
@@ -78,5 +78,5 @@ def photo_frames(
 
 
 def _textures(persona: Persona, weights: NDArray[np.float32]) -> Iterator[NDArray[np.uint8]]:
-    for start in range(0, len(weights), TEXTURES_AT_ONCE):
-        yield from persona.synthesis(weights[start : start + TEXTURES_AT_ONCE])
+    for start in range(0, len(weights), PHOTO_TEXTURES_AT_ONCE):
+        yield from persona.synthesis(weights[start : start + PHOTO_TEXTURES_AT_ONCE])

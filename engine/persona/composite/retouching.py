@@ -34,7 +34,7 @@ CONTRAST_RANGE = (0.8, 1.5)
 """Of the photograph over the persona, whose means have less of it."""
 PIXEL_SIGMA = 0.6
 """Of a photograph's pixel, by which what is between pixels is smooth."""
-MIN_SIGMA_PIXELS = 0.5
+MIN_DETAIL_SIGMA_PIXELS = 0.5
 """Pixels of the frame: detail that is finer is none."""
 BELIEF_RANGE = (0.3, 0.8)
 """Of a photograph's pixels, between which they begin to be skin, and are."""
@@ -103,7 +103,7 @@ def retouching_of(persona: Persona, photo: FacePhoto, base: NDArray[np.uint8], g
     contrast = float(np.clip(contrasts[0] / max(contrasts[1], 1e-3), *CONTRAST_RANGE))
     pixel = frame.scale / float(eye_distance(photo.mesh[:, :2]))
     sigma = PIXEL_SIGMA * float(np.sqrt(max(pixel**2 - 1, 0)))
-    return Retouching(frame, base, skin, contrast, sigma if sigma > MIN_SIGMA_PIXELS else 0.0, grey)
+    return Retouching(frame, base, skin, contrast, sigma if sigma > MIN_DETAIL_SIGMA_PIXELS else 0.0, grey)
 
 
 def _contrast(grey: NDArray[np.float32], where: NDArray[np.bool_], unit: float) -> float:

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes.eyeball import EYE_VERTICES, prepare_eyes
+from engine.face_animation.eyes.eyeball import EYE_OUTLINE_IRIS_CORNERS, prepare_eyes
 from engine.face_animation.eyes.eyeball import Eyeball as EyeLayer
 from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, skin_colour
 from engine.persona.eyes.eyeball import CAP_RADIANS
@@ -51,7 +51,7 @@ def _both(
         if eye is None:
             out[side] = np.full((EYE_TEXTURE_SIZE_TEXELS, EYE_TEXTURE_SIZE_TEXELS, 3), 128, np.uint8)
             continue
-        iris = mesh[EYE_VERTICES[seen][1][0], :2] - eye.corner
+        iris = mesh[EYE_OUTLINE_IRIS_CORNERS[seen][1][0], :2] - eye.corner
         out[side] = texture_of(eye, iris, radii[side] * eye.width, gain)
     return out
 

@@ -18,11 +18,11 @@ from engine.persona.persona import Persona
 
 LIGHT_DIRECTIONS: Mapping[str, tuple[float, float]] = {"left": (-1.0, 0.0), "right": (1.0, 0.0)}
 """Of a picture, x and y down. Lights from above and below differ by so little in collections that they change nothing to be seen."""
-STRONGEST_SHARE, MIN_PHOTOS = 0.1, 8
+STRONGEST_SHARE, MIN_SIDE_LIT_PHOTOS = 0.1, 8
 """Of the photographs, those that are lit most from a side, and how many at least."""
 RATIO_OFFSET_LEVELS = 8.0
 """Grey levels that are added on both sides of a ratio, so that black is no division by nothing."""
-MIN_BELIEF = 0.01
+MIN_LIGHT_BELIEF = 0.01
 
 
 class DirectedLight(NamedTuple):
@@ -45,11 +45,11 @@ def directed_light(persona: Persona, direction: str) -> DirectedLight:
         weights = face * (belief.astype(np.float32) / 255)
         own = low_frequencies(colours.astype(np.float32), weights, frame.scale)
         logs.append(np.log((own + RATIO_OFFSET_LEVELS) / (average + RATIO_OFFSET_LEVELS)))
-        trust = weights[face][:, None] + MIN_BELIEF
+        trust = weights[face][:, None] + MIN_LIGHT_BELIEF
         light = (logs[-1][face] @ LUMINANCE_WEIGHTS)[:, None]
         told = np.linalg.lstsq(basis * trust, light * trust, rcond=None)[0][:2, 0]
         strengths.append(float(told @ LIGHT_DIRECTIONS[direction]))
-    count = min(max(MIN_PHOTOS, round(STRONGEST_SHARE * len(logs))), len(logs))
+    count = min(max(MIN_SIDE_LIT_PHOTOS, round(STRONGEST_SHARE * len(logs))), len(logs))
     chosen = np.argsort(strengths)[::-1][:count]
     share = np.maximum(np.array(strengths)[chosen], 1e-3)
     mean = np.average(np.array(logs)[chosen], axis=0, weights=share)

@@ -58,7 +58,7 @@ LOWER_LIP_RINGS = (
     (307, 320, 404, 315, 16, 85, 180, 90, 77),
     LIPS_OUTER[11:],
 )
-EYE_VERTICES = {"Left": LEFT_EYE, "Right": RIGHT_EYE}
+EYE_OUTLINE_VERTICES = {"Left": LEFT_EYE, "Right": RIGHT_EYE}
 EYEBALL_PARTS = ("left_eye", "right_eye")
 
 
@@ -163,7 +163,7 @@ def _bent(view: _FrontView, laid: NDArray[np.float64]) -> NDArray[np.float64]:
         row = view.seam(laid[vertex])
         if row is not None:
             goals[vertex] = np.array([laid[vertex, 0], row])
-    for contour in EYE_VERTICES.values():
+    for contour in EYE_OUTLINE_VERTICES.values():
         goals |= _lids(view, laid, contour)
     vertices = list(goals)
     goal = np.array([goals[vertex] for vertex in vertices])
@@ -197,7 +197,7 @@ def _lids(view: _FrontView, laid: NDArray[np.float64], contour: tuple[int, ...])
 def _lids_aside(places: NDArray[np.float64]) -> NDArray[np.float64]:
     """(478, 2) from lids onto the skin beside the opening: up from upper ones, down from lower ones."""
     out = np.zeros_like(places)
-    for contour in EYE_VERTICES.values():
+    for contour in EYE_OUTLINE_VERTICES.values():
         out[list(contour[1:8]), 1] = -PARTED_SKIN_PIXELS
         out[list(contour[9:]), 1] = PARTED_SKIN_PIXELS
     return out
@@ -225,7 +225,7 @@ def _as_tracked(rest: NDArray[np.float64], moved: NDArray[np.float64]) -> MeshUn
     scale = 1 / float(eye_distance(front))
     front = (front - front[[33, 133, 263, 362]].mean(axis=0)) * scale
     found = _symmetric(MeshUnits(front, CAPTURED_UNITS, moved @ linear.T * scale))
-    for side, contour in EYE_VERTICES.items():
+    for side, contour in EYE_OUTLINE_VERTICES.items():
         blink = CAPTURED_UNITS.index(f"eyeBlink{side}")
         found.moved[blink] = lids_met(found.rest, found.moved[blink], contour)
     return found

@@ -14,17 +14,17 @@ from engine.perception.landmarks import eye_distance, mouth_opening
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.collection.photo_face import PhotoFace
 
-MAX_YAW_DEGREES = 15.0
+MAX_TEETH_YAW_DEGREES = 15.0
 """Degrees up to which a face shows both halves of its teeth."""
 OPENING_RANGE = (0.10, 0.40)
 """Of the mouth: of less nothing is seen of teeth, and of more too much beside them."""
-MIN_EYE_DISTANCE_PIXELS = 48.0
+MIN_TEETH_EYE_DISTANCE_PIXELS = 48.0
 """Pixels: a tooth is an eighth as wide, and of fewer than six pixels enlarged becomes part of a white band."""
-MAX_CANDIDATES = 24
+MAX_TEETH_CANDIDATES = 24
 """Photographs that are looked at, the largest of those that can be meant."""
 BRIGHT_SHARES = (0.5, 1.0)
 """Of the skin's grey, between which a pixel becomes one of a tooth's."""
-LARGE_EYE_DISTANCE_PIXELS = 120.0
+LARGE_TEETH_EYE_DISTANCE_PIXELS = 120.0
 YAW_DEGREES, PITCH_DEGREES = 40.0, 40.0
 """By which a face is turned, that counts as much as teeth that are not seen at all; size and colour as follows."""
 SIZE_SHARE, GREY_SHARE = 0.5, 1.0
@@ -49,15 +49,15 @@ def teeth_photo(
     able = [
         number
         for number, face in enumerate(faces)
-        if abs(face.yaw) < MAX_YAW_DEGREES
-        and face.eye_distance >= MIN_EYE_DISTANCE_PIXELS
+        if abs(face.yaw) < MAX_TEETH_YAW_DEGREES
+        and face.eye_distance >= MIN_TEETH_EYE_DISTANCE_PIXELS
         and OPENING_RANGE[0] <= float(mouth_opening(face.mesh)) <= OPENING_RANGE[1]
     ]
     able.sort(key=lambda number: -faces[number].eye_distance)
     best: tuple[float, FacePhoto] | None = None
-    for number in able[:MAX_CANDIDATES]:
+    for number in able[:MAX_TEETH_CANDIDATES]:
         one = FacePhoto(photo(number), faces[number].mesh, number)
-        score = _seen(one) + SIZE_SHARE * np.log(min(faces[number].eye_distance, LARGE_EYE_DISTANCE_PIXELS) / 30)
+        score = _seen(one) + SIZE_SHARE * np.log(min(faces[number].eye_distance, LARGE_TEETH_EYE_DISTANCE_PIXELS) / 30)
         score -= abs(faces[number].yaw) / YAW_DEGREES + abs(faces[number].pitch) / PITCH_DEGREES
         score -= max(faces[number].blur - SHARP_BLUR, 0) / BLUR_LIMITS
         score -= GREY_SHARE * (is_grey(one.rgb, one.mesh) and not grey)

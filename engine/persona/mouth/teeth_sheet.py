@@ -13,7 +13,7 @@ from engine.face_animation.mouth.pictured.teeth_strip import ARCH_CURVATURE_PER_
 SHEET_HALF_WIDTH_EYE_DISTANCES, UPPER_MARGIN_EYE_DISTANCES, LOWER_MARGIN_EYE_DISTANCES = 0.45, 0.3, 0.04
 """Eye distances from the middle of the edge of the teeth."""
 SHEET_MESH_COLUMNS, SHEET_MESH_ROWS = 32, 4
-PIXELS_PER_EYE_DISTANCE = 320
+SHEET_PIXELS_PER_EYE_DISTANCE = 320
 """Of an eye distance."""
 
 
@@ -48,8 +48,8 @@ def teeth_sheet(teeth: PhotoTeeth) -> TeethSheet:
     a, b, c, d = index[:-1, :-1].ravel(), index[:-1, 1:].ravel(), index[1:, 1:].ravel(), index[1:, :-1].ravel()
     triangles = np.concatenate([np.stack([a, c, b], axis=1), np.stack([a, d, c], axis=1)]).astype(np.int32)
     width, height = (
-        round(2 * SHEET_HALF_WIDTH_EYE_DISTANCES * PIXELS_PER_EYE_DISTANCE),
-        round((UPPER_MARGIN_EYE_DISTANCES + LOWER_MARGIN_EYE_DISTANCES) * PIXELS_PER_EYE_DISTANCE),
+        round(2 * SHEET_HALF_WIDTH_EYE_DISTANCES * SHEET_PIXELS_PER_EYE_DISTANCE),
+        round((UPPER_MARGIN_EYE_DISTANCES + LOWER_MARGIN_EYE_DISTANCES) * SHEET_PIXELS_PER_EYE_DISTANCE),
     )
     columns = ((np.arange(width) + 0.5) / width * 2 - 1) * SHEET_HALF_WIDTH_EYE_DISTANCES
     rows = (np.arange(height) + 0.5) / height * (

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.joint_names import SIDE_NAMES
 from engine.persona.motion.deformation_transfer import DeformationTransfer
-from engine.persona.motion.mesh_units import EYE_VERTICES, lids_met, load_mesh_units
+from engine.persona.motion.mesh_units import EYE_OUTLINE_VERTICES, lids_met, load_mesh_units
 from engine.persona.motion.performance import FRAME_SIZE
 from engine.persona.persona import Persona
 from engine.persona.puppet import FACE_VERTICES
@@ -59,7 +59,7 @@ def face_units(persona: Persona) -> FaceUnits:
     movements[closed] += known.moved[jaw]
     moved = transfer.of_frames(movements)
     moved[closed] -= moved[jaw]
-    for side, contour in EYE_VERTICES.items():
+    for side, contour in EYE_OUTLINE_VERTICES.items():
         blink = known.names.index(f"eyeBlink{side}")
         moved[blink] = lids_met(persona.neutral, moved[blink], contour)
     shown = np.linalg.norm(moved[:, :FACE_VERTICES], axis=-1).max(axis=1) > MIN_UNIT_MOTION_EYE_DISTANCES

@@ -20,7 +20,7 @@ from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 MIXTURE_RAMP_PIXELS = (2.0, 14.0)
 """Pixels of a frame 194 wide from the face's rim, between which the mixture begins and is whole."""
 OPENING_OUTLINES = (RIGHT_EYE, LEFT_EYE, LIPS_INNER)
-OPENING_SIGMA = 0.015
+OPENING_BLUR_EYE_DISTANCES = 0.015
 """Eye distances over which they pass into the skin."""
 
 
@@ -50,4 +50,6 @@ def _openings(photo: FacePhoto) -> NDArray[np.float32]:
         (soft_polygon(face[list(contour)], (shape[0], shape[1])) for contour in OPENING_OUTLINES),
         np.zeros(shape, np.float32),
     )
-    return np.asarray(cv2.GaussianBlur(mask, (0, 0), max(0.5, OPENING_SIGMA * float(eye_distance(face)))), np.float32)
+    return np.asarray(
+        cv2.GaussianBlur(mask, (0, 0), max(0.5, OPENING_BLUR_EYE_DISTANCES * float(eye_distance(face)))), np.float32
+    )

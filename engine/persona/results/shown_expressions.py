@@ -32,7 +32,7 @@ UNIT_COST_EYE_DISTANCES = 0.02
 """Eye distances of all points together, that a unit at its full costs: what one unit tells is not told by many."""
 SPLINE_BENDING = 1e-3
 """How smooth the spline is: upper and lower lip touch, and are moved apart."""
-MAX_PHOTOS = 16
+MAX_EXPRESSION_PHOTOS = 16
 """Of those near an expression that say what it is, the strongest first."""
 
 
@@ -67,7 +67,7 @@ def shown_expressions(persona: Persona, units: FaceUnits) -> list[ShownExpressio
     for name, photos in photos_near(persona, units).items():
         if len(photos) < MIN_PHOTOS_OF_EXPRESSION:
             continue
-        points = persona.points[list(photos[:MAX_PHOTOS])].astype(np.float64).mean(axis=0)
+        points = persona.points[list(photos[:MAX_EXPRESSION_PHOTOS])].astype(np.float64).mean(axis=0)
         _, likeness, alike = _done(persona, units, points[None])
         own = list(EXPRESSION_UNITS).index(name)
         if likeness[alike[own] < MIN_SAME_EXPRESSION_COSINE, 0].max() > likeness[own, 0]:

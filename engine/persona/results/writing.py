@@ -18,7 +18,7 @@ from engine.persona.results.pictures import Studio, angles, average_light, galle
 from engine.persona.results.puppet_model import write_puppet
 from engine.persona.results.shown_expressions import photos_near, shown_expressions
 
-PICTURE_SIZE = (360, 440)
+RESULT_PICTURE_SIZE = (360, 440)
 SMALL_SIZE = (144, 176)
 EXPRESSIONS_FROM_ANGLES = 2
 """Beside the face at rest."""
@@ -38,7 +38,7 @@ def write_results(
     write_expression_textures(out, expression_textures(persona, units), synthetic)
     near = {name: len(photos) for name, photos in photos_near(persona, units).items()}
     shown = shown_expressions(persona, units)
-    studio = Studio(persona, PICTURE_SIZE, background)
+    studio = Studio(persona, RESULT_PICTURE_SIZE, background)
     pictures = gallery(studio, shown)
     names = [one.name for one in shown]
     for name, picture in zip(names, pictures[1:], strict=True):
@@ -55,7 +55,7 @@ def write_results(
 def _tell_gallery(path: Path, names: Sequence[str], near: dict[str, int]) -> None:
     """What the pictures of `gallery.jpg` show, row by row, and what is not there since too few photographs come near it."""
     told = {
-        "tile": list(PICTURE_SIZE),
+        "tile": list(RESULT_PICTURE_SIZE),
         "columns": GALLERY_COLUMNS,
         "shown": [
             {"name": "neutral"},

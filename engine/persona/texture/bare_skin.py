@@ -36,7 +36,7 @@ LIGHT_VARIANCE = 9.0
 """Levels squared (CIE Lab) that both mixtures are widened by: the same matter in another light."""
 SKIN_QUANTILE = 0.95
 """Of skin's own colours: what is about the face is skin, too, if it is as likely to be as these."""
-MAX_COST = 20.0
+UNLIKE_COLOUR_COST = 20.0
 """Of a colour that is quite unlike."""
 FEATURE_MARGIN, RIM_MARGIN, CENTRE_MARGIN = 0.035, 0.02, 0.105
 """Of the frame's width: about eyes, brows and lips, which have no skin's colour; beyond the oval, where the surroundings begin; and within
@@ -86,7 +86,7 @@ class BareSkin:
         if len(others) < MIN_MIXTURE_PIXELS:  # all about the face is skin
             return np.zeros(area.shape, np.bool_)
         mixtures = (skins, ColourMixture.fit(others).widened(LIGHT_VARIANCE))
-        costs = np.minimum(colour_costs(mixtures, lab[area]), MAX_COST)
+        costs = np.minimum(colour_costs(mixtures, lab[area]), UNLIKE_COLOUR_COST)
         costs[brow[area]] = 0  # of hair's colour, they go with what is about them
         seeds = np.where(middle[area], 0, UNSEEDED_MARK)
         labels = ContrastGraph.of(lab, area).cut(costs, np.zeros(len(costs), np.intp), seeds)

@@ -13,7 +13,7 @@ from engine.perception.landmarks import fiducials
 
 SIGMA_PIXELS = 10.0
 """Of distances of all fiducials together, in a frame 194 wide (section 6)."""
-MIN_PHOTOS, MAX_PHOTOS = 8.0, 16.0
+MIN_EFFECTIVE_PHOTOS, MAX_EFFECTIVE_PHOTOS = 8.0, 16.0
 """That count for an expression: the square of the weights' sum over the sum of their squares."""
 SMOOTHING_FRAMES = 2.0
 """Sigma by which weights are smoothed in time."""
@@ -34,14 +34,14 @@ def expression_weights(
     """(F, N) how much N photographs count for F expressions, by their points (F, 51, 2) and (N, 51, 2) in pixels of a frame 194 wide:
     exp(-d^2 / (2 sigma^2)), each row's largest 1.
 
-    Sigma is the paper's, or as much more or less as lets `MIN_PHOTOS` to `MAX_PHOTOS` photographs count. `smoothing` is in time, for
+    Sigma is the paper's, or as much more or less as lets `MIN_EFFECTIVE_PHOTOS` to `MAX_EFFECTIVE_PHOTOS` photographs count. `smoothing` is in time, for
     rows that are frames: a sigma in frames.
     """
     squares = ((targets[:, None] - photos[None]) ** 2).sum(axis=(2, 3))
     squares -= squares.min(axis=1, keepdims=True)  # a common factor of a row: it changes no mean
     count = len(photos)
     sigma = np.full(len(targets), SIGMA_PIXELS)
-    for least, wanted in ((True, min(MIN_PHOTOS, count)), (False, min(MAX_PHOTOS, count))):
+    for least, wanted in ((True, min(MIN_EFFECTIVE_PHOTOS, count)), (False, min(MAX_EFFECTIVE_PHOTOS, count))):
         effective = _effective(squares, sigma)
         off = effective < wanted - 1e-6 if least else effective > wanted + 1e-6
         sigma[off] = _sigma_for(squares[off], wanted)

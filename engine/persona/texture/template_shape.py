@@ -10,7 +10,7 @@ from engine.perception.landmarks import mouth_opening
 
 TEMPLATE_MOUTH_OPENING = 0.35
 """Of the frame's mouth, as `engine.perception.landmarks.mouth_opening` has it."""
-OPENING_SIGMA = 0.03
+MOUTH_OPENING_SIGMA = 0.03
 """By which openings are uncertain: where all mouths are as good as closed, nothing is learnt of how this one opens."""
 
 
@@ -20,5 +20,5 @@ def template_shape(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
     front = frontalise(meshes)
     opening = np.asarray(mouth_opening(front), np.float64)
     away = opening - opening.mean()
-    slope = np.einsum("n,nvc->vc", away, front) / ((away**2).sum() + len(front) * OPENING_SIGMA**2)
+    slope = np.einsum("n,nvc->vc", away, front) / ((away**2).sum() + len(front) * MOUTH_OPENING_SIGMA**2)
     return np.asarray(front.mean(axis=0) + (TEMPLATE_MOUTH_OPENING - opening.mean()) * slope)

@@ -8,7 +8,7 @@ import pytest
 from made_orbit import SIZE, orbit
 from scipy.spatial.transform import Rotation
 
-from engine.avatar.capture.person_frame import USUAL_HEIGHT_METRES, person_frame, upward
+from engine.avatar.capture.person_frame import TAKEN_HEIGHT_METRES, person_frame, upward
 from engine.avatar.capture.person_lock import PersonLock
 from engine.avatar.capture.scene_cameras import ClipScene
 from engine.geometry.multiview.bundle import Bundle, Observations
@@ -84,7 +84,7 @@ def test_metres_up_ground_and_front_are_found_again() -> None:
     assert frame.on_floor
     assert frame.height == pytest.approx(0.4 * HEIGHT, rel=0.02)
     found = frame.change(away(truth.points))
-    off = found * HEIGHT / USUAL_HEIGHT_METRES - truth.points
+    off = found * HEIGHT / TAKEN_HEIGHT_METRES - truth.points
     assert np.abs(off[:, 1]).max() < 0.04 and np.abs(off[:, [0, 2]]).max() < 0.06
 
 

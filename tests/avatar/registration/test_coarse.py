@@ -7,7 +7,7 @@ import pytest
 from known_person import KnownPerson, sampled
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
-from engine.avatar.registration.coarse import CLOSEST_POINT_ROUNDS, fit_to_landmarks, fit_to_points
+from engine.avatar.registration.coarse import COARSE_ROUNDS, fit_to_landmarks, fit_to_points
 from engine.avatar.registration.models import HumanModels
 from engine.errors import InputError
 
@@ -31,7 +31,7 @@ def test_landmarks_and_points_find_pose_and_shape(models: HumanModels, person: K
     assert max(by_landmarks.residuals.values()) < 0.04
     cloud = sampled(models, truth, 8000, 0.003)
     found = fit_to_points(
-        models.body, models.landmarks, person.landmarks, cloud, by_landmarks.parameters, CLOSEST_POINT_ROUNDS[::2]
+        models.body, models.landmarks, person.landmarks, cloud, by_landmarks.parameters, COARSE_ROUNDS[::2]
     )
     off = [np.linalg.norm(models.body.vertices(p) - truth, axis=1).mean() for p in (by_landmarks.parameters, found)]
     assert off[0] < 0.05

@@ -8,7 +8,7 @@ import numpy as np
 
 from benchmarks.presentation.contact_sheet import (
     GAP_PIXELS,
-    PAPER_GREY_LEVEL,
+    SHEET_GREY_LEVEL,
     TITLE_PIXELS,
     Row,
     at_height,
@@ -30,7 +30,7 @@ def test_pictures_stand_side_by_side_and_rows_one_under_the_other() -> None:
     above = Row([plain(10, 20, RED), plain(6, 30, GREEN)])
     sheet = contact_sheet([above, Row([plain(8, 12, BLUE)])], gap=3)
     assert sheet.shape == (10 + 3 + 8, 20 + 3 + 30, 3)
-    expected = np.full_like(sheet, PAPER_GREY_LEVEL)
+    expected = np.full_like(sheet, SHEET_GREY_LEVEL)
     expected[:10, :20], expected[:6, 23:], expected[13:, :12] = RED, GREEN, BLUE
     np.testing.assert_array_equal(sheet, expected)
 
@@ -40,13 +40,13 @@ def test_a_title_is_written_above_its_row_and_on_none_of_its_pictures() -> None:
     sheet = contact_sheet(rows)
     assert sheet.shape == (TITLE_PIXELS + 40 + GAP_PIXELS + 40, 60 + GAP_PIXELS + 60, 3)
     line = sheet[:TITLE_PIXELS]
-    assert (line < 100).any() and (line == PAPER_GREY_LEVEL).mean() > 0.5
+    assert (line < 100).any() and (line == SHEET_GREY_LEVEL).mean() > 0.5
     np.testing.assert_array_equal(sheet[TITLE_PIXELS:], contact_sheet([Row(row.pictures) for row in rows]))
 
 
 def test_a_picture_is_whole_in_the_middle_of_its_cell() -> None:
     cell = fitted(plain(40, 10, RED), (20, 30))
-    expected = np.full((20, 30, 3), PAPER_GREY_LEVEL, np.uint8)
+    expected = np.full((20, 30, 3), SHEET_GREY_LEVEL, np.uint8)
     expected[:, 12:17] = RED
     np.testing.assert_array_equal(cell, expected)
     sheet = contact_sheet([Row([plain(40, 10, RED), plain(7, 99, BLUE)])], cell=(20, 30), gap=0)

@@ -12,7 +12,7 @@ from engine.body.body_space import load_body_space
 from engine.body.fitting.body_fitting import fit_body
 from engine.body.fitting.first_guess import first_guess
 from engine.body.fitting.observation import DIRECTED_LIMBS, Crossing, Observation
-from engine.body.fitting.posing import FITTED_JOINTS, SHAPE_COEFFICIENTS, forward, rotation_matrices
+from engine.body.fitting.posing import FITTED_JOINTS, POSED_SHAPE_COEFFICIENTS, forward, rotation_matrices
 from engine.body.fitting.residuals import CROSSING_DEPTH_METRES
 from engine.body.landmarks import landmark_model
 from engine.body.rig import HUMAN_RIG
@@ -40,7 +40,7 @@ def somebody(seed: int) -> np.ndarray:
         turns[FITTED_JOINTS.index(f"{side}UpLeg")] = [random.uniform(-0.3, 0.05), 0, sign * random.uniform(0, 0.2)]
         turns[FITTED_JOINTS.index(f"{side}Leg")] = [random.uniform(0, 0.4), 0, 0]
     turns[FITTED_JOINTS.index("Head")] = random.uniform(-0.2, 0.2, 3)
-    return np.concatenate([[0.1, 0.0, -4.5], turns.ravel(), random.normal(0, 0.7, SHAPE_COEFFICIENTS)])
+    return np.concatenate([[0.1, 0.0, -4.5], turns.ravel(), random.normal(0, 0.7, POSED_SHAPE_COEFFICIENTS)])
 
 
 def test_exact_landmarks_give_the_joints_within_two_centimetres() -> None:
@@ -68,7 +68,7 @@ def test_who_strides_towards_the_viewer_is_not_fitted_flat() -> None:
     """The feet's distance in depth, of somebody who walks at an ordinary pace and is seen as they are."""
     truth = np.zeros(len(somebody(0)))
     truth[:3] = [0.1, 0.0, -4.5]
-    turns = truth[3:-SHAPE_COEFFICIENTS].reshape(-1, 3)
+    turns = truth[3:-POSED_SHAPE_COEFFICIENTS].reshape(-1, 3)
     for name, turn in {"LeftArm": (0, 0, -1.1), "RightArm": (0, 0, 1.1), "LeftUpLeg": (-0.4, 0, 0),
                        "LeftLeg": (0.15, 0, 0), "RightUpLeg": (0.15, 0, 0), "RightLeg": (0.3, 0, 0)}.items():  # fmt: skip
         turns[FITTED_JOINTS.index(name)] = turn
@@ -92,7 +92,7 @@ def test_of_crossed_forearms_that_is_before_the_other_which_is_said_to_be(front:
     """From landmarks alone, which fit both."""
     truth = np.zeros(len(somebody(0)))
     truth[:3] = [0.1, 0.0, -4.5]
-    turns = truth[3:-SHAPE_COEFFICIENTS].reshape(-1, 3)
+    turns = truth[3:-POSED_SHAPE_COEFFICIENTS].reshape(-1, 3)
     for side, sign in (("Left", 1), ("Right", -1)):
         turns[FITTED_JOINTS.index(f"{side}Arm")] = [0.6, 0, -1.25 * sign]
         turns[FITTED_JOINTS.index(f"{side}ForeArm")] = [0, -1.9 * sign, 0]
@@ -143,7 +143,7 @@ def errors(truth: np.ndarray, views: list[Observation], trunk: dict[str, np.ndar
     (found, _), (joints, _) = (forward(SPACE, MARKS, parameters) for parameters in (fit.parameters, truth))
     turned = [SPACE.names.index(name) for name in FITTED_JOINTS]
     pose = ((found - found[0]) - (joints - joints[0]))[turned]
-    shape = SPACE.vertices(fit.coefficients) - SPACE.vertices(truth[-SHAPE_COEFFICIENTS:])
+    shape = SPACE.vertices(fit.coefficients) - SPACE.vertices(truth[-POSED_SHAPE_COEFFICIENTS:])
     return tuple(float(np.sqrt((off**2).sum(1).mean())) for off in (pose, shape))  # type: ignore[return-value]
 
 

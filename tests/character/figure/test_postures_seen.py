@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from benchmarks.known_truth.dressed_template import ARMS_DOWN, Look, dress
-from benchmarks.known_truth.known_person import PICTURE_SIZE, draw_into
+from benchmarks.known_truth.known_person import PERSON_PICTURE_SIZE, draw_into
 from engine.body.shape import Phenotype
 from engine.character.figure.figure import Choice, find_figure
 from engine.character.sample import FLOOR_COLOUR, WALL_COLOUR
@@ -42,8 +42,8 @@ def test_who_is_drawn_in_a_posture_is_told_of(
 ) -> None:
     """Looked at: they sit with their knees towards the camera, and hold their hands together above the head."""
     person = dress(Look("somebody", Phenotype(gender=0.5), turns, (70, 110, 170), (60, 58, 66)))
-    wall = np.full((*PICTURE_SIZE, 3), WALL_COLOUR, np.uint8)
-    wall[round(0.9 * PICTURE_SIZE[0]) :] = FLOOR_COLOUR
+    wall = np.full((*PERSON_PICTURE_SIZE, 3), WALL_COLOUR, np.uint8)
+    wall[round(0.9 * PERSON_PICTURE_SIZE[0]) :] = FLOOR_COLOUR
     room = 1.3 * float(np.ptp(person.vertices[:, 1]))  # above the head, and before the feet of who sits
     write_image(tmp_path / "photo.png", draw_into(replace(person, height=room), wall).rgb)
     assert told(tmp_path / "photo.png") == expected

@@ -10,7 +10,7 @@ from PIL import Image
 from trimesh.registration import procrustes
 
 from benchmarks.known_truth.dressed_template import DRESSED_LOOKS, dress
-from benchmarks.known_truth.known_person import PICTURE_SIZE, KnownPicture, draw_into
+from benchmarks.known_truth.known_person import PERSON_PICTURE_SIZE, KnownPicture, draw_into
 from benchmarks.known_truth.known_places import places
 from engine.character.figure.figure import Choice, find_figure
 from engine.character.figure.silhouette import cut_out
@@ -46,7 +46,7 @@ def apart(joints: NDArray[np.float64], truth: NDArray[np.float64]) -> NDArray[np
 
 def test_perceptions_landmarks_give_the_joints_within_five_centimetres(tmp_path: Path) -> None:
     """In the median over joints and people: less than half of what the template in T-pose is off."""
-    behind = places(PICTURE_SIZE)["garage"]
+    behind = places(PERSON_PICTURE_SIZE)["garage"]
     off, unfitted = [], []
     for look in SEEN_LOOKS:
         known = draw_into(dress(look), behind)

@@ -9,7 +9,7 @@ import pytest
 from template_character import still, template_character
 
 from engine.body.fitting.body_fitting import Fit
-from engine.character.film.film import WALL_DISTANCE_METRES, film
+from engine.character.film.film import WALL_BEHIND_METRES, film
 from engine.character.fit.template_fit import FittedBody
 from engine.character.rig.measures import pose
 from engine.character.rig.rigging import Character
@@ -72,7 +72,7 @@ def test_parallax_moves_the_wall_and_not_the_person(character: Character) -> Non
     """A point at the distance d from the camera goes sideways by SLIDE_SHARE f (1 - p / d); the person is at p."""
     first, later = filmed(character, "parallax")
     near = 4.0 - float(character.pictured.root[0, 2])
-    expected = SLIDE_SHARE * FOCAL * (1 - near / (4.0 + WALL_DISTANCE_METRES))
+    expected = SLIDE_SHARE * FOCAL * (1 - near / (4.0 + WALL_BEHIND_METRES))
     np.testing.assert_allclose(middle(mark(later)) - middle(mark(first)), (0, expected), atol=0.5)
     assert np.abs(middle(person(later)) - middle(person(first))).max() < 1.0
 
@@ -82,7 +82,7 @@ def test_an_orbit_turns_about_the_person(character: Character) -> None:
     first, later = filmed(character, "orbit")
     np.testing.assert_array_equal(first, filmed(character, "fixed")[0])
     assert np.abs(middle(person(later)) - middle(person(first))).max() < 3
-    far, angle = 4.0 + WALL_DISTANCE_METRES, np.radians(ORBIT_DEGREES)
+    far, angle = 4.0 + WALL_BEHIND_METRES, np.radians(ORBIT_DEGREES)
     x = (94.5 - (WIDTH - 1) / 2) / FOCAL * far
     y = ((HEIGHT - 1) / 2 - 29.5) / FOCAL * far
     pivot = character.pictured.root[0]

@@ -10,7 +10,7 @@ from template_character import still, template_character
 
 from engine.character.film.film import moving_camera
 from engine.character.film.motions import MotionChoice, choose_motion
-from engine.character.options import MOTIONS
+from engine.character.options import BUILT_IN_MOTIONS
 from engine.character.rig.rigging import Character
 from engine.geometry.camera import Camera
 from engine.geometry.skeleton import Skeleton
@@ -70,7 +70,7 @@ def played(character: Character, seen: Camera, name: str, motion: SourceMotion |
 
 
 @pytest.mark.parametrize(("above", "below"), [(0.15, 0.1), (0.01, 0.01)], ids=["room", "tight"])
-@pytest.mark.parametrize("name", MOTIONS)
+@pytest.mark.parametrize("name", BUILT_IN_MOTIONS)
 def test_head_to_soles_are_in_every_frame_and_all_in_the_last(
     character: Character, name: str, above: float, below: float
 ) -> None:
@@ -168,7 +168,7 @@ def test_whoever_runs_away_by_a_file_of_their_own_stays_too(character: Character
 
 
 @pytest.mark.parametrize("seconds", [1.0, 6.5])
-@pytest.mark.parametrize("name", MOTIONS)
+@pytest.mark.parametrize("name", BUILT_IN_MOTIONS)
 def test_a_film_is_as_long_as_it_was_asked_for(character: Character, name: str, seconds: float) -> None:
     """A bow that is done once is over before: its last pose is held."""
     seen = camera(character, 0.15, 0.1)

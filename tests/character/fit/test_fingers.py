@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from engine.body.fitting.body_fitting import Fit
-from engine.body.fitting.posing import SHAPE_COEFFICIENTS
+from engine.body.fitting.posing import POSED_SHAPE_COEFFICIENTS
 from engine.character.figure.figure import Figure
 from engine.character.fit.hands import turn_hands
 from engine.character.fit.head import joint_axes
@@ -16,7 +16,7 @@ from engine.geometry.camera import Camera
 from engine.geometry.joint_names import FINGER_NAMES
 
 FOCAL, CENTRE, PLACE = 2200.0, (499.5, 499.5), np.array([0, 0.1, -3.0])
-NOBODY = np.zeros(SHAPE_COEFFICIENTS, np.float32)
+NOBODY = np.zeros(POSED_SHAPE_COEFFICIENTS, np.float32)
 DOWN = {"LeftArm": (0, 0, -1.2), "RightArm": (0, 0, 1.2)}
 
 

@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from engine.body.fitting.body_fitting import Fit
-from engine.body.fitting.posing import SHAPE_COEFFICIENTS
+from engine.body.fitting.posing import POSED_SHAPE_COEFFICIENTS
 from engine.character.figure.figure import Figure
 from engine.character.fit.head import turn_head
 from engine.character.fit.template_fit import FittedBody, load_human
@@ -25,7 +25,7 @@ FOCAL, CENTRE, PLACE = 1200.0, (299.5, 399.5), np.array([0, 0.1, -3.0])
 def standing() -> FittedBody:
     human = load_human()
     turns = np.broadcast_to(np.eye(3, dtype=np.float32), (len(human.rig.names), 3, 3)).copy()
-    fit = Fit(np.zeros(SHAPE_COEFFICIENTS, np.float32), turns, PLACE.astype(np.float32), 0.0, np.zeros(1))
+    fit = Fit(np.zeros(POSED_SHAPE_COEFFICIENTS, np.float32), turns, PLACE.astype(np.float32), 0.0, np.zeros(1))
     return FittedBody(fit, Camera((0, 0, 0), FOCAL, CENTRE, (800, 600)), np.zeros(len(turns), np.bool_))
 
 
@@ -38,7 +38,7 @@ def figure_with(face: np.ndarray | None) -> Figure:
 def seen_face(turn: np.ndarray) -> np.ndarray:
     """The face mesh (478, 3) of the standing body, its head turned."""
     human = load_human()
-    nobody = np.zeros(SHAPE_COEFFICIENTS, np.float32)
+    nobody = np.zeros(POSED_SHAPE_COEFFICIENTS, np.float32)
     rest, heads = human.space.vertices(nobody), human.space.joints(nobody)
     joint = heads[human.rig.index("Head")]
     at = (rest[human.face] - joint) @ turn.T + joint - heads[0] + PLACE

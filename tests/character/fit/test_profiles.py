@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from benchmarks.known_truth.dressed_template import DRESSED_LOOKS, dress
-from benchmarks.known_truth.known_person import PICTURE_SIZE, draw_into
+from benchmarks.known_truth.known_person import PERSON_PICTURE_SIZE, draw_into
 from benchmarks.known_truth.known_places import places
 from engine.body.parts import BODY_PARTS
 from engine.character.figure.face_region import in_profile
@@ -26,7 +26,7 @@ WALKING = DRESSED_LOOKS[3]
 
 def figure(turn: float, folder: Path) -> Figure:
     """Somebody who walks, turned to their left by degrees."""
-    known = draw_into(dress(WALKING).turned(turn), places(PICTURE_SIZE)["street"])
+    known = draw_into(dress(WALKING).turned(turn), places(PERSON_PICTURE_SIZE)["street"])
     write_image(folder / "photo.png", known.rgb)
     return find_figure(folder / "photo.png", Choice(), False, Limits(), lambda code, message: None)
 

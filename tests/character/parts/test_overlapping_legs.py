@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from engine.body.fitting.body_fitting import Fit
-from engine.body.fitting.posing import SHAPE_COEFFICIENTS
+from engine.body.fitting.posing import POSED_SHAPE_COEFFICIENTS
 from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
@@ -38,7 +38,7 @@ def fitted_as(turns: dict[str, tuple[int, int, int]]) -> FittedBody:
     for joint, degrees in (ARMS_DOWN | turns).items():
         rotations[human.rig.index(joint)] = Rotation.from_euler("xyz", degrees, degrees=True).as_matrix()
     place = np.array([0, 0.05, -3.0], np.float32)
-    fit = Fit(np.zeros(SHAPE_COEFFICIENTS, np.float32), rotations, place, 0.0, np.zeros(1))
+    fit = Fit(np.zeros(POSED_SHAPE_COEFFICIENTS, np.float32), rotations, place, 0.0, np.zeros(1))
     return FittedBody(
         fit, Camera((0, 0, 0), 660.0, (SIZE[1] / 2, SIZE[0] / 2), SIZE), np.zeros(len(rotations), np.bool_)
     )

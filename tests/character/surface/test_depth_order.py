@@ -8,7 +8,7 @@ import numpy as np
 from engine.character.surface.depth_order import (
     FOREARM_BEND_PIXELS,
     INSET_PIXELS,
-    MIN_DEPTH_SHARE,
+    MIN_BODY_DEPTH_SHARE,
     body_behind,
     body_within,
     hand_beneath,
@@ -120,9 +120,9 @@ def test_what_an_arm_hides_lies_behind_it() -> None:
     assert np.allclose(body.front.depth[mask & ~seen], 10), "nothing else moves"
     assert np.allclose(body.back.depth[mask], -10)
     lower = body_behind(slab(mask, 10.0, -10.0), slab(arm_mask, -30.0, -40.0), seen)
-    assert np.allclose(lower.front.depth[seen], 20 * MIN_DEPTH_SHARE - 10), "the body keeps some of its depth"
+    assert np.allclose(lower.front.depth[seen], 20 * MIN_BODY_DEPTH_SHARE - 10), "the body keeps some of its depth"
     raised = limb_before(slab(arm_mask, -10.0, -14.0), lower, seen)
-    assert (raised.front.depth[seen] >= 20 * MIN_DEPTH_SHARE - 10 + INSET_PIXELS).all(), (
+    assert (raised.front.depth[seen] >= 20 * MIN_BODY_DEPTH_SHARE - 10 + INSET_PIXELS).all(), (
         "and what is seen is before what is not"
     )
     assert np.allclose((raised.front.depth - raised.back.depth)[arm_mask], 4)

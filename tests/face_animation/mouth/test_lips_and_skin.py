@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from engine.face_animation.mouth.lips_and_skin import (
     LOWER_LIP_COLUMNS,
-    MAX_SKIN_SHARE,
     MIN_SKIN_SHARE,
+    NARROW_LIP_SKIN_SHARE,
     SKIN_ABOVE_COLUMNS,
     SKIN_BELOW_COLUMNS,
     UPPER_LIP_COLUMNS,
@@ -116,9 +116,9 @@ def test_the_driver_says_how_far_the_skin_under_the_nose_is_pressed() -> None:
     nose, lip = (float(REST[v, 1]) for v in (SKIN_ABOVE_COLUMNS[4][2], SKIN_ABOVE_COLUMNS[4][0]))
     usual = (lip - nose) / UNIT
     rooms = philtrum_compression(np.stack([REST, torn(REST, 0.75 * usual), torn(REST, 2.0)]), REST)
-    np.testing.assert_allclose(rooms, [MAX_SKIN_SHARE, 0.25, MIN_SKIN_SHARE], atol=1e-3)
-    tight, wide = (led_back(torn(REST, 0.5), room) for room in (MIN_SKIN_SHARE, MAX_SKIN_SHARE))
-    for back, share in ((tight, MIN_SKIN_SHARE), (wide, MAX_SKIN_SHARE)):
+    np.testing.assert_allclose(rooms, [NARROW_LIP_SKIN_SHARE, 0.25, MIN_SKIN_SHARE], atol=1e-3)
+    tight, wide = (led_back(torn(REST, 0.5), room) for room in (MIN_SKIN_SHARE, NARROW_LIP_SKIN_SHARE))
+    for back, share in ((tight, MIN_SKIN_SHARE), (wide, NARROW_LIP_SKIN_SHARE)):
         assert back[SKIN_ABOVE_COLUMNS[4][0], 1] - back[SKIN_ABOVE_COLUMNS[4][2], 1] == pytest.approx(
             share * usual * UNIT, abs=0.01
         )

@@ -12,7 +12,7 @@ from engine.media.image import read_image
 from engine.persona.persona import Persona
 from engine.persona.results.face_units import EXPRESSION_UNITS, FaceUnits
 from engine.persona.results.pictures import VIEW_YAWS_DEGREES, Studio, angles, average_light, regenerated
-from engine.persona.results.writing import GALLERY_COLUMNS, PICTURE_SIZE, write_results
+from engine.persona.results.writing import GALLERY_COLUMNS, RESULT_PICTURE_SIZE, write_results
 
 GREEN = (0, 200, 0)
 
@@ -70,7 +70,7 @@ def test_what_is_written_is_told(persona: Persona, tmp_path: Path) -> None:
     assert all(near[name] >= told["photos_needed"] for name in names[1:])
     assert all((one["photos"] < told["photos_needed"]) == (one["why"] == "few") for one in told["left_out"])
     rows = -(-len(names) // GALLERY_COLUMNS)
-    assert read_image(tmp_path / "gallery.jpg").rgb.shape[0] == rows * PICTURE_SIZE[1]
+    assert read_image(tmp_path / "gallery.jpg").rgb.shape[0] == rows * RESULT_PICTURE_SIZE[1]
     assert {f"gallery_{name}.jpg" for name in names[1:]} == {path.name for path in tmp_path.glob("gallery_*.jpg")}
     assert {"puppet.glb", "puppet_textures.jpg", "puppet_textures.json", "angles.jpg", "average_light.jpg"} <= {
         path.name for path in tmp_path.iterdir()

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from engine.persona.texture.expression_weights import (
-    MAX_PHOTOS,
-    MIN_PHOTOS,
+    MAX_EFFECTIVE_PHOTOS,
+    MIN_EFFECTIVE_PHOTOS,
     SIGMA_PIXELS,
     effective_photos,
     expression_weights,
@@ -45,7 +45,7 @@ def test_eight_to_sixteen_photographs_count_for_any_expression(spread: float) ->
     photos = points(60, spread)
     targets = np.concatenate([photos[:3], photos[:3] * 5])  # usual ones, and ones that no photograph shows
     count = effective_photos(expression_weights(targets, photos))
-    assert (count > MIN_PHOTOS - 0.1).all() and (count < MAX_PHOTOS + 0.1).all()
+    assert (count > MIN_EFFECTIVE_PHOTOS - 0.1).all() and (count < MAX_EFFECTIVE_PHOTOS + 0.1).all()
 
 
 def test_the_papers_sigma_stays_where_it_lets_as_many_count() -> None:

@@ -10,7 +10,7 @@ from uvicorn.server import ServerState
 
 from service.connections.connection_limit import ConnectionLimit
 from service.connections.protocol import Config, Protocol
-from service.connections.sliced_reading import FINE_SLICE_BYTES, SLICE_BYTES
+from service.connections.sliced_reading import FINE_SLICE_BYTES, READ_SLICE_BYTES
 
 Answer = tuple[bytes, list[str]]
 
@@ -62,7 +62,7 @@ def test_requests_that_come_one_behind_the_other() -> None:
     two = HEAD + b"Transfer-Encoding: chunked\r\n\r\n" + framed(500)
     bodies = asyncio.run(taken(one + two + one, 3))
     assert [b"".join(pieces) for pieces in bodies] == [BODY] * 3
-    assert max(len(piece) for pieces in bodies for piece in pieces) <= 2 * SLICE_BYTES
+    assert max(len(piece) for pieces in bodies for piece in pieces) <= 2 * READ_SLICE_BYTES
 
 
 async def refused(between: Any) -> Answer:

@@ -7,7 +7,7 @@ from running import Running
 
 from engine.performances import STATES
 from service.catalogue import built_in
-from service.libraries.library import DRIVERS
+from service.libraries.library import DRIVER_LIBRARY
 
 
 def test_a_driver_is_kept_named_and_erased(running: Running, picture: bytes, video: bytes) -> None:
@@ -86,16 +86,16 @@ def test_a_driver_is_a_video(running: Running, picture: bytes) -> None:
 
 
 def test_built_in_names_are_taken(running: Running, video: bytes) -> None:
-    for name in (*DRIVERS.built_in, "auto"):
+    for name in (*DRIVER_LIBRARY.built_in, "auto"):
         response = running.client.post("/v1/drivers", data={"name": name}, files={"file": ("w.mp4", video)})
         assert response.json()["code"] == "name_taken"
-    for name in DRIVERS.built_in:
+    for name in DRIVER_LIBRARY.built_in:
         assert running.client.delete(f"/v1/drivers/{name}").json()["code"] == "driver_built_in"
 
 
 def test_built_in_performances_are_listed_first_and_can_be_watched(running: Running) -> None:
     items = running.client.get("/v1/drivers").json()["items"]
-    names = list(DRIVERS.built_in)
+    names = list(DRIVER_LIBRARY.built_in)
     assert [item["name"] for item in items[: len(names)]] == names
     assert {"idle", "happy", "surprise"} <= set(names)
     for item in items[: len(names)]:
@@ -110,7 +110,7 @@ def test_built_in_performances_are_listed_first_and_can_be_watched(running: Runn
 
 
 def test_a_small_picture_shows_each_built_in_performance(running: Running) -> None:
-    for name in DRIVERS.built_in:
+    for name in DRIVER_LIBRARY.built_in:
         address = running.client.get(f"/v1/drivers/{name}").json()["poster"]
         answer = running.client.get(address)
         assert (answer.status_code, answer.headers["Content-Type"]) == (200, "image/jpeg")
@@ -148,7 +148,7 @@ def test_auto_offers_the_library_and_ones_own_drivers_to_the_job(
     assert job["status"] == "succeeded", job["error"]
     assert job["inputs"]["driver"] == "auto"
     report = running.client.get(job["artifacts"]["report.json"]["url"]).json()
-    installed = {name: built_in.item(DRIVERS.name, name).stat().st_size for name in DRIVERS.built_in}
+    installed = {name: built_in.item(DRIVER_LIBRARY.name, name).stat().st_size for name in DRIVER_LIBRARY.built_in}
     assert report["inputs"]["candidates"] == {**installed, "own": len(video)}
 
     # a revision chooses from the same files, the driver's deletion notwithstanding

@@ -182,7 +182,7 @@ def test_cancel_takes_effect_whether_the_job_looks_for_it_or_not(running: Runnin
 
 def test_a_canceled_job_is_over_within_two_seconds() -> None:
     """As the documents say: it is looked for an order so often, and the process may take so long to stop by itself."""
-    assert attempt.LOOK_SECONDS + attempt.GRACE_SECONDS + 2 * attempt.TICK_SECONDS < 2
+    assert attempt.ATTEMPT_POLL_SECONDS + attempt.GRACE_SECONDS + 2 * attempt.TICK_SECONDS < 2
 
 
 def test_a_job_that_waits_is_canceled_without_a_worker(running: Running, picture: bytes) -> None:

@@ -10,7 +10,7 @@ from service.clock import now
 from service.context import Context
 from service.ids import new_id
 from service.keeping import service
-from service.libraries.library import DRIVERS, MOTIONS
+from service.libraries.library import DRIVER_LIBRARY, MOTION_LIBRARY
 from service.problems import Problem
 from service.tables.files import File
 
@@ -34,53 +34,53 @@ def refused(code: str) -> pytest.RaisesExc[Problem]:
 
 def test_a_name_leads_to_its_file_until_it_is_given_up(context: Context) -> None:
     file = uploaded(context)
-    service.keep(context, DRIVERS, "local", "me", file)
-    found = service.file_of(context, DRIVERS, "local", "me")
+    service.keep(context, DRIVER_LIBRARY, "local", "me", file)
+    found = service.file_of(context, DRIVER_LIBRARY, "local", "me")
     assert found is not None and found.id == file
-    service.rename(context, DRIVERS, "local", "me", "myself")
-    assert service.file_of(context, DRIVERS, "local", "me") is None
-    assert service.get_kept(context, DRIVERS, "local", "myself").file_id == file
-    service.delete(context, DRIVERS, "local", "myself")
-    assert service.file_of(context, DRIVERS, "local", "myself") is None
+    service.rename(context, DRIVER_LIBRARY, "local", "me", "myself")
+    assert service.file_of(context, DRIVER_LIBRARY, "local", "me") is None
+    assert service.get_kept(context, DRIVER_LIBRARY, "local", "myself").file_id == file
+    service.delete(context, DRIVER_LIBRARY, "local", "myself")
+    assert service.file_of(context, DRIVER_LIBRARY, "local", "myself") is None
     with context.database.read() as session:
         assert session.get(File, file) is None, "nothing else uses the file"
 
 
 def test_libraries_have_their_names_apart_and_each_name_once(context: Context) -> None:
-    service.keep(context, DRIVERS, "local", "me", uploaded(context))
-    service.keep(context, MOTIONS, "local", "me", uploaded(context, "text/x-bvh"))
+    service.keep(context, DRIVER_LIBRARY, "local", "me", uploaded(context))
+    service.keep(context, MOTION_LIBRARY, "local", "me", uploaded(context, "text/x-bvh"))
     with refused("name_taken"):
-        service.keep(context, DRIVERS, "local", "me", uploaded(context))
-    service.keep(context, DRIVERS, "local", "you", uploaded(context))
+        service.keep(context, DRIVER_LIBRARY, "local", "me", uploaded(context))
+    service.keep(context, DRIVER_LIBRARY, "local", "you", uploaded(context))
     with refused("name_taken"):
-        service.rename(context, DRIVERS, "local", "you", "me")
-    service.rename(context, DRIVERS, "local", "you", "you")
+        service.rename(context, DRIVER_LIBRARY, "local", "you", "me")
+    service.rename(context, DRIVER_LIBRARY, "local", "you", "you")
 
 
 @pytest.mark.parametrize(
     ("name", "code"),
     [
         *(("", "invalid_name"), ("Me", "invalid_name"), ("-me", "invalid_name"), ("a/b", "invalid_name")),
-        *(("x" * 64, "invalid_name"), ("auto", "name_taken"), (DRIVERS.built_in[0], "name_taken")),
+        *(("x" * 64, "invalid_name"), ("auto", "name_taken"), (DRIVER_LIBRARY.built_in[0], "name_taken")),
     ],
 )
 def test_names_that_nothing_can_have(context: Context, name: str, code: str) -> None:
     with refused(code):
-        service.require_free_name(context, DRIVERS, "local", name)
+        service.require_free_name(context, DRIVER_LIBRARY, "local", name)
 
 
 def test_an_id_is_no_name(context: Context) -> None:
     with refused("invalid_name"):
-        service.require_free_name(context, DRIVERS, "local", new_id())
+        service.require_free_name(context, DRIVER_LIBRARY, "local", new_id())
 
 
 def test_what_is_kept_is_there_of_the_right_kind_and_its_keeper_s(context: Context) -> None:
     with refused("unknown_file"):
-        service.keep(context, DRIVERS, "local", "me", new_id())
+        service.keep(context, DRIVER_LIBRARY, "local", "me", new_id())
     with refused("input_wrong_media"):
-        service.keep(context, DRIVERS, "local", "me", uploaded(context, "image/png"))
-    service.keep(context, DRIVERS, "local", "me", uploaded(context))
+        service.keep(context, DRIVER_LIBRARY, "local", "me", uploaded(context, "image/png"))
+    service.keep(context, DRIVER_LIBRARY, "local", "me", uploaded(context))
     with refused("driver_not_found"):
-        service.get_kept(context, DRIVERS, "somebody else", "me")
+        service.get_kept(context, DRIVER_LIBRARY, "somebody else", "me")
     with refused("driver_built_in"):
-        service.delete(context, DRIVERS, "local", DRIVERS.built_in[0])
+        service.delete(context, DRIVER_LIBRARY, "local", DRIVER_LIBRARY.built_in[0])

@@ -13,7 +13,7 @@ from service.clock import now
 from service.context import Context
 from service.ids import new_id
 from service.libraries.inspections import MAX_DOCUMENT_BYTES, Inspection, inspections_of
-from service.libraries.library import MOTIONS
+from service.libraries.library import MOTION_LIBRARY
 from service.tables.artifacts import Artifact
 from service.tables.jobs import Job
 from service.tables.kept import Motion
@@ -49,7 +49,12 @@ def kept(context: Context, status: str | None, document: bytes | None = None, **
         session.flush()
         if document is not None:
             artifact = Artifact(
-                **{"id": new_id(), "job_id": motion.inspection_job, "name": MOTIONS.document, "sha256": "0" * 64},
+                **{
+                    "id": new_id(),
+                    "job_id": motion.inspection_job,
+                    "name": MOTION_LIBRARY.document,
+                    "sha256": "0" * 64,
+                },
                 **{"content_type": "application/json", "size": len(document), "created_at": now()},
             )
             session.add(artifact)
@@ -59,7 +64,7 @@ def kept(context: Context, status: str | None, document: bytes | None = None, **
 
 
 def inspection(context: Context, motion: Motion) -> Inspection[Found]:
-    return inspections_of(context, MOTIONS, Found, [motion])["mine"]
+    return inspections_of(context, MOTION_LIBRARY, Found, [motion])["mine"]
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from made_motion import bvh
 from PIL import Image
 from running import Running, eventually
 
-from engine.character.options import MOTIONS
+from engine.character.options import BUILT_IN_MOTIONS
 from engine.character.sample import sample_picture
 from service.ids import new_id
 
@@ -85,12 +85,12 @@ def photo(service: Running) -> str:
 
 def test_built_in_motions_come_first(service: Running, mine: dict[str, Any]) -> None:
     items = service.client.get("/v1/motions").json()["items"]
-    assert [item["name"] for item in items[: len(MOTIONS)]] == list(MOTIONS)
-    for item in items[: len(MOTIONS)]:
+    assert [item["name"] for item in items[: len(BUILT_IN_MOTIONS)]] == list(BUILT_IN_MOTIONS)
+    for item in items[: len(BUILT_IN_MOTIONS)]:
         assert item["source"] == "built-in" and item["title"] and item["seconds"] > 0.5
         assert item["loops"] is (item["name"] in ("idle", "walk", "run", "dance"))
         assert item == service.client.get(f"/v1/motions/{item['name']}").json()
-    assert mine in items[len(MOTIONS) :]
+    assert mine in items[len(BUILT_IN_MOTIONS) :]
     assert told(service.client.get("/v1/motions/walk/file")) == (404, "motion_without_file")
 
 
@@ -217,7 +217,7 @@ def test_another_key_sees_nothing_of_it(service: Running, mine: dict[str, Any], 
     token = service.client.post("/v1/keys", json={"name": "other", "scopes": ["read", "submit"]}).json()["token"]
     headers = {"Authorization": f"Bearer {token}"}
     listed = service.client.get("/v1/motions", headers=headers).json()["items"]
-    assert [item["name"] for item in listed] == list(MOTIONS)
+    assert [item["name"] for item in listed] == list(BUILT_IN_MOTIONS)
     for method, path in (("GET", ""), ("GET", "/file"), ("POST", "/check"), ("DELETE", "")):
         answer = service.client.request(method, f"/v1/motions/swing{path}", headers=headers)
         assert told(answer) == (404, "motion_not_found")

@@ -11,7 +11,7 @@ from opentelemetry.sdk.trace.export.in_memory_span_exporter import InMemorySpanE
 
 from service.jobs.leases import Lease
 from service.tables.jobs import Job
-from worker.attempts.spans import MAX_STAGES, AttemptSpans
+from worker.attempts.spans import MAX_ATTEMPT_STAGES, AttemptSpans
 
 
 @pytest.fixture
@@ -44,11 +44,11 @@ def test_a_stage_lies_within_its_attempt(
 def test_a_process_that_never_stops_telling_is_heard_for_a_while(
     spans: AttemptSpans, told: InMemorySpanExporter
 ) -> None:
-    for number in range(3 * MAX_STAGES):
+    for number in range(3 * MAX_ATTEMPT_STAGES):
         spans.stage({"event": "stage", "name": f"{number}" + "x" * 10_000, "turn": "began", "at": time.time()})
     spans.stage({"event": "stage"})
     spans.stage({"event": "stage", "name": "never begun", "turn": "ended"})
     spans.end({"outcome": "failed", "code": "c" * 1000})
     *stages, whole = told.get_finished_spans()
-    assert len(stages) == MAX_STAGES and all(len(span.name) < 120 and not span.status.is_ok for span in stages)
+    assert len(stages) == MAX_ATTEMPT_STAGES and all(len(span.name) < 120 and not span.status.is_ok for span in stages)
     assert whole.attributes is not None and len(str(whole.attributes["error.type"])) == 64

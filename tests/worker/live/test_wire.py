@@ -6,7 +6,7 @@ import socket
 
 import pytest
 
-from worker.live.wire import MAX_MESSAGE_BYTES, Wire, head, packed
+from worker.live.wire import MAX_WIRE_MESSAGE_BYTES, Wire, head, packed
 
 
 def test_what_is_sent_is_what_comes_until_the_other_side_has_gone() -> None:
@@ -21,4 +21,4 @@ def test_what_is_sent_is_what_comes_until_the_other_side_has_gone() -> None:
 
 def test_no_message_is_longer_than_one_may_be() -> None:
     with pytest.raises(ValueError, match="too long"):
-        head(packed(b"F", b"")[:1] + (MAX_MESSAGE_BYTES + 1).to_bytes(4, "big"))
+        head(packed(b"F", b"")[:1] + (MAX_WIRE_MESSAGE_BYTES + 1).to_bytes(4, "big"))

@@ -12,7 +12,7 @@ from engine.avatar.registration.eyes.eyeballs import before_eyeball
 from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import Template
 
-BLINK_UNITS: Mapping[str, str] = {"eyeBlinkLeft": "left_eye", "eyeBlinkRight": "right_eye"}
+EYE_OF_BLINK_UNIT: Mapping[str, str] = {"eyeBlinkLeft": "left_eye", "eyeBlinkRight": "right_eye"}
 """The face units of a closed eye, and which it is."""
 
 
@@ -57,7 +57,7 @@ class MeetingRims:
 def meeting_rims(template: Template, skin: Skin, blink: str) -> MeetingRims:
     """Where the lids of one eye meet: each place of the upper lid's rim, between the corners, above the lower's, as they are in the
     template."""
-    rim = skin.vertices[skin.regions[f"{BLINK_UNITS[blink]}_rim"]]
+    rim = skin.vertices[skin.regions[f"{EYE_OF_BLINK_UNIT[blink]}_rim"]]
     rim = rim[np.argsort(template.vertices[rim, 0])]
     across, height, _ = template.vertices[rim].astype(np.float64).T
     upper = height > np.interp(across, across[[0, -1]], height[[0, -1]])

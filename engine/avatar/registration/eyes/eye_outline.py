@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from engine.avatar.landmarks.spatial import LID_LANDMARKS
+from engine.avatar.landmarks.spatial import LID_POINT_COUNT
 
 ROUND_ENDS_WIDTH_SHARE = 0.12
 """Of the width at either corner, over which rims keep the template's rounding: landmarks of lids meet there in a point."""
@@ -62,7 +62,7 @@ class EyeOutline:
 
 def outline_of_landmarks(lids: NDArray[np.floating]) -> EyeOutline:
     """The outline of landmarks (16, 2), outwards and up."""
-    half = LID_LANDMARKS // 2
+    half = LID_POINT_COUNT // 2
     at = np.asarray(lids, np.float64)
     return EyeOutline(at[0], at[half], at[1:half], at[:half:-1])
 

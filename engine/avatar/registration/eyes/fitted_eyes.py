@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.landmarks.spatial import LID_LANDMARKS
+from engine.avatar.landmarks.spatial import LID_POINT_COUNT
 from engine.avatar.registration.eyes.eye_outline import EyeOutline, outline_of_landmarks, outline_of_rim, within
 from engine.avatar.registration.eyes.eyeballs import LID_GAP_METRES, before_eyeball, sphere
 from engine.avatar.registration.template_skin.lid_rims import lid_rim
@@ -29,7 +29,7 @@ MAX_EYEBALL_OFFSET_METRES = np.array([0.003, 0.002])
 """Metres, outwards and up, by which an eyeball stands off its usual place between the lids at most: what is more is a gaze."""
 HORIZON_RADII = 0.94
 """Radii off the axis of gaze beyond which an eyeball's surface falls too steeply for lids to lie on it."""
-LID_RINGS = 7
+FOLLOWING_LID_RINGS = 7
 """Rings of vertices about a rim that go with it: over fewer lids are crumpled that stand elsewhere than the fit has left them."""
 SOCKET_REACH_RADII = 1.3
 """Radii of the template's eyeball about its middle within which skin that is not seen is its socket ..."""
@@ -160,8 +160,8 @@ def _eye(
     own, inner = ((template.vertices[k] - middle) / radius * mirrored for k in (rim, corner))
     axes = turn.T * mirrored[:, None]
     if np.isfinite(seen).all():
-        lids = np.asarray(seen[:LID_LANDMARKS] @ axes.T)
-        iris = np.asarray(axes[:2] @ seen[LID_LANDMARKS])
+        lids = np.asarray(seen[:LID_POINT_COUNT] @ axes.T)
+        iris = np.asarray(axes[:2] @ seen[LID_POINT_COUNT])
         return _Eye(part, rim, own, inner, axes, outline_of_landmarks(lids[:, :2]), iris, lids)
     goal = outline_of_rim(vertices[rim] @ axes[:2].T, axes[:2] @ vertices[corner])
     return _Eye(part, rim, own, inner, axes, goal, None, None)
@@ -186,7 +186,7 @@ def _ahead(off: NDArray[np.float64], radius: float) -> NDArray[np.float64]:
 
 def _iris_radius(seen: NDArray[np.floating]) -> float:
     """Metres, of irises in landmarks (2, 21, 3): half of how far their sides are apart, which lids do not hide."""
-    sides = seen[:, LID_LANDMARKS + 1] - seen[:, LID_LANDMARKS + 3]
+    sides = seen[:, LID_POINT_COUNT + 1] - seen[:, LID_POINT_COUNT + 3]
     return float(np.clip(np.linalg.norm(sides, axis=1).mean() / 2, *IRIS_RADIUS_RANGE_METRES))
 
 
@@ -208,7 +208,7 @@ def _lids(
     fitted = vertices[skin.vertices].copy()
     own = head(before[skin.vertices])
     rim = np.concatenate([skin.index_of(loop) for loop in rims.values()])
-    near = grown(np.isin(np.arange(len(fitted)), rim), skin.triangles, LID_RINGS)
+    near = grown(np.isin(np.arange(len(fitted)), rim), skin.triangles, FOLLOWING_LID_RINGS)
     lids = (skin.regions["lids"] | near) & ~skin.regions["inner"]
     free = lids.copy()
     free[rim] = False

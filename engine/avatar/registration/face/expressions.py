@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.avatar.registration.eyes.blinking import BLINK_UNITS, before_the_eye, meeting_rims
+from engine.avatar.registration.eyes.blinking import EYE_OF_BLINK_UNIT, before_the_eye, meeting_rims
 from engine.avatar.registration.face.face_parts import head_change
 from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import FACE_UNITS, Template
@@ -21,7 +21,7 @@ RIGID_PARTS = (
 """Parts that are no skin, each moved as a whole from the template to the person."""
 MARGIN_RINGS = 2
 """Rings of triangles about what any unit moves; the outermost vertices stay."""
-TARSUS_EYE_WIDTHS, LID_FOLD_EYE_WIDTHS = 0.07, 0.2
+TARSUS_EYE_WIDTHS, STIFF_LID_EYE_WIDTHS = 0.07, 0.2
 """Widths of an eye from the rims of its lids to where the stiff part of a lid ends, which goes down as a whole, and to its fold, out of
 which the skin between comes."""
 RIM_NEIGHBOURS = 3
@@ -49,7 +49,7 @@ def transferred_units(template: Template, skin: Skin, rest: NDArray[np.floating]
         moved = np.zeros_like(offsets)
         for part, vertices in parts.items():
             moved[vertices] = placed[part].offsets(offsets[vertices])
-        if name in BLINK_UNITS:
+        if name in EYE_OF_BLINK_UNIT:
             _blink(template, skin, own, name, moved)
         else:
             moved[patch.vertices] = patch(offsets)
@@ -62,10 +62,10 @@ def _blink(template: Template, skin: Skin, rest: NDArray[np.float64], name: str,
     along smoothly. What lies beyond stays: the template's own blink moves as much as it has of skin below its brows, and a person's
     brows may be there."""
     rims = meeting_rims(template, skin, name)
-    eyeball = rest[template.vertices_of(BLINK_UNITS[name])]
+    eyeball = rest[template.vertices_of(EYE_OF_BLINK_UNIT[name])]
     own = rest[skin.vertices]
     told = skin.index_of(rims.vertices)
-    loop = np.flatnonzero(skin.regions[f"{BLINK_UNITS[name]}_rim"])
+    loop = np.flatnonzero(skin.regions[f"{EYE_OF_BLINK_UNIT[name]}_rim"])
     moved = np.zeros_like(own)
     moved[told] = rims.met(eyeball, rest) - own[told]
     width = float(np.ptp(own[loop], axis=0).max())
@@ -73,7 +73,7 @@ def _blink(template: Template, skin: Skin, rest: NDArray[np.float64], name: str,
     away, near = np.asarray(found[0]), np.asarray(found[1])
     shares = 1 / np.maximum(away, 1e-6) ** 2
     shares /= shares.sum(1, keepdims=True)
-    unfolded = np.clip((LID_FOLD_EYE_WIDTHS - away[:, 0] / width) / (LID_FOLD_EYE_WIDTHS - TARSUS_EYE_WIDTHS), 0, 1)
+    unfolded = np.clip((STIFF_LID_EYE_WIDTHS - away[:, 0] / width) / (STIFF_LID_EYE_WIDTHS - TARSUS_EYE_WIDTHS), 0, 1)
     along = np.einsum("sk,skc->sc", shares, moved[loop[near]]) * (unfolded**2 * (3 - 2 * unfolded))[:, None]
     lids = (unfolded > 0) & ~skin.regions["inner"]
     along[told] = moved[told]

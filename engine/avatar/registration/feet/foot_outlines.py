@@ -18,7 +18,7 @@ from engine.render.sampling import bilinear
 
 OUTLINE_REACH_METRES = 0.12
 """Metres around a foot within which its outline may be."""
-COVER_PIXELS = 2
+BODY_COVER_PIXELS = 2
 """From what else a view shows of the body, within which an outline is not the foot's alone."""
 MIN_OUTLINE_PIXELS = 12
 """Of a view about a foot, along both sides: fewer tell nothing."""
@@ -87,7 +87,7 @@ def foot_sights(
             continue
         outside = pixel * np.where(mask, 1 - distance_inside(mask), distance_to(mask))
         rest = rasterise(camera.project(body), triangles, camera.size, perspective=True).triangle >= 0
-        found.append(FootSight(camera, outside[..., None].astype(np.float32), dilate_mask(rest, COVER_PIXELS)))
+        found.append(FootSight(camera, outside[..., None].astype(np.float32), dilate_mask(rest, BODY_COVER_PIXELS)))
     return found
 
 

@@ -30,7 +30,7 @@ BENT_KNEE_HEIGHT_SHARE = 0.6
 """Of the height of the knee, up to which a leg is bent towards its foot."""
 ANKLE_SIGMA = 0.015
 """Metres on the ground by which the ankle is off where the coarse fit has it, usually ..."""
-LANDMARK_SIGMA_METRES = 0.03
+FOOT_LANDMARK_SIGMA_METRES = 0.03
 """... heel and tip from where landmarks have them ..."""
 GROUND_SIGMA = 0.002
 """... and soles from the ground."""
@@ -38,15 +38,15 @@ TURN_SIGMA = 0.25
 """Radians by which a foot is turned otherwise than the coarse fit has it, usually."""
 SIZE_SIGMAS = (0.05, 0.04, 0.08)
 """Shares by which a foot is longer, wider and higher than is usual for the body."""
-POINT_SIGMA_METRES = 0.004
+FOOT_POINT_SIGMA_METRES = 0.004
 """Metres by which points are off, at least; they are as far as they lie from the foot, root mean square, and all alike: ..."""
 INDEPENDENT_FOOT_POINTS = 8.0
 """... they count as so many independent ones, at most."""
-MATCHING_GATES_METRES = (0.04, 0.04, 0.03, 0.03, 0.025, 0.02, 0.015, 0.015, 0.012, 0.012)
+FOOT_GATES_METRES = (0.04, 0.04, 0.03, 0.03, 0.025, 0.02, 0.015, 0.015, 0.012, 0.012)
 """Metres within which points are matched, from round to round."""
-MIN_FACING_COSINE = 0.4
+MIN_FOOT_NORMAL_COSINE = 0.4
 """The cosine between the normals of a point and of the foot there, at least."""
-FLOOR_REACH_METRES = 0.008
+SOLE_FLOOR_REACH_METRES = 0.008
 """Metres above the sole up to which points may be the floor's."""
 OUTLINE_SIGMA = 0.002
 """Metres by which outlines are off, at least; ..."""
@@ -165,11 +165,11 @@ def _laid(
     def prior(parameters: NDArray[np.float64]) -> NDArray[np.float64]:
         off = foot.moved(at_rest, parameters)[..., [0, 2]] - seen[:, [0, 2]]
         return np.concatenate(
-            [(parameters - start) / sigmas, off.reshape(len(parameters), -1) / LANDMARK_SIGMA_METRES], axis=1
+            [(parameters - start) / sigmas, off.reshape(len(parameters), -1) / FOOT_LANDMARK_SIGMA_METRES], axis=1
         )
 
     found = levenberg_marquardt(prior, start)
-    for gate in MATCHING_GATES_METRES:
+    for gate in FOOT_GATES_METRES:
         terms = [
             term for term in (_points_term(foot, found, cloud, gate), _outlines_term(foot, found, sights, gate)) if term
         ]
@@ -223,7 +223,7 @@ def _matched(
     a metre between them counts (M,); None where there are none."""
     vertices = foot.moved(foot.places, parameters[None])[0]
     near = ((cloud.points > vertices.min(0) - gate) & (cloud.points < vertices.max(0) + gate)).all(1)
-    near &= (cloud.points[:, 1] > vertices[:, 1].min() + FLOOR_REACH_METRES) & (
+    near &= (cloud.points[:, 1] > vertices[:, 1].min() + SOLE_FLOOR_REACH_METRES) & (
         cloud.points[:, 1] < vertices[:, 1].max()
     )
     numbers = np.flatnonzero(near)
@@ -232,13 +232,13 @@ def _matched(
     points = cloud[numbers[:: max(1, len(numbers) // MAX_MATCHED_POINTS)]]
     nearest = closest_points(points.points, vertices, foot.triangles)
     normals = face_normals(vertices, foot.triangles)[nearest.triangle]
-    used = (nearest.distance < gate) & ((normals * points.normals).sum(1) > MIN_FACING_COSINE)
+    used = (nearest.distance < gate) & ((normals * points.normals).sum(1) > MIN_FOOT_NORMAL_COSINE)
     if not used.any():
         return None
     own = np.einsum("mk,mkc->mc", nearest.barycentrics, foot.places[foot.triangles[nearest.triangle]])[used]
     weights = (1 - (nearest.distance[used] / gate) ** 2) ** 2
     weights *= min(1.0, INDEPENDENT_FOOT_POINTS / weights.sum())
-    sigma = max(float(np.sqrt((nearest.distance[used] ** 2).mean())), POINT_SIGMA_METRES)
+    sigma = max(float(np.sqrt((nearest.distance[used] ** 2).mean())), FOOT_POINT_SIGMA_METRES)
     return own, normals[used], points.points[used].astype(np.float64), np.sqrt(weights) / sigma
 
 

@@ -33,7 +33,7 @@ LIP_UNITS = ("mouthRollLower", "mouthRollUpper", "mouthFunnel", "mouthPucker", "
 """Face units that move lips and the skin above and below, where a moustache or a beard grows ..."""
 LID_UNITS = ("eyeBlinkLeft", "eyeBlinkRight")
 EYE_PARTS = ("left_eye", "right_eye")
-LID_RINGS = 3
+CLOSE_LID_RINGS = 3
 """Rings of vertices about the rims of lids that are close to them."""
 MIN_UNIT_MOTION_METRES = 0.002
 """... by more than this, in metres."""
@@ -43,7 +43,7 @@ NIPPLE_BOX_METRES = np.array([[-0.25, 1.0, 0.03], [0.25, 1.6, 1.0]])
 FINE_EDGE_METRES = 0.009
 """Vertices of the trunk whose edges are shorter in the mean, metres, are nipples (or the navel), which no clothes show."""
 
-MIN_HAND_WEIGHT = 0.99
+MIN_WHOLE_HAND_WEIGHT = 0.99
 """What joints of a hand share at least in a vertex that the forearm does not bend."""
 LOWER_FOOT_LENGTH_SHARE = 0.2
 """Of a foot's length: so far above the ground it is the lower foot."""
@@ -95,14 +95,14 @@ def load_skin(template: Template, space: BodySpace, rig: Rig) -> Skin:
     regions = _regions(template, space.mean[vertices], vertices, triangles, strongest)
     regions["head"] = head
     of_hands = np.char.find(np.array(rig.names), "Hand") >= 0
-    regions["whole_hands"] = (rig.weights[vertices] * of_hands[rig.bones[vertices]]).sum(1) > MIN_HAND_WEIGHT
+    regions["whole_hands"] = (rig.weights[vertices] * of_hands[rig.bones[vertices]]).sum(1) > MIN_WHOLE_HAND_WEIGHT
     shown = np.zeros(len(vertices), np.bool_)
     shown[triangles[seen]] = True
     regions["inner"] = ~shown
     for part in EYE_PARTS:
         rim = np.isin(vertices, lid_rim(template, part))
         regions[f"{part}_rim"] = rim
-        regions[f"{part}_lids"] = grown(rim, triangles, LID_RINGS) & shown
+        regions[f"{part}_lids"] = grown(rim, triangles, CLOSE_LID_RINGS) & shown
         regions["lids"] |= regions[f"{part}_lids"]
     lower = template.face_units.dense(("jawOpen",))[0, vertices, 1] < -JAW_DROP_METRES
     contact = lip_contact(mean, triangles, regions["lips"] & shown, lower)

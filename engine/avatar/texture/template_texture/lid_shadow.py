@@ -27,7 +27,7 @@ HIDDEN_SHADOW_FADE_METRES, SEEN_POINT_STEP = 0.0015, 16
 """Metres over which a shadow ends where lids hide an eyeball, and each how many of the seen points are asked for the nearest."""
 SHADOW_END_LENGTHS = 4.0
 """Such lengths away nothing is left of a shadow."""
-RIM_STEPS = 12
+SHADOW_RIM_STEPS = 12
 """Places between two vertices of a rim from which it is measured."""
 MIN_SEEN_LIGHT_SHARE = 0.05
 """Of the most light that any point has, below which a point is hidden behind a lid."""
@@ -84,7 +84,7 @@ def lash_shadow(
     middle = points.mean(0)
     seen, loop = (points - middle) @ axes, (rim - middle) @ axes
     ends = loop[[np.argmin(loop[:, 0]), np.argmax(loop[:, 0])]]
-    share = np.arange(RIM_STEPS) / RIM_STEPS
+    share = np.arange(SHADOW_RIM_STEPS) / SHADOW_RIM_STEPS
     line = (loop[:, None] + share[:, None] * (np.roll(loop, -1, 0) - loop)[:, None]).reshape(-1, 2)
     upper = line[line[:, 1] >= np.interp(line[:, 0], ends[:, 0], ends[:, 1])]
     away = cKDTree(upper).query(seen, distance_upper_bound=SHADOW_END_LENGTHS * LASH_SHADOW_METRES)[0]

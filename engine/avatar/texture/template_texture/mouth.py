@@ -7,13 +7,13 @@ from numpy.typing import NDArray
 
 from engine.performances.modelling.teeth import LOWER_CROWNS, UPPER_CROWNS
 
-ENAMEL_COLOUR, DENTINE_COLOUR, GUM_COLOUR = (
+ENAMEL_IN_MOUTH_RGB, DENTINE_IN_MOUTH_RGB, GUM_IN_MOUTH_RGB = (
     np.array([204, 195, 178.0]),
     np.array([182, 165, 134.0]),
     np.array([176, 96, 95.0]),
 )
-TONGUE_COLOUR, TONGUE_ROOT = np.array([184, 104, 104.0]), np.array([104, 48, 50.0])
-LINING_COLOUR, THROAT_COLOUR = np.array([142, 66, 66.0]), np.array([36, 12, 14.0])
+TONGUE_IN_MOUTH_RGB, TONGUE_ROOT = np.array([184, 104, 104.0]), np.array([104, 48, 50.0])
+LINING_IN_MOUTH_RGB, THROAT_IN_MOUTH_RGB = np.array([142, 66, 66.0]), np.array([36, 12, 14.0])
 """sRGB, as things look in a mouth, which is dark: textures are shown without its shade."""
 JAW_CROWN_SHARE = 0.62
 """Of a jaw's height from the edge of the teeth, how much is crowns; the rest is gum."""
@@ -40,9 +40,9 @@ def painted_teeth(places: NDArray[np.floating], upper: bool) -> NDArray[np.float
     crown = JAW_CROWN_SHARE * (1 - 0.22 * (2 * phase - 1) ** 2)  # gums are scalloped about each tooth
     on_gum = _ramp(height, crown - 0.03, crown + 0.03)[:, None]
     body = _ramp(height, 0.0, 1.1 * JAW_CROWN_SHARE)[:, None]
-    enamel = ENAMEL_COLOUR + body * (DENTINE_COLOUR - ENAMEL_COLOUR)
+    enamel = ENAMEL_IN_MOUTH_RGB + body * (DENTINE_IN_MOUTH_RGB - ENAMEL_IN_MOUTH_RGB)
     enamel = enamel * (1 - 0.35 * np.exp(-0.5 * (to_gap / GAP_WIDTH_METRES) ** 2))[:, None]
-    return np.asarray(enamel + on_gum * (GUM_COLOUR - enamel), np.float32)
+    return np.asarray(enamel + on_gum * (GUM_IN_MOUTH_RGB - enamel), np.float32)
 
 
 def painted_tongue(places: NDArray[np.floating], seed: int = 11) -> NDArray[np.float32]:
@@ -50,7 +50,7 @@ def painted_tongue(places: NDArray[np.floating], seed: int = 11) -> NDArray[np.f
     if not len(places):
         return np.zeros((0, 3), np.float32)
     depth = (places[:, 2].max() - places[:, 2]) / max(float(np.ptp(places[:, 2])), 1e-9)
-    colour = TONGUE_COLOUR + _ramp(depth, 0.25, 1.0)[:, None] * (TONGUE_ROOT - TONGUE_COLOUR)
+    colour = TONGUE_IN_MOUTH_RGB + _ramp(depth, 0.25, 1.0)[:, None] * (TONGUE_ROOT - TONGUE_IN_MOUTH_RGB)
     random = np.random.default_rng(seed)
     waves = random.normal(0, 1, (24, 3))
     waves *= random.uniform(2500, 6000, (24, 1)) / np.linalg.norm(waves, axis=1, keepdims=True)
@@ -65,9 +65,9 @@ def painted_lining(places: NDArray[np.floating]) -> NDArray[np.float32]:
         return np.zeros((0, 3), np.float32)
     depth = places[:, 2].max() - places[:, 2]
     return np.asarray(
-        LINING_COLOUR
+        LINING_IN_MOUTH_RGB
         + _ramp(depth, 0.1 * LINING_DARKENING_METRES, LINING_DARKENING_METRES)[:, None]
-        * (THROAT_COLOUR - LINING_COLOUR),
+        * (THROAT_IN_MOUTH_RGB - LINING_IN_MOUTH_RGB),
         np.float32,
     )
 

@@ -34,7 +34,7 @@ UPPER_LID_SKIN_EYE_WIDTHS = 0.2
 """... and from the upper's rim to where shut lids have that of the skin above, which is in the shade of the brow."""
 SHUT_LASH_SHADE_SHARE, SHUT_LASH_WIDTH_METRES = 0.5, 0.0007
 """Of the light, what lashes take along a shut lid's rim, and metres over which that fades."""
-RIM_STEPS = 8
+LASH_RIM_STEPS = 8
 """Places between two vertices of a rim from which it is measured."""
 WRIST_LENGTH_METRES, CUFF_LENGTH_METRES = 0.03, 0.004
 """Metres past the wrist over which what the arm's colours are filled with becomes the hand's: along bare skin, and where a sleeve ends."""
@@ -103,7 +103,9 @@ def place_lids(
     skin = surface.of("body") & ~surface.sockets & ~surface.mouth & ~np.any(list(folds.values()), axis=0)
     for part, folded in folds.items():
         rim = places[surface.lid_rims[part]]
-        loop = cKDTree(np.concatenate([rim + k / RIM_STEPS * (np.roll(rim, -1, 0) - rim) for k in range(RIM_STEPS)]))
+        loop = cKDTree(
+            np.concatenate([rim + k / LASH_RIM_STEPS * (np.roll(rim, -1, 0) - rim) for k in range(LASH_RIM_STEPS)])
+        )
         width = float(np.ptp(rim, axis=0).max())
         middles = places[surface.triangles].mean(1)
         near = np.isfinite(loop.query(middles, distance_upper_bound=LOWER_LID_SKIN_EYE_WIDTHS * width)[0])

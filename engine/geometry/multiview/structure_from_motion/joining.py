@@ -23,7 +23,7 @@ from engine.geometry.registration.rigid import Similarity
 
 OBSERVATION_SIGMA_PIXELS = 1.5
 """Pixels by which a right observation is off at most, of pictures 1000 pixels long ..."""
-MIN_SIGMA_PIXELS = 1.0
+MIN_OBSERVATION_SIGMA_PIXELS = 1.0
 """... and of small ones, in which features are not found more finely."""
 FIRST_ROUND_MEDIANS = 2.0
 """So many times the median error the first round believes ..."""
@@ -35,9 +35,9 @@ BEHIND_CAMERA_PIXELS = 1e9
 """Pixels by which what is behind a camera is off: it does not count."""
 ROBUST_LOSS_PIXELS = (6.0, 1.0)
 """Pixels of the robust loss with which both are adjusted together, one after the other: places in common are far off first."""
-MAX_STEPS, STEPS_AND_TOLERANCE = 15, 1e-4
+MAX_ADJUSTMENT_STEPS, STEPS_AND_TOLERANCE = 15, 1e-4
 """Steps of each, and the relative decrease at which it ends before."""
-DIAGONAL_DAMPING_SHARE = 1e-9
+JOINING_DAMPING_SHARE = 1e-9
 """Share of its diagonal that is added to each system."""
 
 
@@ -74,7 +74,7 @@ def join_by_pixels(
     sides = _side(first, pairs[:, 0]), _side(second, pairs[:, 1])
     back = start.inverse()
     points = first.bundle.points[pairs[:, 0]].astype(np.float64)
-    least = max(OBSERVATION_SIGMA_PIXELS * length / 1000, MIN_SIGMA_PIXELS)
+    least = max(OBSERVATION_SIGMA_PIXELS * length / 1000, MIN_OBSERVATION_SIGMA_PIXELS)
     sigma = FIRST_ROUND_MEDIANS * float(np.median(np.linalg.norm(_seen(sides[1], back(points))[0], axis=1)))
     while sigma > least:
         back, points = _step(sides, back, points, sigma)
@@ -121,7 +121,7 @@ def adjust_together(
     )
     free = Freedom(np.concatenate([first.registered, second.registered]), (True, True, True))
     for loss in ROBUST_LOSS_PIXELS:
-        both = adjust(both, seen, free, loss, MAX_STEPS, STEPS_AND_TOLERANCE).bundle
+        both = adjust(both, seen, free, loss, MAX_ADJUSTMENT_STEPS, STEPS_AND_TOLERANCE).bundle
     count = len(here.rotations)
     parts = []
     for found, cameras, lenses, points in (
@@ -175,13 +175,13 @@ def _step(
             np.add.at(mixed, side.pair, np.einsum("o,oai,oaj->oij", weights, by_point, by_change))
             whole += np.einsum("o,oai,oaj->ij", weights, by_change, by_change)
             slope += np.einsum("o,oai,oa->i", weights, by_change, off)
-    curvature += DIAGONAL_DAMPING_SHARE * np.trace(curvature, axis1=1, axis2=2)[:, None, None] * np.eye(
+    curvature += JOINING_DAMPING_SHARE * np.trace(curvature, axis1=1, axis2=2)[:, None, None] * np.eye(
         3
     ) + 1e-300 * np.eye(3)
     solved = np.linalg.solve(curvature, np.concatenate([mixed, gradient[:, :, None]], axis=2))
     reduced = whole - np.einsum("mik,mil->kl", mixed, solved[:, :, :7])
     right = slope - np.einsum("mik,mi->k", mixed, solved[:, :, 7])
-    change = -np.linalg.solve(reduced + DIAGONAL_DAMPING_SHARE * np.trace(whole) * np.eye(7), right)
+    change = -np.linalg.solve(reduced + JOINING_DAMPING_SHARE * np.trace(whole) * np.eye(7), right)
     moved = points - solved[:, :, 7] - solved[:, :, :7] @ change
     turn = np.exp(change[6]) * Rotation.from_rotvec(change[:3]).as_matrix()
     return Similarity(turn @ back.linear, turn @ (back.shift - middle) + middle + change[3:6]), moved

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from engine.avatar.registration.eyes.blinking import BLINK_UNITS, before_the_eye, meeting_rims
+from engine.avatar.registration.eyes.blinking import EYE_OF_BLINK_UNIT, before_the_eye, meeting_rims
 from engine.avatar.registration.eyes.eyeballs import sphere
-from engine.avatar.registration.face.expressions import LID_FOLD_EYE_WIDTHS
+from engine.avatar.registration.face.expressions import STIFF_LID_EYE_WIDTHS
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.models import HumanModels
 
 
-@pytest.mark.parametrize("blink", BLINK_UNITS)
+@pytest.mark.parametrize("blink", EYE_OF_BLINK_UNIT)
 def test_a_blink_closes_the_eye_and_keeps_lids_before_the_ball(
     models: HumanModels, fitted: FittedTemplate, blink: str
 ) -> None:
@@ -22,22 +22,22 @@ def test_a_blink_closes_the_eye_and_keeps_lids_before_the_ball(
     rims = meeting_rims(template, skin, blink)
     assert np.linalg.norm(rims.gap(rest), axis=1).max() > 0.004
     assert np.linalg.norm(rims.gap(rest + moved), axis=1).max() < 0.0005
-    middle, radius = sphere(rest[template.vertices_of(BLINK_UNITS[blink])])
+    middle, radius = sphere(rest[template.vertices_of(EYE_OF_BLINK_UNIT[blink])])
     lids = skin.vertices[skin.regions["lids"] & ~skin.regions["inner"]]
     for share in (0.0, 0.5, 1.0):
         away = np.linalg.norm((rest + share * moved)[lids] - middle, axis=1)
         assert away.min() > radius - 2e-5
 
 
-@pytest.mark.parametrize("blink", BLINK_UNITS)
+@pytest.mark.parametrize("blink", EYE_OF_BLINK_UNIT)
 def test_what_is_above_the_fold_of_a_lid_stays_in_a_blink(
     models: HumanModels, fitted: FittedTemplate, blink: str
 ) -> None:
     skin = models.skin
     rest = fitted.rest[skin.vertices].astype(np.float64)
-    rim = rest[skin.regions[f"{BLINK_UNITS[blink]}_rim"]]
+    rim = rest[skin.regions[f"{EYE_OF_BLINK_UNIT[blink]}_rim"]]
     away = cKDTree(rim).query(rest)[0]
-    beyond = (away > LID_FOLD_EYE_WIDTHS * np.ptp(rim, axis=0).max()) & ~skin.regions["inner"]
+    beyond = (away > STIFF_LID_EYE_WIDTHS * np.ptp(rim, axis=0).max()) & ~skin.regions["inner"]
     assert not fitted.expressions[blink][skin.vertices[beyond]].any()
 
 

@@ -7,7 +7,7 @@ import pytest
 from known_person import KnownPerson
 from numpy.typing import NDArray
 
-from engine.avatar.landmarks.spatial import LID_LANDMARKS
+from engine.avatar.landmarks.spatial import LID_POINT_COUNT
 from engine.avatar.registration.eyes.eye_outline import outline_of_rim
 from engine.avatar.registration.eyes.eyeballs import LID_GAP_METRES, sphere
 from engine.avatar.registration.eyes.fitted_eyes import (
@@ -95,7 +95,7 @@ def test_lids_lie_on_the_ball_however_it_was_fitted(models: HumanModels, person:
 
 def test_lids_open_as_far_as_frames_show(models: HumanModels, before: NDArray[np.float64]) -> None:
     seen = landmarks(models, before)
-    seen[:, 1 : LID_LANDMARKS // 2, 1] += 0.0015 * np.sin(np.pi * np.arange(1, 8) / 8)
+    seen[:, 1 : LID_POINT_COUNT // 2, 1] += 0.0015 * np.sin(np.pi * np.arange(1, 8) / 8)
     found = rims(models, made(models, before, seen).vertices) - rims(models, before)
     assert found[:, 1].max() == pytest.approx(0.0015, abs=4e-4)
     assert found[:, 1].min() > -4e-4
@@ -103,9 +103,9 @@ def test_lids_open_as_far_as_frames_show(models: HumanModels, before: NDArray[np
 
 def test_a_gaze_is_no_place_of_an_eyeball(models: HumanModels, before: NDArray[np.float64]) -> None:
     aside, apart = landmarks(models, before), landmarks(models, before)
-    aside[:, LID_LANDMARKS:, 0] += 0.002
-    apart[0, LID_LANDMARKS:, 0] += 0.002
-    apart[1, LID_LANDMARKS:, 0] -= 0.002
+    aside[:, LID_POINT_COUNT:, 0] += 0.002
+    apart[0, LID_POINT_COUNT:, 0] += 0.002
+    apart[1, LID_POINT_COUNT:, 0] -= 0.002
     straight, looking, wide = (
         middles(models, made(models, before, seen).vertices) for seen in (landmarks(models, before), aside, apart)
     )
