@@ -32,7 +32,7 @@ Warn = Callable[[str, str], None]
 
 @dataclass(frozen=True)
 class ClipCameras:
-    """The cameras of one film's C frames, in the person's frame: y up, facing +z, the person `USUAL_HEIGHT` tall; None where
+    """The cameras of one film's C frames, in the person's frame: y up, facing +z, the person `TAKEN_HEIGHT_METRES` tall; None where
     none was found.
 
     cameras : locked to the person, who stands still in them; where `locked` (C,) is False, the room's.
