@@ -36,7 +36,7 @@ FRAME_ENLARGEMENT = 2.0
 """By how much larger than the film's frames they are drawn."""
 MAX_ASKED_NOSE_OFFSET_SHARE = 0.35
 """Of half the distance between the eyes' outer corners, what the nose may stand off their middle."""
-NOSE_TIP_VERTEX, RIGHT_EYE_CORNER_VERTEX, LEFT_EYE_CORNER_VERTEX = 1, 33, 263
+NOSE_FRONT_VERTEX, RIGHT_EYE_CORNER_VERTEX, LEFT_EYE_CORNER_VERTEX = 1, 33, 263
 """Vertices of the face mesh."""
 BACKGROUND_GREY_LEVEL = 110
 
@@ -80,7 +80,7 @@ def _face(picture: NDArray[np.uint8]) -> NDArray[np.float64] | None:
 def _frontal(mesh: NDArray[np.float64]) -> bool:
     across = mesh[LEFT_EYE_CORNER_VERTEX] - mesh[RIGHT_EYE_CORNER_VERTEX]
     off = (
-        (mesh[NOSE_TIP_VERTEX] - (mesh[LEFT_EYE_CORNER_VERTEX] + mesh[RIGHT_EYE_CORNER_VERTEX]) / 2)
+        (mesh[NOSE_FRONT_VERTEX] - (mesh[LEFT_EYE_CORNER_VERTEX] + mesh[RIGHT_EYE_CORNER_VERTEX]) / 2)
         @ across
         / (across @ across)
     )

@@ -21,7 +21,9 @@ from benchmarks.persona_figures.known_heads import (
     template_person,
 )
 from benchmarks.presentation.tables import table
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.persona.learning import learn_persona
+from engine.persona.motion.performance import FRAME_SIZE
 from engine.persona.persona import Persona
 from engine.persona.texture.aligned_photos import align_photos
 from engine.persona.texture.appearance_subspace import SUBSPACE_RANK, exposed
@@ -30,7 +32,6 @@ from engine.persona.texture.dense_alignment import SMOOTHING_SIGMA
 from engine.persona.texture.texture_frame import TextureFrame
 from engine.render.rasteriser import rasterise
 
-FRAME_SIZE = (244, 194)
 PHOTOS_OF_A, PHOTOS_OF_B = 8, 30
 WIDE_SIGMA_PIXELS = 16.0
 """Pixels: beside that of the persona's own alignment."""
@@ -38,7 +39,6 @@ UNCOUNTED_RIM_PIXELS = 21
 """Pixels of the oval's rim that do not count."""
 HIDDEN_DEPTH_PIXELS = 2.0
 """Pixels behind the surface that is seen from which on a vertex is hidden."""
-LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114], np.float32)
 
 
 def correspondence() -> None:

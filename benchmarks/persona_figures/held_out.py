@@ -26,6 +26,7 @@ from scipy.interpolate import RBFInterpolator
 from benchmarks.presentation.tables import table
 from benchmarks.shared_media import media
 from engine.geometry.registration.rigid import fit_similarity
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.media.limits import Limits
 from engine.perception.expression.features import frontalise
 from engine.perception.identity.backend import descriptor_distances, descriptor_name
@@ -33,6 +34,7 @@ from engine.perception.landmarks import LIPS_INNER, RIGID_VERTICES, fiducials
 from engine.persona.collection.photos import Photos, read_photos
 from engine.persona.collection.sorting import Choice
 from engine.persona.learning import learn_persona
+from engine.persona.motion.performance import FRAME_SIZE
 from engine.persona.persona import Persona
 from engine.persona.stages import SortedFaces, find_faces_of_photos, sort_faces
 from engine.persona.texture.aligned_photos import align_photos
@@ -44,7 +46,6 @@ from engine.persona.texture.expression_weights import (
 )
 from engine.persona.texture.white_balance import balanced
 
-FRAME_SIZE = (244, 194)
 BAND_SIGMA_PIXELS = 4.0
 """Pixels: what is coarser is light, not detail."""
 FLOW_SIGMA_PIXELS = 4.0
@@ -55,7 +56,6 @@ SPLINE_LAMBDA = 10.0
 UNCOMPARED_RIM_PIXELS = 9
 """Pixels of the face's rim that are not compared."""
 OWN_METHOD = "ours"
-LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114], np.float32)
 
 
 @dataclass(frozen=True)

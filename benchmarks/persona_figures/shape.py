@@ -16,10 +16,11 @@ from engine.geometry.registration.rigid import fit_similarities, fit_similarity
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, RIGID_VERTICES
 from engine.persona.learning import learn_persona
+from engine.persona.motion.performance import FRAME_SIZE
 from engine.persona.persona import Persona
 from engine.render.rasteriser import rasterise
 
-PHOTO_COUNT, FRAME_SIZE = 60, (244, 194)
+PHOTO_COUNT = 60
 
 
 def shape() -> None:

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from engine.avatar.acting import FILMED_CLIP_NAME
 from engine.avatar.avatar import Avatar
-from engine.avatar.mesh import MAX_VERTEX_INFLUENCES
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import FACE_UNITS, load_rig
 from engine.errors import InputError
@@ -24,6 +23,7 @@ from engine.export.gltf_joints import axes_above
 from engine.geometry.morph_target import MorphTarget, morph_target
 from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.skinning import MAX_VERTEX_INFLUENCES
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.files.gltf_accessors import Accessors

@@ -16,6 +16,7 @@ from engine.body.template import Template
 from engine.geometry.morph_target import MorphTarget, morph_target
 from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.skinning import MAX_VERTEX_INFLUENCES
 from engine.geometry.surface import triangulate
 
 AVATAR_PARTS = ("body", "left_eye", "right_eye", "upper_teeth", "lower_teeth", "tongue")
@@ -24,9 +25,6 @@ AVATAR_PARTS = ("body", "left_eye", "right_eye", "upper_teeth", "lower_teeth", "
 EYE_JOINTS = {"LeftEye": "left_eye", "RightEye": "right_eye"}
 """The joint of each eyeball and the part of the template that it is. An eyeball is rigid, which its weights in the source are
 not to the last percent."""
-
-MAX_VERTEX_INFLUENCES = 4
-"""Joints that move a vertex, at most: what game engines take."""
 
 
 @dataclass(frozen=True)

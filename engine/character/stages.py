@@ -17,7 +17,7 @@ from engine.character.figure.crossed_arms import without_hidden_hand
 from engine.character.figure.doubts import doubt_labels, require_labels
 from engine.character.figure.face_region import face_ellipse, face_turn, in_profile, within_oval
 from engine.character.figure.figure import Figure
-from engine.character.figure.silhouette import Silhouette
+from engine.character.figure.silhouette import OPAQUE_ALPHA, Silhouette
 from engine.character.figure.strokes import read_labels, relabel
 from engine.character.fit.hands import turn_hands
 from engine.character.fit.head import turn_head
@@ -49,7 +49,7 @@ from engine.character.surface.sheets import ClosedMesh, close
 from engine.character.texture.limb_texture import LimbSurfaces
 from engine.character.texture.rings import limb_heights
 from engine.character.texture.round_sides import with_round_sides
-from engine.character.texture.texture import OPAQUE_ALPHA, BackTexture, PictureOnGrid, Tiles, atlas, paint_tiles
+from engine.character.texture.texture import BackTexture, PictureOnGrid, Tiles, atlas, paint_tiles
 from engine.geometry.simplification.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.imaging.filling.nearest import nearest_colours

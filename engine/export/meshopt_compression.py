@@ -17,11 +17,11 @@ from engine.meshopt.attribute_codec import encode_attributes
 from engine.meshopt.filters import encode_exponential, rounded
 from engine.meshopt.index_codec import encode_indices
 from engine.meshopt.triangle_codec import encode_triangles
+from engine.motion.files.gltf_accessors import COMPONENT_COUNTS
+from engine.motion.files.gltf_compression import MESHOPT_EXTENSION
 
-MESHOPT_EXTENSION = "EXT_meshopt_compression"
 FLOAT_COMPONENT_TYPE = 5126
 COMPONENT_BYTES = {5121: 1, 5123: 2, 5125: 4, FLOAT_COMPONENT_TYPE: 4}
-COMPONENT_COUNTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 STEP_EXPONENTS = {
     "POSITION": -16,

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import eye_distance
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
+from engine.perception.landmarks import FACE_OVAL, eye_distance
 
-LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114], np.float32)
-"""Of red, green and blue, sRGB (ITU-R BT.601)."""
 MOUTH_SKIN_VERTICES = (164, 167, 393, 18, 200, 92, 322, 186, 410)
 """Vertices on the skin around the mouth."""
 SKIN_SAMPLE_EYE_DISTANCES = 0.06
@@ -28,6 +28,13 @@ def skin_colour(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[n
         if patch.size:
             patches.append(patch.reshape(-1, 3).mean(axis=0))
     return np.mean(patches, axis=0) if patches else np.full(3, 128.0)
+
+
+def face_luminance(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
+    """(N,) of the pixels of a picture (H, W, 3) within the oval of a face at `mesh` (478, 2 or 3); none where it lies beside the picture."""
+    mask = np.zeros(rgb.shape[:2], np.uint8)
+    cv2.fillPoly(mask, [mesh[list(FACE_OVAL), :2].round().astype(np.int32)], 1)
+    return np.asarray(rgb[mask > 0].astype(np.float32) @ LUMINANCE_WEIGHTS, np.float32)
 
 
 def is_grey(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> bool:

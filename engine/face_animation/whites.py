@@ -11,7 +11,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, skin_colour
+from engine.face_animation.skin_colour import skin_colour
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
 USUAL_WHITE_HUE_SHARE, WHITE_HUE_SHARE_RANGE = 0.25, (0.15, 0.45)

@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 
+MAX_VERTEX_INFLUENCES = 4
+"""Joints that move a vertex, at most: what game engines take."""
+
 
 def bone_transforms(
     parents: NDArray[np.integer],

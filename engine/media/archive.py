@@ -17,6 +17,7 @@ from pathlib import Path, PurePosixPath
 from typing import IO
 
 from engine.errors import InputError
+from engine.media.sniff import TAR_MAGIC, TAR_MAGIC_OFFSET
 
 MAX_FILES = 2000
 """Of an archive, whatever they are."""
@@ -39,7 +40,6 @@ _HEADS = (
     b"Rar!",
     b"\x28\xb5\x2f\xfd",
 )
-_TAR_MAGIC, _TAR_MAGIC_AT = b"ustar", 257
 _BROKEN = (
     *(zipfile.BadZipFile, tarfile.TarError, zlib.error, lzma.LZMAError, gzip.BadGzipFile, EOFError),
     *(ValueError, IndexError, NotImplementedError, RuntimeError),
@@ -58,7 +58,7 @@ class UnpackedFile:
 def is_archive(path: Path) -> bool:
     """Whether a file's first bytes are those of an archive, of a kind that is read here or not."""
     with path.open("rb") as file:
-        return _begins_as_archive(file.read(_TAR_MAGIC_AT + len(_TAR_MAGIC)))
+        return _begins_as_archive(file.read(TAR_MAGIC_OFFSET + len(TAR_MAGIC)))
 
 
 def unpack_pictures(path: Path, folder: Path) -> list[UnpackedFile]:
@@ -144,7 +144,7 @@ def _copied(stream: IO[bytes], target: Path, left: int) -> int:
 
 
 def _begins_as_archive(head: bytes) -> bool:
-    return head.startswith(_HEADS) or head[_TAR_MAGIC_AT:].startswith(_TAR_MAGIC)
+    return head.startswith(_HEADS) or head[TAR_MAGIC_OFFSET:].startswith(TAR_MAGIC)
 
 
 def _unsafe(what: str) -> InputError:

@@ -41,7 +41,7 @@ _ARCHIVES = {
     b"BZh": "application/x-bzip2",
     b"\xfd7zXZ\x00": "application/x-xz",
 }
-_TAR_MAGIC, _TAR_MAGIC_AT = b"ustar", 257
+TAR_MAGIC, TAR_MAGIC_OFFSET = b"ustar", 257
 
 
 def sniff(path: Path) -> str | None:
@@ -102,7 +102,7 @@ def _sniff_iso_media(head: bytes) -> str:
 
 
 def _sniff_archive(head: bytes) -> str | None:
-    if head[_TAR_MAGIC_AT:].startswith(_TAR_MAGIC):
+    if head[TAR_MAGIC_OFFSET:].startswith(TAR_MAGIC):
         return "application/x-tar"
     return next((name for magic, name in _ARCHIVES.items() if head.startswith(magic)), None)
 

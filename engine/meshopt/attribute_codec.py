@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
+from engine.meshopt.varint import BROKEN_STREAM
 
 ATTRIBUTE_HEADER = 0xA0
 ROWS_PER_GROUP = 16
@@ -20,7 +21,6 @@ ATTRIBUTE_TAIL_BYTES = 32
 """Of what follows the last block, at least: zeros, then the first row."""
 MAX_BYTES_PER_STREAM_BYTE = 4 * ROWS_PER_GROUP
 """Bytes that a byte of a stream can stand for: four groups without a difference."""
-BROKEN_STREAM = -1
 
 
 def encode_attributes(rows: NDArray[np.uint8]) -> bytes:

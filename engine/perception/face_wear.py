@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d, map_coordinates
 
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.imaging.resample import resized
 from engine.media.tone_mapping import srgb_light
-from engine.perception.landmarks import LIPS_OUTER
+from engine.perception.landmarks import LEFT_EYE_CORNER_VERTICES, LIPS_OUTER, NOSE_TIP_VERTEX, RIGHT_EYE_CORNER_VERTICES
 
 COPY_EYE_CORNERS_PIXELS = 160
 """Pixels between the outer corners of the eyes in the copy."""
@@ -27,7 +28,7 @@ MIN_HAIR_EYE_PIXELS = 40
 """... and hair."""
 MAX_NOSE_OFFSET = 0.5
 """By how much of half their distance the tip of the nose may stand off their middle: of a face seen from the side nothing is told."""
-OUTER_CORNERS, INNER_CORNERS, NOSE_TIP_VERTEX = (33, 263), (133, 362), 4
+OUTER_CORNERS, INNER_CORNERS = zip(RIGHT_EYE_CORNER_VERTICES, LEFT_EYE_CORNER_VERTICES, strict=True)
 """Vertices of the face mesh; the person's right eye's first."""
 NOSE_ROOT = (8, 168, 6, 197, 195)
 """From between the brows down the nose: a bridge crosses this line."""
@@ -97,7 +98,7 @@ def _warped(rgb: NDArray[np.uint8], places: NDArray[np.float64]) -> tuple[NDArra
 
 
 def _bridge(copy: NDArray[np.uint8], at: NDArray[np.float64]) -> float:
-    grey = np.log(copy @ np.array([0.299, 0.587, 0.114], np.float32) + LOG_OFFSET_LEVELS)
+    grey = np.log(copy @ LUMINANCE_WEIGHTS + LOG_OFFSET_LEVELS)
     root = at[list(NOSE_ROOT)]
     along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(root, axis=0), axis=1))])
     steps = np.linspace(0, along[-1], max(2, int(along[-1])))

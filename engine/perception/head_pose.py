@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.geometry.camera import Camera
 from engine.package_data import package_data
-from engine.perception.landmarks import RIGID_VERTICES, fiducials
+from engine.perception.landmarks import RIGID_VERTICES, eye_centres, fiducials
 
 FOCAL_LENGTH_SIDES = 1.5
 """Assumed focal length of a portrait's camera, in longer sides of the picture."""
@@ -54,7 +54,8 @@ def head_pose(mesh: NDArray[np.floating], size: tuple[int, int]) -> HeadPose:
     focal = FOCAL_LENGTH_SIDES * max(size)
     x, y = (size[0] - 1) / 2, (size[1] - 1) / 2
     lens = Camera((0.0, 0.0, 0.0), focal, (x, y), size[::-1]).intrinsics
-    unit = float(np.linalg.norm(mesh[[33, 133], :2].mean(axis=0) - mesh[[263, 362], :2].mean(axis=0)))
+    right_eye, left_eye = eye_centres(mesh[:, :2])
+    unit = float(np.linalg.norm(right_eye - left_eye))
     start = np.array([[seen[:, 0].mean() - x], [seen[:, 1].mean() - y], [focal]]) / max(unit, 1e-6)
     _, rotation, shift = cv2.solvePnP(
         model, seen, lens, np.zeros(4), np.zeros((3, 1)), start, useExtrinsicGuess=True, flags=cv2.SOLVEPNP_ITERATIVE
@@ -117,5 +118,6 @@ def _check_likeness(points: NDArray[np.floating], face: NDArray[np.floating]) ->
 
 def _depth(plane: NDArray[np.floating]) -> NDArray[np.float64]:
     canonical = canonical_face().astype(float)
-    unit = np.linalg.norm(plane[[33, 133], :2].mean(axis=0) - plane[[263, 362], :2].mean(axis=0))
+    right_eye, left_eye = eye_centres(plane[:, :2])
+    unit = np.linalg.norm(right_eye - left_eye)
     return np.asarray(canonical[:, 2:] * unit, float)

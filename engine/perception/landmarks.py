@@ -31,6 +31,8 @@ JAW_POINTS, BROW_POINTS, NOSE_POINTS, EYE_POINTS, OUTER_LIPS, INNER_LIPS = (
     slice(60, 68),
 )
 """The groups of the 68 points."""
+JAW_LANDMARK_COUNT = JAW_POINTS.stop
+"""The first of them, which lie along the jaw: where it is seen depends on the view, so that they are no points of the surface."""
 
 FACE_OVAL = (
     *(10, 338, 297, 332, 284, 251, 389, 356, 454, 323, 361, 288, 397, 365, 379, 378, 400, 377, 152, 148, 176),
@@ -53,6 +55,20 @@ LEFT_IRIS = (473, 474, 475, 476, 477)
 RIGHT_BROW = (70, 63, 105, 66, 107, 46, 53, 52, 65, 55)
 LEFT_BROW = (300, 293, 334, 296, 336, 276, 283, 282, 295, 285)
 
+RIGHT_EYE_CORNER_VERTICES, LEFT_EYE_CORNER_VERTICES = (33, 133), (263, 362)
+"""Each eye's outer corner and its inner one."""
+EYE_CORNER_VERTICES = (*RIGHT_EYE_CORNER_VERTICES, *LEFT_EYE_CORNER_VERTICES)
+
+MOUTH_CORNER_VERTICES, INNER_MOUTH_CORNER_VERTICES = (61, 291), (78, 308)
+"""Of the lips' outer contour and of their inner one, from the picture's left."""
+INNER_UPPER_LIP_VERTEX, INNER_LOWER_LIP_VERTEX = 13, 14
+"""The middles of the lips' inner edges."""
+
+FOREHEAD_VERTEX, CHIN_VERTEX = 10, 152
+"""Where the face's axis begins and ends."""
+NOSE_TIP_VERTEX, NOSE_BASE_VERTEX = 4, 2
+"""The base is where the nose meets the upper lip."""
+
 EYES_AND_NOSE_TIP = (33, 133, 159, 145, 263, 362, 386, 374, 4, 1, 5)
 """What the aligning transformation phi is estimated from (Averbuch-Elor et al. 2017, section 4)."""
 
@@ -70,24 +86,38 @@ def fiducials(mesh: NDArray[np.floating]) -> NDArray[np.floating]:
 
 def mouth_opening(mesh: NDArray[np.floating]) -> NDArray[np.floating]:
     """Gap between the inner lips over the mouth's width, (...): 0 is closed, 0.05 parted, 0.5 wide open."""
-    gap = np.linalg.norm(mesh[..., 13, :2] - mesh[..., 14, :2], axis=-1)
-    return gap / np.linalg.norm(mesh[..., 61, :2] - mesh[..., 291, :2], axis=-1)
+    right, left = MOUTH_CORNER_VERTICES
+    gap = np.linalg.norm(mesh[..., INNER_UPPER_LIP_VERTEX, :2] - mesh[..., INNER_LOWER_LIP_VERTEX, :2], axis=-1)
+    return gap / np.linalg.norm(mesh[..., right, :2] - mesh[..., left, :2], axis=-1)
 
 
 def eye_opening(mesh: NDArray[np.floating]) -> NDArray[np.floating]:
     """Gap between the lids over the eye's width, (..., 2), right eye first: about 0.3 open, under 0.1 closed."""
     gaps = []
     for upper, lower, outer, inner in (
-        ((159, 158, 160), (145, 153, 144), 33, 133),
-        ((386, 385, 387), (374, 380, 373), 263, 362),
+        ((159, 158, 160), (145, 153, 144), *RIGHT_EYE_CORNER_VERTICES),
+        ((386, 385, 387), (374, 380, 373), *LEFT_EYE_CORNER_VERTICES),
     ):
         gap = np.linalg.norm(mesh[..., list(upper), :2] - mesh[..., list(lower), :2], axis=-1).mean(axis=-1)
         gaps.append(gap / np.linalg.norm(mesh[..., outer, :2] - mesh[..., inner, :2], axis=-1))
     return np.stack(gaps, axis=-1)
 
 
+def eye_centres(mesh: NDArray[np.floating]) -> tuple[NDArray[np.floating], NDArray[np.floating]]:
+    """The middles between the corners of the right eye and of the left one of meshes (..., 478, D), (..., D) each."""
+    right, left = (
+        (mesh[..., outer, :] + mesh[..., inner, :]) / 2
+        for outer, inner in (RIGHT_EYE_CORNER_VERTICES, LEFT_EYE_CORNER_VERTICES)
+    )
+    return right, left
+
+
 def eye_distance(mesh: NDArray[np.floating]) -> NDArray[np.floating]:
     """Distance between the eyes' centres, pixels, (...): the unit in which distances on a face are given."""
-    right = (mesh[..., 33, :] + mesh[..., 133, :]) / 2
-    left = (mesh[..., 263, :] + mesh[..., 362, :]) / 2
+    right, left = eye_centres(mesh)
     return np.linalg.norm(right - left, axis=-1)
+
+
+def eyes_and_chin(mesh: NDArray[np.floating]) -> tuple[NDArray[np.floating], NDArray[np.floating]]:
+    """The middle between the eyes of a face (478, 2 or 3), and its chin, (2,) pixels each: the line by which lengths on a head are measured."""
+    return mesh[list(EYE_CORNER_VERTICES), :2].mean(axis=0), mesh[CHIN_VERTEX, :2]

@@ -15,7 +15,7 @@ import structlog
 from obstore.exceptions import BaseError
 from obstore.store import LocalStore, ObjectStore
 
-CHUNK_BYTES = 1 << 20
+STREAMED_CHUNK_BYTES = 1 << 20
 PART_BYTES = 8 << 20
 """Bytes of one part where a large file is put part by part; few are on their way at once, so that memory stays small."""
 
@@ -74,7 +74,7 @@ class Storage:
         if self.folder is not None:
             return self.local(key)
         with translate_errors(), to.open("wb") as file:
-            for piece in obstore.get(self._store, key).stream(min_chunk_size=CHUNK_BYTES):
+            for piece in obstore.get(self._store, key).stream(min_chunk_size=STREAMED_CHUNK_BYTES):
                 file.write(piece)
         return to
 
@@ -84,7 +84,7 @@ class Storage:
             return
         with translate_errors():
             found = await obstore.get_async(self._store, key, options={"range": (start, end)})
-            async for piece in found.stream(min_chunk_size=CHUNK_BYTES):
+            async for piece in found.stream(min_chunk_size=STREAMED_CHUNK_BYTES):
                 yield bytes(piece)
 
     def delete(self, keys: Iterable[str]) -> None:

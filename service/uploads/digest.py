@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
-CHUNK_BYTES = 1 << 20
+DIGESTED_CHUNK_BYTES = 1 << 20
 
 
 class RunningDigest:
@@ -34,6 +34,6 @@ class RunningDigest:
         """The SHA-256 of the whole file, as hexadecimal digits."""
         with path.open("rb") as file:
             file.seek(self.position)
-            while data := file.read(CHUNK_BYTES):
+            while data := file.read(DIGESTED_CHUNK_BYTES):
                 self.update(data, self.position)
         return self._hash.hexdigest()

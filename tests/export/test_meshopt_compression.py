@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 from template_character import still, template_character, walk
 
 from engine.export.glb import CharacterModel, write_glb
-from engine.export.meshopt_compression import MESHOPT_EXTENSION, STEP_EXPONENTS
+from engine.export.meshopt_compression import STEP_EXPONENTS
 from engine.geometry.morph_target import morph_target
 from engine.meshopt.attribute_codec import encode_attributes
 from engine.meshopt.filters import encode_exponential
 from engine.meshopt.index_codec import encode_indices
 from engine.meshopt.triangle_codec import encode_triangles
+from engine.motion.files.gltf_compression import MESHOPT_EXTENSION
 from engine.motion.files.gltf_motion import read_gltf_motion
 
 

@@ -7,8 +7,8 @@ import pytest
 from made_face import BROWN, SKIN, WHITE, painted, placed, shut
 from numpy.typing import NDArray
 
-from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS
 from engine.face_animation.whites import WHITE_HUE_SHARE_RANGE, eye_whites, white_tint
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
 
 SIZE = (360, 320)
 

@@ -29,7 +29,7 @@ from worker.programs.loading import loading
 from worker.programs.parent_death import die_with_parent
 from worker.sandbox.confinement import Limits, confine, keep_to_cores, limit, program_paths
 
-MAX_LINE_BYTES = 1_000_000
+MAX_COMMAND_BYTES = 1_000_000
 READ_BYTES = 1 << 16
 TIME_LIMIT = "time_limit"
 PASSED_ON = ("progress", "stage", "stored", "artifact")
@@ -94,7 +94,7 @@ class JobProcess:
         except (ValueError, RecursionError):
             return None
         whole = all(isinstance(event, dict) and "event" in event for event in said)
-        return said if data and whole and len(self._rest) < MAX_LINE_BYTES else None
+        return said if data and whole and len(self._rest) < MAX_COMMAND_BYTES else None
 
     def end(self, cpu_seconds: int) -> str | None:
         """Make sure that it has ended. Returns why it did where that was not in order: `time_limit`, or how it

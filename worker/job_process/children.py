@@ -24,7 +24,7 @@ from worker.programs.interpreter import module_command, module_environment
 from worker.programs.niceness import lower_priority
 from worker.sandbox.confinement import Limits
 
-MAX_LINE_BYTES = 1_000_000
+MAX_EVENT_BYTES = 1_000_000
 PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
 
 
@@ -104,7 +104,7 @@ class Child:
         if not data:
             raise ChildLost(self.exit_reason())
         *lines, self._buffer = (self._buffer + data).split(b"\n")
-        if len(self._buffer) > MAX_LINE_BYTES:
+        if len(self._buffer) > MAX_EVENT_BYTES:
             raise ChildLost("the job's process spoke nonsense")
         try:
             said = [json.loads(line, parse_constant=_no_number) for line in lines]

@@ -14,10 +14,10 @@ from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from engine.body.rest_pose import shortest_rotation
+from engine.motion.files.gltf_accessors import COMPONENT_COUNTS
 from engine.motion.files.gltf_file import GltfFile, Part
 
 COMPONENT_TYPES: dict[int, Any] = {5121: np.uint8, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
-COMPONENT_COUNTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 ARM_DEGREES = 50.0
 """Of the arms below the horizontal."""
 LEG_DEGREES = 8.0

@@ -28,8 +28,6 @@ BONE_END_JOINTS = {
     **{f"{side}Leg": f"{side}Foot" for side in ("Left", "Right")},
 }
 """Where bones end: the joint at the other end."""
-MAX_VERTEX_INFLUENCES = 4
-"""Influences of a vertex."""
 
 Directions = Mapping[str, tuple[float, float, float]]
 

@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.geometry.adjacency import neighbours
 from engine.geometry.closest_points import closest_points
+from engine.geometry.skinning import MAX_VERTEX_INFLUENCES
 
-MAX_VERTEX_INFLUENCES = 4
-"""Joints that move a vertex, at most."""
 INFLUENCE_SMOOTHING_ROUNDS = 300
 """Rounds in which a vertex' influences become the mean of those around, a hand's breadth and more: a coat's tail that lies between
 both legs follows what they do together, and is not folded between them when they close."""

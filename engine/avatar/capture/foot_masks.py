@@ -15,14 +15,13 @@ from numpy.typing import NDArray
 
 from engine.avatar.capture.floor_mosaic import FloorMosaic, FloorView, cost_among_strange, floor_mosaic
 from engine.avatar.landmarks.spatial import SpatialLandmarks
+from engine.body.fitting.residuals import FOOT_LANDMARKS, MIN_DEPTH_METRES
 from engine.geometry.camera import Camera
 from engine.geometry.joint_names import SIDE_NAMES
 from engine.imaging.masks.colour_segmentation import MIN_MIXTURE_PIXELS, ColourMixture, ContrastGraph
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, near_lines
 from engine.imaging.masks.mask_pieces import without_small_pieces
 
-FOOT_LANDMARKS = ("Ankle", "Heel", "FootIndex")
-"""Of a foot, without their side."""
 FOOT_REACH_LENGTHS = 0.6
 """How far from its marks a foot may reach, in its lengths, and the floor is told from it."""
 CERTAIN_FOOT_SHARES = {"Heel": 0.5, "FootIndex": 0.7}
@@ -39,8 +38,6 @@ INNER_PIXELS = 1.5
 """From a mask's outline, beyond which it surely shows the person."""
 FOOT_SPECK_SHARE = 0.02
 """Of a square as wide as a foot is long: smaller pieces, and holes, are nobody's."""
-MIN_DEPTH_METRES = 0.1
-"""Metres before the camera."""
 MASK_COST = 1.0
 """What it costs a pixel to be told otherwise than the mask before has it: less than colours that say anything."""
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.body.fitting.hand_fitting import HAND_BONES
+from engine.body.fitting.residuals import MIN_DEPTH_METRES
 from engine.geometry.camera import Camera
 from engine.geometry.joint_names import SIDE_NAMES
 from engine.imaging.masks.colour_segmentation import grab_cut
@@ -36,8 +37,6 @@ LIMB_SURROUNDINGS_LENGTHS = 0.8
 """How much of what is around a limb tells its colours, in lengths of what is marked."""
 SETTLED_PIXELS = 3
 """From the outline of the mask, where away from limbs the mask stands."""
-MIN_DEPTH_METRES = 0.1
-"""Metres before the camera: nearer, or behind it, a limb is not in its picture."""
 MIN_LIMB_LENGTH_PIXELS = 6
 """Along a limb: of a smaller one nothing can be told."""
 

@@ -13,9 +13,7 @@ from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.compiled import njit
 from engine.render.rasteriser import Raster
 from engine.render.sampling import bilinear
-
-STRIP_TEXELS = 1 << 18
-"""Texels that are worked on at once, by default."""
+from engine.render.texture_bake import STRIP_TEXELS
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from engine.body.parts import part_of_bone
 from engine.character.drawing.bone_heat import bones_nearby, heat_weights, thickness
 from engine.character.drawing.flat_pose import flat_pose, flat_skeleton
 from engine.character.figure.figure import Figure
-from engine.character.figure.silhouette import Silhouette
+from engine.character.figure.silhouette import OPAQUE_ALPHA, Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human
 from engine.character.parts.label_map import Labels
 from engine.character.rig.rigging import Character, at_rest
@@ -29,8 +29,6 @@ from engine.motion.clip import Clip
 
 HALF_THICKNESS_SHARE, ROUNDED_EDGE_SHARE = 0.012, 0.03
 """Half a cut-out's thickness, and how far from its edge it has it, as shares of the figure's height on the grid."""
-OPAQUE_COVERAGE_SHARE = 0.9
-"""Share of a pixel that the figure covers from which on its colour is the figure's own."""
 MAX_TEXTURE_TEXELS = 2048
 """Texels of the texture's longer side, at most."""
 MARGIN_PIXELS = 6
@@ -139,7 +137,7 @@ def _bones(figure: Figure, silhouette: Silhouette) -> list[NDArray[np.float64]]:
 def _texture(figure: Figure, silhouette: Silhouette, mesh: ClosedMesh) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """The part of the picture that shows the figure, whose colours go on beyond its edge, and each vertex's place on it (V, 2)."""
     rows, columns = bounding_box(silhouette.alpha > 0.02, MARGIN_PIXELS)
-    own = silhouette.alpha[rows, columns] > OPAQUE_COVERAGE_SHARE
+    own = silhouette.alpha[rows, columns] > OPAQUE_ALPHA
     colours = continued_colours(np.ascontiguousarray(figure.rgb[rows, columns]), own)
     size = np.array(colours.shape[1::-1])
     matrix = np.asarray(cv2.invertAffineTransform(silhouette.to_grid))

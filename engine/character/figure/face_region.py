@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from engine.character.figure.figure import Figure
 from engine.imaging.masks.mask_distance import distance_inside
 
-RIGHT_EDGE_VERTEX, NOSE_TIP_VERTEX, LEFT_EDGE_VERTEX = 234, 1, 454
+RIGHT_EDGE_VERTEX, NOSE_FRONT_VERTEX, LEFT_EDGE_VERTEX = 234, 1, 454
 """Vertices of the face's mesh: before the ears, and at the tip of the nose."""
 PROFILE_EAR_SPREAD = 0.4
 """How far one ear is beside the other in the picture, in lengths from the eyes to the mouth, below which a head is in profile."""
@@ -48,7 +48,7 @@ def face_turn(figure: Figure) -> float:
     if figure.face is None:
         return 0.0
     left, nose, right = (
-        float(figure.face[vertex, 0]) for vertex in (RIGHT_EDGE_VERTEX, NOSE_TIP_VERTEX, LEFT_EDGE_VERTEX)
+        float(figure.face[vertex, 0]) for vertex in (RIGHT_EDGE_VERTEX, NOSE_FRONT_VERTEX, LEFT_EDGE_VERTEX)
     )
     return float(np.clip((2 * nose - left - right) / max(right - left, 1e-6), -1, 1)) if right > left else 0.0
 

@@ -45,6 +45,8 @@ HAND_REACH_SHARE = 0.043
 """... and how far around them the rest of forearm and hand may be."""
 MAX_HAND_DISTANCE_SHARE = 0.25
 """From the elbow to the fingertips, as a share of the person's height: so far from it may a hand be that is not seen closely."""
+OPAQUE_ALPHA = 0.9
+"""Alpha from which a pixel's colour is the person's own."""
 BONE_WIDTH_SHARE = 0.03
 """Width of what is surely somebody along a bone whose joints are seen, as a share of their height."""
 LIMB_WIDTH_SHARE = 0.03

@@ -12,21 +12,21 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import BODY_PARTS
 from engine.character.figure.face_region import in_profile
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human
-from engine.character.hybrid.limbs import INSET_PIXELS, WEIGHT_SMOOTHING_ROUNDS, Limbs
+from engine.character.hybrid.limbs import WEIGHT_SMOOTHING_ROUNDS, Limbs
 from engine.character.parts.label_map import Labels
+from engine.character.parts.labels import HEAD_LABEL, TRUNK_LABEL
 from engine.character.shell.template_mesh import TemplateMesh
+from engine.character.surface.depth_order import INSET_PIXELS
 from engine.character.surface.sheets import ClosedMesh
 from engine.geometry.adjacency import neighbours
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import largest_piece
 from engine.render.rasteriser import rasterise
 
-HEAD_LABEL, TRUNK_LABEL = BODY_PARTS.index("head"), BODY_PARTS.index("torso")
 MIN_SHOWN_HEAD_WEIGHT = 0.3
 """Share of the head in what moves a vertex that may show in its outline."""
 HAIR_DEPTH_SHARE = 0.09

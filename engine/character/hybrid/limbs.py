@@ -19,7 +19,8 @@ from engine.character.hybrid.trunk import LIMB_LABELS, TRUNK_BEHIND_LIMBS_PIXELS
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
 from engine.character.shell.template_mesh import TemplateMesh
-from engine.character.surface.depth_order import body_behind, limb_before
+from engine.character.surface.depth_order import INSET_PIXELS, MAX_FORWARD_PIXELS, body_behind, limb_before
+from engine.character.surface.legs_beneath import LEG_UNDER_CLOTH_SHARE
 from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheet_border import open_edges
 from engine.character.surface.sheets import Layer
@@ -31,16 +32,10 @@ from engine.render.rasteriser import rasterise
 
 SHELL_SHOULDER_OVERLAP_METRES, SHELL_HIP_OVERLAP_METRES = 0.15, 0.16
 """Metres at rest around the joint in which the shell of arm or leg goes on in the trunk."""
-LEG_UNDER_CLOTH_SHARE = 0.06
-"""How far a leg goes on under cloth that hangs, as a share of the person's height."""
-INSET_PIXELS = 1.5
-"""Pixels by which what is within the trunk lies beneath its surface."""
 MIN_LIMB_DEPTH_SHARE = 0.2
 """Share of the trunk's depth that a limb within it keeps about its middle, at least."""
 LIMB_EDGE_TOLERANCE_PIXELS = 3
 """Pixels from limbs that are seen within which nothing is taken to be hidden by the trunk: outlines do not lie on one another exactly."""
-MAX_FORWARD_PIXELS = 16.0
-"""Pixels by which a limb that the trunk hides may be before it and is moved behind; twice as many, and it is not moved."""
 FULL_DEPTH_NEARNESS, DEPTH_SMOOTHING_PIXELS = 0.4, 4.0
 """How near to a joint, from 0 to 1 there, the trunk is as deep as the shell, and pixels over which that is smoothed."""
 WEIGHT_SMOOTHING_ROUNDS = 4

@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.rig.rigging import Character
+from engine.character.texture.texture import MAX_TEXTURE_WIDTH_PIXELS
 from engine.geometry.skinned_mesh import SkinnedMesh
 
-MAX_TEXTURE_WIDTH_PIXELS = 4096
-"""Pixels of a texture's width at most: what every graphics card takes."""
 CROP_MARGIN_TEXELS = 8
 """Texels around what is used of a texture that are kept."""
 

@@ -19,6 +19,7 @@ from engine.imaging.masks.colour_segmentation import (
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.imaging.masks.mask_pieces import pieces_touching
 
+HEAD_LABEL, TRUNK_LABEL = BODY_PARTS.index("head"), BODY_PARTS.index("torso")
 ARM_LABELS = (BODY_PARTS.index("left_arm"), BODY_PARTS.index("right_arm"))
 LEG_LABELS = (BODY_PARTS.index("left_leg"), BODY_PARTS.index("right_leg"))
 OPPOSITE_LABEL = {one: other for pair in (ARM_LABELS, LEG_LABELS) for one, other in (pair, pair[::-1])}

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from engine.character.figure.silhouette import GRID_HEIGHT_PIXELS
-from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
-from engine.character.shell.outlines import HEAD_LABEL, TRUNK_LABEL, Outlines
+from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, LEG_LABELS, TRUNK_LABEL
+from engine.character.shell.outlines import Outlines
 from engine.character.shell.template_mesh import TemplateMesh
 
 MAX_RIM_NORMAL_DEPTH = 0.5

@@ -15,9 +15,8 @@ from engine.body.parts import BODY_PARTS
 from engine.character.figure.silhouette import GRID_HEIGHT_PIXELS
 from engine.character.parts.free_cloth import FreeCloth
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
+from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, LEG_LABELS, TRUNK_LABEL
 
-TRUNK_LABEL, HEAD_LABEL = BODY_PARTS.index("torso"), BODY_PARTS.index("head")
 MIN_OUTLINED_PART_PIXELS = 60
 """Pixels of a part whose border is looked at."""
 MIN_FOLLOWED_BORDER_PIXELS = 30

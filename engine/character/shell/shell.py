@@ -17,10 +17,11 @@ from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human
 from engine.character.parts.label_map import Labels
+from engine.character.parts.labels import HEAD_LABEL
 from engine.character.shell.at_rest import shell_at_rest
 from engine.character.shell.displacement import KnownPoints, displace
 from engine.character.shell.extremities import barefoot, in_shoes
-from engine.character.shell.outlines import HEAD_LABEL, part_outlines
+from engine.character.shell.outlines import part_outlines
 from engine.character.shell.piece import Piece
 from engine.character.shell.props import props_of
 from engine.character.shell.skirt import skirt_of
@@ -28,10 +29,8 @@ from engine.character.shell.template_mesh import MIN_SURE_HEAD_WEIGHT, TemplateM
 from engine.character.shell.thickness import thickened
 from engine.geometry.skinning import bone_transforms, skin
 from engine.imaging.masks.mask_distance import distance_to
-from engine.perception.landmarks import fiducials
+from engine.perception.landmarks import JAW_LANDMARK_COUNT, fiducials
 
-JAW_LANDMARK_COUNT = 17
-"""The first of the 68 fiducials are the jaw's line: where it is seen depends on the view, and so they are no points of the face."""
 HEAD_SURROUND_METRES = 0.12
 """Metres beyond the head's radius in which what is around gives way where it is displaced."""
 EAR_TOLERANCE_PIXELS, MIN_EAR_SHARE = 0.5, 0.25

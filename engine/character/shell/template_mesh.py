@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from engine.body import load_template
 from engine.body.parts import BODY_PARTS, part_of_bone
 from engine.character.fit.template_fit import load_human
+from engine.geometry.skinning import MAX_VERTEX_INFLUENCES
 from engine.geometry.surface import triangulate
 
 EAR_RADIUS_METRES, EAR_DEPTH_METRES = 0.045, 0.025
 """Metres around the outermost point of an ear, and inwards from it, that are the ear's."""
 MIN_SURE_HEAD_WEIGHT = 0.9
 """Share of the head in what moves a vertex that is surely of it."""
-MAX_VERTEX_INFLUENCES = 4
 
 
 @dataclass(frozen=True)

@@ -16,12 +16,10 @@ from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.parts.label_map import Labels
 from engine.character.surface.part_surface import Warp
-from engine.perception.landmarks import fiducials
+from engine.perception.landmarks import JAW_LANDMARK_COUNT, fiducials
 
 FIXED_POINT_SPACING_PIXELS = 8
 """Pixels between the points of the head's border that stay."""
-JAW_LANDMARK_COUNT = 17
-"""The first of the 68 fiducials lie along the jaw: they slide along it, and are not points of the surface."""
 
 
 @dataclass(frozen=True)

@@ -18,10 +18,9 @@ from scipy.ndimage import distance_transform_edt
 from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheet_border import joining_strip, open_edges, smoothed_border, to_the_edge
 from engine.character.surface.solid_limb import SolidLimb, places_on_the_picture
+from engine.geometry.skinning import MAX_VERTEX_INFLUENCES
 from engine.render.rasteriser import rasterise
 
-MAX_VERTEX_INFLUENCES = 4
-"""Joints that move a vertex, at most: what engines take."""
 MIN_HALF_DEPTH_PIXELS, MIN_BORDER_HALF_DEPTH_PIXELS = 0.5, 0.3
 """Pixels between the middle and each side, at least, inside a part; and at its border."""
 LIMB_OFFSET_PIXELS = 0.2

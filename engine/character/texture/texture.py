@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
 from engine.character.figure.face_region import within_oval
+from engine.character.figure.silhouette import OPAQUE_ALPHA
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import LEG_LABELS, complete_labels
 from engine.character.parts.limb_edges import soft_limbs
@@ -34,8 +35,6 @@ from engine.imaging.resample import enlarged_mask
 
 BackTexture = Literal["see_through", "mirror", "inpaint"]
 
-OPAQUE_ALPHA = 0.9
-"""Alpha from which a pixel's colour is the person's own; colours of the others are continued from these."""
 MIN_NOT_BACKGROUND_ALPHA = 0.05
 """Alpha from which a pixel's colour is not the background's alone."""
 MIN_PART_HALF_WIDTH_PIXELS = 4.0

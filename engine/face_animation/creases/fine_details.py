@@ -28,7 +28,7 @@ from engine.imaging.masks.colour_segmentation import grab_cut
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.warping.mesh_warp import inverse_map
 from engine.media.film_strip import FilmStrip, FilmStripWriter
-from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
+from engine.perception.face_track.face_crop import CROP_EYE_DISTANCE_PIXELS, CROP_SHAPE
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
 
@@ -71,8 +71,6 @@ FLAT_GREY_LEVELS, FLAT_WINDOW_PIXELS = 1.0, 5
 FLAT_SHARES = (0.08, 0.2)
 """Shares of the face that are flat, up to which it takes all of a ratio, and from which on none: photographs, paintings and rendered
 figures have up to 0.06, a drawing in flat colours 0.22."""
-CROP_EYE_DISTANCE = CROP_EYES[1][0] - CROP_EYES[0][0]
-"""Eye distance in the crop, pixels. The paper's pixel distances are meant for faces of about this size."""
 
 
 @dataclass(frozen=True)
@@ -272,7 +270,7 @@ class RatioImages:
     def _without_shading(self, ratio: NDArray[np.float32], frame: int) -> NDArray[np.float32]:
         """A head that turns in fixed light changes shade over wide areas: no part of the expression."""
         small = cv2.resize(ratio, None, fx=1 / 8, fy=1 / 8, interpolation=cv2.INTER_AREA)
-        wide = cv2.GaussianBlur(small, (0, 0), SHADING_EYE_DISTANCES * CROP_EYE_DISTANCE / 8) ** (
+        wide = cv2.GaussianBlur(small, (0, 0), SHADING_EYE_DISTANCES * CROP_EYE_DISTANCE_PIXELS / 8) ** (
             1 - self._frontal[frame]
         )
         return np.asarray(ratio / cv2.resize(wide, ratio.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)

@@ -15,7 +15,16 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.face_animation.creases.fine_details import NOSE_VERTICES
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.landmarks import FACE_OVAL, LIPS_OUTER, eye_distance
+from engine.perception.landmarks import (
+    CHIN_VERTEX,
+    FACE_OVAL,
+    LEFT_EYE_CORNER_VERTICES,
+    LIPS_OUTER,
+    MOUTH_CORNER_VERTICES,
+    NOSE_BASE_VERTEX,
+    RIGHT_EYE_CORNER_VERTICES,
+    eye_distance,
+)
 
 FOLDS_EYE_DISTANCE_PIXELS = 120.0
 """Eye distance, pixels, of the copy in which folds are looked for, at most."""
@@ -41,8 +50,7 @@ PHILTRUM_VERTICES, LIT_CHEEK_VERTICES = (
     (97, 326, 269, 0, 39),
     ((50, 101, 118, 117, 111, 116, 123), (280, 330, 347, 346, 340, 345, 352)),
 )
-MOUTH_CORNER_VERTICES, OUTER_EYE_CORNER_VERTICES = (61, 291), (33, 263)
-NOSE_BASE_VERTEX, CHIN_VERTEX = 2, 152
+OUTER_EYE_CORNER_VERTICES = (RIGHT_EYE_CORNER_VERTICES[0], LEFT_EYE_CORNER_VERTICES[0])
 
 
 class OwnFolds:

@@ -21,7 +21,7 @@ from engine.face_animation.driver_tracking.unseen_blinks import eye_contrast, sh
 from engine.face_animation.mouth.lip_contours import MIN_TEETH_OPENING
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.warping.mesh_warp import inverse_map
-from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
+from engine.perception.face_track.face_crop import CROP_EYE_DISTANCE_PIXELS, CROP_SHAPE
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import (
     FACE_OVAL,
@@ -35,8 +35,6 @@ from engine.perception.landmarks import (
 )
 from engine.perception.temporal_filter import remove_jitter
 
-CROP_EYE_DISTANCE = CROP_EYES[1][0] - CROP_EYES[0][0]
-"""Eye distance in the crop, pixels."""
 SMOOTHING_PIXELS = 4.0
 """Pixels of the crop over which the measured rest is averaged."""
 TRUSTED_RESIDUAL_PIXELS = 9.0
@@ -130,12 +128,12 @@ def _trust(rest: NDArray[np.float32]) -> NDArray[np.float32]:
     lies behind the face, nor beside an open mouth."""
     oval = rest[list(FACE_OVAL)]
     inside = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in rest])
-    t = np.clip(inside / (CONTOUR_FADE_EYE_DISTANCES * CROP_EYE_DISTANCE), 0, 1)
+    t = np.clip(inside / (CONTOUR_FADE_EYE_DISTANCES * CROP_EYE_DISTANCE_PIXELS), 0, 1)
     weight = t * t * (3 - 2 * t)
     if float(mouth_opening(rest)) > MIN_TEETH_OPENING:
         lips = rest[list(LIPS_OUTER)]
         beside = np.array([-cv2.pointPolygonTest(lips, (float(x), float(y)), True) for x, y in rest])
-        weight *= np.clip(beside / (LIPS_FADE_EYE_DISTANCES * CROP_EYE_DISTANCE), 0, 1)
+        weight *= np.clip(beside / (LIPS_FADE_EYE_DISTANCES * CROP_EYE_DISTANCE_PIXELS), 0, 1)
     weight[[v for v in TRACKED_VERTICES if v < len(weight)]] = 0
     return np.asarray(weight, np.float32)
 

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
 
 FLOOR_GREY_LEVELS = 4.0
 """Added to colours before their logarithm, so that the dark has no colour."""

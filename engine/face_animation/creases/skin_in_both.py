@@ -11,13 +11,14 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, chroma
-from engine.perception.face_track.face_crop import CROP_EYES
+from engine.face_animation.skin_colour import chroma
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
+from engine.perception.face_track.face_crop import CROP_EYE_DISTANCE_PIXELS
 from engine.perception.landmarks import FACE_OVAL, LEFT_BROW, LEFT_EYE, LIPS_OUTER, RIGHT_BROW, RIGHT_EYE
 
 CELL_PIXELS = 3
 """Pixels of the crop, along each axis, that are looked at as one."""
-CELLS_EYE_DISTANCE_PIXELS = (CROP_EYES[1][0] - CROP_EYES[0][0]) / CELL_PIXELS
+CELLS_EYE_DISTANCE_PIXELS = CROP_EYE_DISTANCE_PIXELS / CELL_PIXELS
 """An eye distance of what is looked at, pixels."""
 SKIN_CHROMA_DIFFERENCES, NO_SKIN_CHROMA_DIFFERENCES = 0.025, 0.05
 """By how much a pixel's shares of red and blue differ from those of the skin, up to which it is skin, and from which on it is not."""

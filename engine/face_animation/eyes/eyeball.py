@@ -13,11 +13,21 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS
 from engine.face_animation.whites import eye_whites, white_tint
-from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
+from engine.perception.landmarks import (
+    LEFT_EYE,
+    LEFT_EYE_CORNER_VERTICES,
+    LEFT_IRIS,
+    RIGHT_EYE,
+    RIGHT_EYE_CORNER_VERTICES,
+    RIGHT_IRIS,
+)
 
-EYE_OUTLINE_IRIS_CORNERS = ((RIGHT_EYE, RIGHT_IRIS, 33, 133), (LEFT_EYE, LEFT_IRIS, 263, 362))
+EYE_OUTLINE_IRIS_CORNERS = (
+    (RIGHT_EYE, RIGHT_IRIS, *RIGHT_EYE_CORNER_VERTICES),
+    (LEFT_EYE, LEFT_IRIS, *LEFT_EYE_CORNER_VERTICES),
+)
 CHEEK_BELOW_EYE_VERTICES = ((117, 118, 119, 120, 100, 101), (346, 347, 348, 349, 329, 330))
 """Vertices of the cheek below each eye."""
 LAYER_MARGIN_EYE_WIDTHS = 0.5

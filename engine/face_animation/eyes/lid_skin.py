@@ -12,13 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.warping.mesh_warp import inverse_map
+from engine.perception.landmarks import LEFT_EYE_CORNER_VERTICES, RIGHT_EYE_CORNER_VERTICES
 
 UPPER_LID_STRIPS = (
     ((247, 30, 29, 27, 28, 56, 190), (246, 161, 160, 159, 158, 157, 173)),
     ((467, 260, 259, 257, 258, 286, 414), (466, 388, 387, 386, 385, 384, 398)),
 )
 """Vertices of the skin above the upper lid, and of the lid's edge, from the eye's outer corner on; right eye first."""
-EYE_CORNER_VERTICES = ((33, 133), (263, 362))
+EYE_CORNER_VERTEX_PAIRS = (RIGHT_EYE_CORNER_VERTICES, LEFT_EYE_CORNER_VERTICES)
 """Where both end."""
 BELOW_BROW_VERTICES = ((113, 225, 224, 223, 222, 221, 189), (342, 445, 444, 443, 442, 441, 413))
 """Vertices further up, below the brow."""
@@ -94,7 +95,7 @@ def draw_lid(
 
 def _strip(mesh: NDArray, side: int) -> NDArray:
     """(18, 2) the skin above from corner to corner, then the lid's edge."""
-    outer, inner = EYE_CORNER_VERTICES[side]
+    outer, inner = EYE_CORNER_VERTEX_PAIRS[side]
     strip = mesh[[v for row in UPPER_LID_STRIPS[side] for v in (outer, *row, inner)], :2].astype(float)
     strip[1:8] += LID_COLOUR_REACH_SHARE * (mesh[list(BELOW_BROW_VERTICES[side]), :2] - strip[1:8])
     return np.asarray(strip)
@@ -140,7 +141,7 @@ def _grain(
     rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int, shape: tuple[int, int]
 ) -> NDArray[np.float32]:
     """(h, w, 3) of the `shape`: the grain of the cheek below an eye, which goes to and fro where it is smaller; none of what is stronger than grain."""
-    outer, inner = (mesh[v, :2].astype(np.float64) for v in EYE_CORNER_VERTICES[side])
+    outer, inner = (mesh[v, :2].astype(np.float64) for v in EYE_CORNER_VERTEX_PAIRS[side])
     wide, high = (max(2, round(share * float(np.linalg.norm(inner - outer)))) for share in CHEEK_PATCH_EYE_WIDTHS)
     right = (inner - outer) / np.linalg.norm(inner - outer)
     middle = mesh[list(CHEEK_BELOW_LID_VERTICES[side]), :2].mean(axis=0)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.landmarks import FACE_OVAL, eye_distance
+from engine.perception.landmarks import FACE_OVAL, eye_distance, eyes_and_chin
 
 CHEEK_CONTOUR_EDGES = (*range(8, 14), *range(22, 28))
 """Edges of `FACE_OVAL` from the ears to the chin, by where they begin; forehead and chin stay in sight."""
@@ -121,7 +121,7 @@ def even_expression(mesh: NDArray[np.floating], usable: NDArray[np.bool_]) -> ND
     the cheekbones, which belong to the skull, all of it at the jaw. `usable` (478,) are those that count.
     """
     share = _even_band(mesh, EVEN_BAND_EYE_DISTANCES)
-    eyes, chin = mesh[[33, 133, 263, 362], :2].mean(axis=0), mesh[152, :2]
+    eyes, chin = eyes_and_chin(mesh)
     below = (mesh[:, :2] - eyes) @ (chin - eyes) / float((chin - eyes) @ (chin - eyes))
     jaw = smoothstep(below, *JAW_CHIN_LENGTHS)[:, None]
     return np.asarray(share * jaw * _neighbours(mesh, usable) + (1 - share) * np.eye(len(mesh)))

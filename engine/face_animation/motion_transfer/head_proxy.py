@@ -21,7 +21,7 @@ from engine.face_animation.motion_transfer.head_motion import SOFT_WEIGHT, HeadM
 from engine.face_animation.motion_transfer.head_room import skull_centre, skull_shift
 from engine.face_animation.smoothstep import smoothstep
 from engine.geometry.registration.rigid import fit_similarities
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES
+from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES, eyes_and_chin
 
 NECK_FADE_CHIN_LENGTHS = (0.9, 1.7)
 """The head's rigid motion fades out between these distances below the eyes, in lengths from eyes to chin."""
@@ -94,13 +94,14 @@ def beside_rim(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDAr
 
 def chin_length(mesh: NDArray[np.floating]) -> float:
     """From the eyes to the chin of a face (478, 2 or 3), pixels."""
-    return float(np.linalg.norm(mesh[152, :2] - mesh[[33, 133, 263, 362], :2].mean(axis=0)))
+    eyes, chin = eyes_and_chin(mesh)
+    return float(np.linalg.norm(chin - eyes))
 
 
 def chin_lengths_below(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """(P,) how far below the eyes, down the face, points (P, 2) lie, in lengths from eyes to chin."""
-    eyes = mesh[[33, 133, 263, 362], :2].mean(axis=0)
-    down = mesh[152, :2] - eyes
+    eyes, chin = eyes_and_chin(mesh)
+    down = chin - eyes
     return np.asarray((points - eyes) @ down / float(down @ down), float)
 
 
@@ -153,8 +154,8 @@ def _face_width(mesh: NDArray[np.floating]) -> float:
 def head_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
     """How far points (P, 2) belong to the head: 1 above the chin, fading to 0 down the neck, and aside of it, where shoulders are."""
     below = chin_lengths_below(mesh, points)
-    eyes = mesh[[33, 133, 263, 362], :2].mean(axis=0)
-    down = (mesh[152, :2] - eyes) / chin_length(mesh)
+    eyes, chin = eyes_and_chin(mesh)
+    down = (chin - eyes) / chin_length(mesh)
     aside = np.abs((points - eyes) @ (down[::-1] * (1, -1))) / chin_length(mesh)
     begin, end = NECK_FADE_CHIN_LENGTHS
     fading = smoothstep(below, begin, end)

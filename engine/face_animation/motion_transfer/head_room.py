@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from engine.face_animation.motion_transfer.head_motion import HeadMotion
 from engine.geometry.registration.rigid import Similarity, fit_similarities
 from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import FACE_OVAL, RIGID_VERTICES
+from engine.perception.landmarks import FACE_OVAL, NOSE_TIP_VERTEX, RIGID_VERTICES, eyes_and_chin
 
 FREE_ROOM_SHARE = 0.5
 """Share of the room over which nothing is held back."""
@@ -42,7 +42,6 @@ PICTURE_BORDER_SHARE = 0.02
 """Share of the picture's shorter side within which its border is: a thin frame may lie along it."""
 SKULL_BEHIND_EARS = 0.35
 """By how much the skull's middle lies behind that between the ears, in lengths from the tip of the nose to there."""
-NOSE_TIP_VERTEX = 4
 MIN_PERSON_ALPHA = 0.5
 """Of a person's mask, from which on a pixel shows it."""
 
@@ -57,7 +56,7 @@ def head_room(mesh: NDArray[np.floating], person: NDArray[np.floating]) -> NDArr
     height, width = person.shape
     oval = mesh[list(FACE_OVAL), :2]
     low, high = oval.min(axis=0), oval.max(axis=0)
-    eyes, chin = mesh[[33, 133, 263, 362], :2].mean(axis=0), mesh[152, :2]
+    eyes, chin = eyes_and_chin(mesh)
     least = MIN_ROOM_FACE_LENGTHS * float(np.linalg.norm(chin - eyes))
     (left_most, top), (right_most, eye_line) = (
         np.clip(place, 0, (width - 1, height - 1)).astype(int) for place in (low, (high[0], eyes[1]))

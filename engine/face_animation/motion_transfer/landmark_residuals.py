@@ -14,12 +14,20 @@ from engine.face_animation.motion_transfer.lids_and_lips import (
     LID_EDGE_VERTEX_PAIRS,
     LID_SKIN_VERTEX_PAIRS,
 )
-from engine.perception.face_track.face_crop import CROP_EYES
+from engine.perception.face_track.face_crop import CROP_EYE_DISTANCE_PIXELS
 from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, LIPS_INNER, LIPS_OUTER, MESH_SIZE, RIGHT_EYE, RIGHT_IRIS
+from engine.perception.landmarks import (
+    LEFT_EYE,
+    LEFT_IRIS,
+    LIPS_INNER,
+    LIPS_OUTER,
+    MESH_SIZE,
+    RIGHT_EYE,
+    RIGHT_IRIS,
+    eye_centres,
+    eye_distance,
+)
 
-CROP_EYE_DISTANCE = CROP_EYES[1][0] - CROP_EYES[0][0]
-"""Eye distance in the crop, pixels."""
 CORRECTED_SHARE = 0.6
 """Share of a residual that is corrected; the rest is the tracker's own scatter."""
 CORRECTED_SHARE_AT_LIPS = 0.35
@@ -54,7 +62,8 @@ class LandmarkResiduals:
         faces : (N, 478, 2) the driver's face in its crop. placed : (N, 478, 2) the target's points as they were carried.
         """
         measured = (_likeness(flatten_residuals(faces), self.faces) @ self.weights).reshape(-1, MESH_SIZE, 2)
-        right = placed[:, None, [263, 362]].mean(axis=2) - placed[:, None, [33, 133]].mean(axis=2)  # one eye distance
+        right_eye, left_eye = eye_centres(placed)
+        right = (left_eye - right_eye)[:, None]  # one eye distance
         down = right[..., ::-1] * (-1, 1)
         return _keep_closed(-_shares() * (measured[..., :1] * right + measured[..., 1:] * down), placed)
 
@@ -62,7 +71,7 @@ class LandmarkResiduals:
 def fit_residuals(faces: NDArray[np.floating], measured: NDArray[np.floating]) -> LandmarkResiduals:
     """From the residuals `measured` (K, 478, 2) of frames of the driver with these `faces` (K, 478, 2), pixels of its crop."""
     known = flatten_residuals(faces)
-    size = np.linalg.norm(measured, axis=2, keepdims=True) / CROP_EYE_DISTANCE
+    size = np.linalg.norm(measured, axis=2, keepdims=True) / CROP_EYE_DISTANCE_PIXELS
     believed = flatten_residuals(measured * np.minimum(1, MAX_RESIDUAL_EYE_DISTANCES / np.maximum(size, 1e-6)))
     weights = np.linalg.solve(_likeness(known, known) + REGRESSION_RIDGE * np.eye(len(known)), believed)
     return LandmarkResiduals(known, weights.astype(np.float32))
@@ -75,7 +84,7 @@ def no_residuals() -> LandmarkResiduals:
 
 def flatten_residuals(faces: NDArray[np.floating]) -> NDArray[np.float32]:
     """(K, 478, 2) pixels of the crop as (K, 956) eye distances."""
-    return np.asarray(faces.reshape(len(faces), -1) / CROP_EYE_DISTANCE, np.float32)
+    return np.asarray(faces.reshape(len(faces), -1) / CROP_EYE_DISTANCE_PIXELS, np.float32)
 
 
 @cache
@@ -99,7 +108,7 @@ def _likeness(a: NDArray[np.float32], b: NDArray[np.float32]) -> NDArray[np.floa
 def _keep_closed(offsets: NDArray[np.floating], placed: NDArray[np.floating]) -> NDArray[np.float32]:
     """Lips and lids that are closed stay so: both sides take the mean. Irises and the lids' skin go with their eye."""
     down = placed[:, 152] - placed[:, 10]
-    unit = np.linalg.norm(placed[:, [263, 362]].mean(axis=1) - placed[:, [33, 133]].mean(axis=1), axis=1)
+    unit = eye_distance(placed)
     top, bottom = np.array(INNER_LIP_PAIRS + LID_EDGE_VERTEX_PAIRS).T
     gap = np.einsum("nvi,ni->nv", placed[:, bottom] - placed[:, top], down / np.linalg.norm(down, axis=1)[:, None])
     middle, apart = (offsets[:, top] + offsets[:, bottom]) / 2, (offsets[:, bottom] - offsets[:, top]) / 2

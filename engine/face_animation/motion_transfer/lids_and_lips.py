@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.landmarks import LEFT_IRIS, RIGHT_IRIS, eye_opening
+from engine.perception.landmarks import CHIN_VERTEX, FOREHEAD_VERTEX, LEFT_IRIS, RIGHT_IRIS, eye_opening
 
 LID_EDGE_VERTEX_PAIRS = (
     *((246, 7), (161, 163), (160, 144), (159, 145), (158, 153), (157, 154), (173, 155)),
@@ -110,7 +110,7 @@ def constrain_lids_and_lips(
     index = {int(v): i for i, v in enumerate(upper)}
     out[:, skin] += 0.5 * moved[:, [index[int(v)] for v in edge]]
     top, bottom = np.array(INNER_LIP_PAIRS).T
-    down = target[152] - target[10]
+    down = target[CHIN_VERTEX] - target[FOREHEAD_VERTEX]
     down = down / np.linalg.norm(down)
     gap = (out[:, bottom] - out[:, top]) @ down
     overlap = np.maximum(-gap, 0)[..., None] * down / 2

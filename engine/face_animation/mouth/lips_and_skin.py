@@ -11,6 +11,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.perception.landmarks import CHIN_VERTEX, FOREHEAD_VERTEX
+
 UPPER_LIP_COLUMNS = (
     *((184, 183, 191), (74, 42, 80), (73, 41, 81), (72, 38, 82), (11, 12, 13)),
     *((302, 268, 312), (303, 271, 311), (304, 272, 310), (408, 407, 415)),
@@ -32,8 +34,6 @@ SKIN_BELOW_COLUMNS = (
     *((405, 406, 418, 262, 369, 400), (321, 335, 424, 431, 395, 378), (375, 273, 422, 430, 394, 379)),
 )
 """What each of them goes on with, down to the jaw's contour."""
-BROW_VERTEX, CHIN_VERTEX = 10, 152
-"""Where the face's axis begins and ends."""
 MIN_SKIN_SHARE = 0.2
 """Share of its usual breadth that skin keeps, at least."""
 NARROW_LIP_SKIN_SHARE = 0.3
@@ -104,5 +104,5 @@ def _with_neighbours(moves: NDArray[np.floating]) -> NDArray[np.floating]:
 
 def _down(face: NDArray[np.floating]) -> NDArray[np.float64]:
     """(2,) the way down a face (478, 2 or 3)."""
-    axis = face[CHIN_VERTEX, :2].astype(float) - face[BROW_VERTEX, :2]
+    axis = face[CHIN_VERTEX, :2].astype(float) - face[FOREHEAD_VERTEX, :2]
     return np.asarray(axis / np.linalg.norm(axis), float)

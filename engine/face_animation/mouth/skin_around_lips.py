@@ -8,10 +8,7 @@ from numpy.typing import NDArray
 from engine.geometry.adjacency import edges
 from engine.perception.face_tessellation import face_triangles
 from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
-
-NOSE_BASE_VERTEX = 2
-"""The skin above it stays."""
+from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, NOSE_BASE_VERTEX
 
 
 def with_lips(vertices: NDArray[np.integer], moved: NDArray[np.floating]) -> NDArray[np.float64]:

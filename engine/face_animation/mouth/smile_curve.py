@@ -19,14 +19,11 @@ from engine.face_animation.mouth.lips_and_skin import (
 from engine.face_animation.mouth.skin_around_lips import with_lips
 from engine.face_animation.smoothstep import smoothstep
 from engine.perception.head_pose import canonical_face
+from engine.perception.landmarks import CHIN_VERTEX, FOREHEAD_VERTEX, MOUTH_CORNER_VERTICES
 
-MOUTH_CORNER_PAIR = (61, 291)
-"""Of the mouth."""
 CORNER_VERTICES = (61, 76, 62, 78, 291, 306, 292, 308)
 LIPS_MIDDLE_VERTICES, INNER_UPPER_LIP_VERTICES = (0, 13, 14, 17), (13,)
 """Of both lips, and of the upper one's inner edge: a smile that shows teeth bends that up, whatever the lower lip does."""
-BROW_VERTEX, CHIN_VERTEX = 10, 152
-"""Where the face's axis begins and ends."""
 WIDENING_SHARES, RISE_SHARES = (0.03, 0.12), (0.02, 0.07)
 """By how much of its width at rest a mouth gets wider and its corners higher, from which on it smiles, and fully: both together, for lips that
 are drawn wide alone say e, or are afraid."""
@@ -60,16 +57,16 @@ def corner_height(
 ) -> NDArray[np.float64]:
     """(...,) how much higher a mouth's corners are than its `middle`, of faces (..., 478, 2 or 3) whose way `up` (2,) is known, in widths of the mouth."""
     plane = faces[..., :2].astype(float)
-    apart = plane[..., list(MOUTH_CORNER_PAIR), :].mean(axis=-2) - plane[..., list(middle), :].mean(axis=-2)
+    apart = plane[..., list(MOUTH_CORNER_VERTICES), :].mean(axis=-2) - plane[..., list(middle), :].mean(axis=-2)
     return np.asarray(apart @ up / _width(plane))
 
 
 def smile_share(meshes: NDArray[np.floating], rest: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) how far faces (N, 478, 2 or 3), upright as at `rest` (478, 2 or 3), smile: their mouths are wider, and their corners higher."""
-    right, left = (meshes[:, corner, :2].astype(float) for corner in MOUTH_CORNER_PAIR)
+    right, left = (meshes[:, corner, :2].astype(float) for corner in MOUTH_CORNER_VERTICES)
     usual = rest[:, :2].astype(float)
     wider = np.linalg.norm(left - right, axis=1) / _width(usual) - 1
-    higher = ((right + left) / 2 - usual[list(MOUTH_CORNER_PAIR)].mean(axis=0)) @ _up(usual) / _width(usual)
+    higher = ((right + left) / 2 - usual[list(MOUTH_CORNER_VERTICES)].mean(axis=0)) @ _up(usual) / _width(usual)
     return smoothstep(wider, *WIDENING_SHARES) * smoothstep(higher, *RISE_SHARES)
 
 
@@ -79,17 +76,17 @@ def corner_influence() -> NDArray[np.float64]:
     skin = [column[0] for columns in (SKIN_ABOVE_COLUMNS, SKIN_BELOW_COLUMNS) for column in columns]
     lips = np.unique([*np.ravel(UPPER_LIP_COLUMNS), *np.ravel(LOWER_LIP_COLUMNS), *skin, *CORNER_VERTICES])
     across = canonical_face()[:, 0].astype(float)
-    bend = np.minimum((across[lips] / across[MOUTH_CORNER_PAIR[1]]) ** 2, 1)
+    bend = np.minimum((across[lips] / across[MOUTH_CORNER_VERTICES[1]]) ** 2, 1)
     return with_lips(lips, bend[:, None])[:, 0]
 
 
 def _width(faces: NDArray[np.floating]) -> NDArray[np.float64]:
     """(...,) of the mouths of faces (..., 478, 2 or 3)."""
-    across = faces[..., MOUTH_CORNER_PAIR[1], :2] - faces[..., MOUTH_CORNER_PAIR[0], :2]
+    across = faces[..., MOUTH_CORNER_VERTICES[1], :2] - faces[..., MOUTH_CORNER_VERTICES[0], :2]
     return np.asarray(np.maximum(np.linalg.norm(across, axis=-1), 1e-6), float)
 
 
 def _up(face: NDArray[np.float64]) -> NDArray[np.float64]:
     """(2,) the way up a face (478, 2)."""
-    axis = face[BROW_VERTEX] - face[CHIN_VERTEX]
+    axis = face[FOREHEAD_VERTEX] - face[CHIN_VERTEX]
     return np.asarray(axis / max(float(np.linalg.norm(axis)), 1e-6), float)

@@ -21,8 +21,9 @@ from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth, appearing_opening, teeth_gain
 from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
 from engine.face_animation.mouth.pictured.teeth_strip import teeth_strip
-from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, skin_colour
+from engine.face_animation.skin_colour import skin_colour
 from engine.face_animation.target_face import TargetFace
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import eye_distance, mouth_opening

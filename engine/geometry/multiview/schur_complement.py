@@ -12,9 +12,8 @@ from __future__ import annotations
 import numpy as np
 
 from engine.compiled import njit
+from engine.geometry.multiview.bundle import MIN_POINT_DEPTH
 
-MIN_POINT_DEPTH = 1e-9
-"""Distance along the view axis from which on a point is before the camera."""
 CAMERA_COLUMNS, POINT_COLUMN_END = 9, 12
 """Columns of an observation's Jacobian: turn (3), shift (3), focal length, k1 and k2; then those of the point (3)."""
 

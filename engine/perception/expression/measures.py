@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import RIGID_VERTICES, eye_opening
+from engine.perception.landmarks import EYE_CORNER_VERTICES, RIGID_VERTICES, eye_opening
 
 MEASURES = (
     *("mouth_open", "mouth_wide", "right_corner_up", "left_corner_up"),
@@ -49,7 +49,7 @@ def measure(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
     face = frontalise(meshes)
     nose = face[:, 2, 1]
     mouth_open = np.linalg.norm(face[:, 13] - face[:, 14], axis=1)
-    lids = face[:, [33, 133, 263, 362], 1].mean(axis=1)
+    lids = face[:, list(EYE_CORNER_VERTICES), 1].mean(axis=1)
     eyes = eye_opening(meshes)
     return np.column_stack(
         [

@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 from engine.geometry.registration.rigid import fit_similarity
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.warping.mesh_warp import inverse_map
-from engine.perception.landmarks import LIPS_INNER
+from engine.perception.landmarks import LIPS_INNER, eye_centres
 
 CROP_SHAPE = (320, 288)
 """Height and width of the kept appearance of the face, pixels: about 20 kB a frame."""
 CROP_EYES = ((96.0, 116.0), (192.0, 116.0))
 """Where the eyes' centres lie in it."""
+CROP_EYE_DISTANCE_PIXELS = CROP_EYES[1][0] - CROP_EYES[0][0]
 EDGE_POINTS = np.array(
     [(x * (CROP_SHAPE[1] - 1), y * (CROP_SHAPE[0] - 1)) for x in (0, 0.5, 1) for y in (0, 0.5, 1) if x * y != 0.25],
     np.float32,
@@ -39,7 +40,7 @@ class FaceCrop:
 
 def crop_place(mesh: NDArray[np.floating]) -> NDArray[np.float64]:
     """(2, 3): carries pixels of a picture with a face at `mesh` (478, 2 or 3) to pixels of the crop, upright by the eyes."""
-    eyes = np.array([mesh[[33, 133], :2].mean(axis=0), mesh[[263, 362], :2].mean(axis=0)])
+    eyes = np.array(eye_centres(mesh[:, :2]))
     return fit_similarity(eyes, np.array(CROP_EYES)).matrix()
 
 

@@ -15,6 +15,7 @@ from engine.perception.faces import find_faces
 from engine.perception.head_pose import head_pose
 from engine.perception.identity.descriptor import FaceDescriptor
 from engine.perception.identity.face_chip import ARCFACE_LAYOUT, face_chip
+from engine.perception.landmarks import eye_centres
 
 LOOKED_AT_SIDE_PIXELS = 1600
 """Pixels at which photographs are looked at: faces of people who had their picture taken are large in them by then."""
@@ -26,7 +27,6 @@ file's size."""
 NEAR_WIDTHS, MIN_NEIGHBOUR_SHARE = 2.5, 0.4
 """Its widths within which another face is beside a face, and the share of them that the other has at least."""
 ALIGNED_FACE_LAYOUT = ARCFACE_LAYOUT
-EYE_CORNERS = ((33, 133), (263, 362))
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ def _beside(meshes: Sequence[NDArray[np.floating]]) -> list[int]:
 def _face(
     rgb: NDArray[np.uint8], photo: int, mesh: NDArray[np.float32], widest: float, describe: FaceDescriptor
 ) -> PhotoFace:
-    right, left = (mesh[list(eye)].mean(axis=0) for eye in EYE_CORNERS)
+    right, left = eye_centres(mesh)
     pose = head_pose(mesh, (rgb.shape[1], rgb.shape[0]))
     # eyes of a turned face are seen nearer to each other than they are
     distance = float(np.linalg.norm(left[:2] - right[:2])) / max(np.cos(pose.yaw), 0.5)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.face_animation.mouth.lip_contours import box_around
-from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.face_tessellation import face_triangles, opening_triangles
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, eye_distance

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from engine.face_animation.eyes.eyeball import EYE_OUTLINE_IRIS_CORNERS, prepare_eyes
 from engine.face_animation.eyes.eyeball import Eyeball as EyeLayer
-from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, skin_colour
+from engine.face_animation.skin_colour import skin_colour
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.persona.eyes.eyeball import CAP_RADIANS
 from engine.persona.persona import Persona
 

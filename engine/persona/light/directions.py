@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.persona.light.low_frequencies import low_frequencies
 from engine.persona.persona import Persona
 

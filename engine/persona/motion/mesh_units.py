@@ -23,6 +23,7 @@ from engine.geometry.registration.rigid import fit_similarity
 from engine.geometry.surface import triangulate
 from engine.perception.head_pose import canonical_face, mirror_vertices
 from engine.perception.landmarks import (
+    EYE_CORNER_VERTICES,
     FACE_OVAL,
     LEFT_EYE,
     LIPS_INNER,
@@ -223,7 +224,7 @@ def _as_tracked(rest: NDArray[np.float64], moved: NDArray[np.float64]) -> MeshUn
     linear = fit_similarity(rest[chosen], canonical_face()[chosen].astype(np.float64)).linear
     front = rest @ linear.T
     scale = 1 / float(eye_distance(front))
-    front = (front - front[[33, 133, 263, 362]].mean(axis=0)) * scale
+    front = (front - front[list(EYE_CORNER_VERTICES)].mean(axis=0)) * scale
     found = _symmetric(MeshUnits(front, CAPTURED_UNITS, moved @ linear.T * scale))
     for side, contour in EYE_OUTLINE_VERTICES.items():
         blink = CAPTURED_UNITS.index(f"eyeBlink{side}")

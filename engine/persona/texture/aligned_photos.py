@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.registration.rigid import fit_similarity
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.perception.head_pose import mirror_vertices
 from engine.perception.landmarks import FACE_OVAL, RIGID_VERTICES
 from engine.persona.texture.texture_frame import TextureFrame, sampled
@@ -34,7 +35,7 @@ class AlignedPhotos:
 
     def grey(self) -> NDArray[np.float32]:
         """(N, H, W) in [0, 255]."""
-        return np.asarray(self.colours @ np.array([0.299, 0.587, 0.114], np.float32), np.float32)
+        return np.asarray(self.colours @ LUMINANCE_WEIGHTS, np.float32)
 
 
 def align_photos(

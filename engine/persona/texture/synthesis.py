@@ -13,6 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 from engine.persona.texture.laplacian_pyramid import collapsed, laplacian_pyramid, levels_of
 
@@ -95,7 +96,7 @@ def _mixed(level: _Level, weights: NDArray[np.float32]) -> NDArray[np.float32]:
 
 def _confidence(bands: NDArray[np.float32], unit: float) -> NDArray[np.float32]:
     """(N, h, w) how much detail each photograph has at each pixel of a band (N, h, w, 3), L^alpha of equation 2."""
-    grey = np.abs(bands @ np.array([0.299, 0.587, 0.114], np.float32))
+    grey = np.abs(bands @ LUMINANCE_WEIGHTS)
     told = np.array([cv2.GaussianBlur(one, (0, 0), CONFIDENCE_SIGMA * unit) for one in grey])
     capped = np.minimum(told, np.percentile(told, CAP_PERCENTILE, axis=0)) + DETAIL_FLOOR_LEVELS
     sharpness = np.median(

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from engine.face_animation.motion_transfer.landmark_residuals import (
     CORRECTED_SHARE,
     CORRECTED_SHARE_AT_LIPS,
-    CROP_EYE_DISTANCE,
     MAX_RESIDUAL_EYE_DISTANCES,
     REGRESSION_RIDGE,
     LandmarkResiduals,
@@ -18,6 +17,7 @@ from engine.face_animation.motion_transfer.landmark_residuals import (
     no_residuals,
 )
 from engine.face_animation.motion_transfer.lids_and_lips import INNER_LIP_PAIRS, LID_EDGE_VERTEX_PAIRS
+from engine.perception.face_track.face_crop import CROP_EYE_DISTANCE_PIXELS
 
 REST = placed(60, (150, 150))
 OPEN = opened(REST, 0.5)
@@ -27,7 +27,9 @@ CHIN = 152
 
 def amiss(x: float, y: float) -> NDArray[np.float64]:
     """Nothing at rest; all points off by so many eye distances when the mouth is open."""
-    return np.stack([np.zeros((478, 2)), np.tile((x * CROP_EYE_DISTANCE, y * CROP_EYE_DISTANCE), (478, 1))])
+    return np.stack(
+        [np.zeros((478, 2)), np.tile((x * CROP_EYE_DISTANCE_PIXELS, y * CROP_EYE_DISTANCE_PIXELS), (478, 1))]
+    )
 
 
 def corrected(residuals: LandmarkResiduals, face: NDArray, placed: NDArray) -> NDArray[np.float32]:
@@ -66,7 +68,7 @@ def test_no_more_is_believed_than_a_tracker_can_tell() -> None:
 
 def test_frames_are_corrected_together_as_each_by_itself() -> None:
     rng = np.random.default_rng(3)
-    residuals = fit_residuals(FACES, rng.normal(0, 0.03 * CROP_EYE_DISTANCE, (2, 478, 2)))
+    residuals = fit_residuals(FACES, rng.normal(0, 0.03 * CROP_EYE_DISTANCE_PIXELS, (2, 478, 2)))
     placed = np.stack([REST[:, :2], OPEN[:, :2]])
     together = residuals.corrections(FACES, placed)
     for k in range(2):
@@ -82,7 +84,7 @@ def test_what_is_closed_stays_closed(pairs) -> None:
     """A tracker that finds closed lips or lids apart moves both by the same; on open ones each by its own."""
     top, bottom = np.array(pairs).T
     wrong = amiss(0, 0)
-    wrong[1, top, 1], wrong[1, bottom, 1] = 0.02 * CROP_EYE_DISTANCE, -0.02 * CROP_EYE_DISTANCE
+    wrong[1, top, 1], wrong[1, bottom, 1] = 0.02 * CROP_EYE_DISTANCE_PIXELS, -0.02 * CROP_EYE_DISTANCE_PIXELS
     residuals = fit_residuals(FACES, wrong)
     closed = REST.copy()
     closed[bottom] = closed[top]

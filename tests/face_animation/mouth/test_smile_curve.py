@@ -10,19 +10,18 @@ from numpy.typing import NDArray
 from engine.face_animation.mouth.smile_curve import (
     INNER_UPPER_LIP_VERTICES,
     MAX_LIFT_SHARE,
-    MOUTH_CORNER_PAIR,
     SmileCurve,
     corner_height,
     corner_influence,
     smile_share,
 )
-from engine.perception.landmarks import FACE_OVAL
+from engine.perception.landmarks import FACE_OVAL, MOUTH_CORNER_VERTICES
 
 
 def hanging(face: NDArray, share: float) -> NDArray:
     """A face whose mouth's corners hang by a share of its width; upright."""
     bent = face.astype(float).copy()
-    width = np.linalg.norm(face[MOUTH_CORNER_PAIR[1]] - face[MOUTH_CORNER_PAIR[0]])
+    width = np.linalg.norm(face[MOUTH_CORNER_VERTICES[1]] - face[MOUTH_CORNER_VERTICES[0]])
     bent[:, 1] += share * width * corner_influence()
     return bent
 
@@ -55,11 +54,11 @@ def test_no_more_than_so_much_is_added() -> None:
 
 def test_nothing_but_a_smile_raises_corners() -> None:
     rest = placed(60)
-    width = np.linalg.norm(rest[MOUTH_CORNER_PAIR[1]] - rest[MOUTH_CORNER_PAIR[0]])
+    width = np.linalg.norm(rest[MOUTH_CORNER_VERTICES[1]] - rest[MOUTH_CORNER_VERTICES[0]])
     wide, high = rest.copy(), rest.copy()
-    wide[MOUTH_CORNER_PAIR[0], 0] -= 0.15 * width
-    wide[MOUTH_CORNER_PAIR[1], 0] += 0.15 * width
-    high[list(MOUTH_CORNER_PAIR), 1] -= 0.15 * width
+    wide[MOUTH_CORNER_VERTICES[0], 0] -= 0.15 * width
+    wide[MOUTH_CORNER_VERTICES[1], 0] += 0.15 * width
+    high[list(MOUTH_CORNER_VERTICES), 1] -= 0.15 * width
     assert not smile_share(np.stack([rest, opened(rest, 0.4), wide, high]), rest).any()
 
 
@@ -73,7 +72,7 @@ def test_a_mouth_that_smiles_as_much_already_is_left_as_it_is() -> None:
 def test_lips_bend_about_their_middle_within_the_face() -> None:
     influence = corner_influence()
     assert influence.min() >= -1e-9 and influence.max() <= 1 + 1e-9
-    np.testing.assert_allclose(influence[list(MOUTH_CORNER_PAIR)], 1, atol=0.01)
+    np.testing.assert_allclose(influence[list(MOUTH_CORNER_VERTICES)], 1, atol=0.01)
     np.testing.assert_allclose(influence[[0, 13, 14, 17]], 0, atol=1e-3)
     assert not influence[list(FACE_OVAL)].any()
 
@@ -83,7 +82,7 @@ def test_an_upper_lip_that_arches_over_teeth_is_bent_up_too() -> None:
     rest, target = placed(60), smiling(placed(90), 0.5)
     smile, up = smiling(rest, 0.5), np.array([0.0, -1.0])
     arched = target.copy()
-    width = np.linalg.norm(target[MOUTH_CORNER_PAIR[1]] - target[MOUTH_CORNER_PAIR[0]])
+    width = np.linalg.norm(target[MOUTH_CORNER_VERTICES[1]] - target[MOUTH_CORNER_VERTICES[0]])
     arched[[0, 13], 1] -= 0.06 * width
     arched[[14, 17], 1] += 0.06 * width
     assert height(arched) == pytest.approx(height(target), abs=1e-3)

@@ -14,7 +14,7 @@ from numba import prange
 from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
-from engine.character.figure.silhouette import Silhouette
+from engine.character.figure.silhouette import OPAQUE_ALPHA, Silhouette
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS
 from engine.character.shell.shell import Shell
@@ -34,8 +34,6 @@ MIN_OUTLINE_DISTANCE_PIXELS, SOURCE_OUTLINE_DISTANCE_PIXELS = 1.3, 2.2
 """Pixels of the grid from the outline of the mask."""
 ARM_MARGIN_PIXELS, ARM_SOURCE_MARGIN_PIXELS, ARM_OVER_LEG_MARGIN_PIXELS = 2.0, 4.0, 7.0
 """Pixels of the grid from an arm that passes before; a hand's shadow lies on the thigh."""
-OPAQUE_ALPHA = 0.9
-"""Alpha from which a pixel's colour is the person's own."""
 INNER_RIM_PIXELS, OUTER_WALL_PIXELS = 8.0, 3.0
 """Pixels of the grid from the outline inward in which there may be wall, and outward from which on there surely is."""
 WALL_COLOUR_RATIO, MIN_WALL_COLOUR_DISTANCE = 0.5, 15.0

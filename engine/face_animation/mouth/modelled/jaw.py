@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.perception.landmarks import INNER_LOWER_LIP_VERTEX
+
 CHIN_VERTICES = (152, 148, 377, 176, 400, 175, 199)
 JAW_HINGE_VERTICES = (234, 454)
 """Before the ears."""
@@ -14,8 +16,6 @@ MAX_JAW_RADIANS = 0.9
 """Radians: farther than jaws open, since faces are carried over to others whose chins are shorter."""
 JAW_NEWTON_STEPS = 3
 """Of Newton's."""
-INNER_LOWER_LIP_VERTEX = 14
-"""The middle of the inner one."""
 
 
 class Jaw(NamedTuple):

@@ -21,11 +21,18 @@ from engine.face_animation.mouth.modelled.mouth_parts import (
     mouth_bag,
     tongue,
 )
-from engine.face_animation.mouth.modelled.resting_mouth import INNER_MOUTH_CORNER_VERTICES, RestingMouth
+from engine.face_animation.mouth.modelled.resting_mouth import RestingMouth
 from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.geometry.adjacency import edge_table
 from engine.geometry.surface import vertex_normals
-from engine.perception.landmarks import LIPS_INNER, eye_distance, mouth_opening
+from engine.perception.landmarks import (
+    INNER_LOWER_LIP_VERTEX,
+    INNER_MOUTH_CORNER_VERTICES,
+    INNER_UPPER_LIP_VERTEX,
+    LIPS_INNER,
+    eye_distance,
+    mouth_opening,
+)
 from engine.render.mipmap import build_mipmap
 from engine.render.scratch import Scratch
 from engine.render.surface import Surface, draw_surface, triangle_spread
@@ -40,9 +47,8 @@ INCISORS_SHARE = 0.25
 """Of the teeth, which are the foremost."""
 LIGHTEST_PERCENTILE = 80
 """Of the light on incisors, that which their colours are of."""
-INNER_UPPER_LIP_VERTEX = 13
-INNER_LOWER_LIP_VERTEX, ABOVE_LIP_EYE_DISTANCES, BELOW_LIP_EYE_DISTANCES = 14, 0.03, 0.05
-"""The middle of the lower inner lip, and eye distances above and below it between which lower teeth end: where a face opens its mouth farther or
+ABOVE_LIP_EYE_DISTANCES, BELOW_LIP_EYE_DISTANCES = 0.03, 0.05
+"""Eye distances above and below the lower lip's inner edge between which lower teeth end: where a face opens its mouth farther or
 less far than its chin tells, they go along, and neither stand in the middle of a mouth nor leave it empty."""
 BARING_JAW_RADIANS = (0.12, 0.28)
 """Radians of the jaw up to which the lower lip hides the lower teeth, as it does when people smile, and from which on it lets them be seen."""

@@ -8,10 +8,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, is_grey, skin_colour
+from engine.face_animation.skin_colour import face_luminance, is_grey, skin_colour
 from engine.face_animation.smoothstep import smoothstep
 from engine.face_animation.whites import white_tint
-from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
+from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 
 ENAMEL_COLOUR, DENTINE_COLOUR = np.array([216, 209, 197.0]), np.array([198, 185, 162.0])
 GUM_COLOUR, TONGUE_COLOUR = np.array([176, 96, 95.0]), np.array([196, 110, 108.0])
@@ -111,9 +112,7 @@ def mouth_colours(
 
 def _light_place(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:
     """The luminance of a light place of a face at `mesh` (478, 2 or 3) of a picture (H, W, 3)."""
-    mask = np.zeros(rgb.shape[:2], np.uint8)
-    cv2.fillPoly(mask, [mesh[list(FACE_OVAL), :2].round().astype(np.int32)], 1)
-    light = rgb[mask > 0] @ LUMINANCE_WEIGHTS
+    light = face_luminance(rgb, mesh)
     return float(np.percentile(light, LIGHT_PLACE_PERCENTILE)) if len(light) else 0.0
 
 

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import mouth_opening
+from engine.perception.landmarks import INNER_MOUTH_CORNER_VERTICES, mouth_opening
 
-INNER_MOUTH_CORNER_VERTICES = (78, 308)
 UPPER_LIP_MIDDLE_VERTICES = (82, 13, 312)
 BEHIND_LIPS_EYE_DISTANCES = 0.03
 """Eye distances by which teeth lie behind the inner lips."""

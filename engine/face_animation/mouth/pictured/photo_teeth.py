@@ -19,7 +19,6 @@ from engine.face_animation.mouth.modelled.modelled_mouth import (
 )
 from engine.face_animation.mouth.modelled.mouth_light import mouth_light
 from engine.face_animation.mouth.modelled.resting_mouth import (
-    INNER_MOUTH_CORNER_VERTICES,
     MIN_FULL_OPENING,
     UPPER_LIP_MIDDLE_VERTICES,
     RestingMouth,
@@ -28,8 +27,9 @@ from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
 from engine.face_animation.mouth.pictured.teeth_strip import ARCH_CURVATURE_PER_EYE_DISTANCE, TeethStrip, teeth_strip
-from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS, is_grey, skin_colour
-from engine.perception.landmarks import FACE_OVAL, eye_distance, mouth_opening
+from engine.face_animation.skin_colour import face_luminance, is_grey, skin_colour
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
+from engine.perception.landmarks import INNER_MOUTH_CORNER_VERTICES, eye_distance, mouth_opening
 
 APPEARING_OPENING = 0.03
 """Of the mouth, from which on the inside appears."""
@@ -178,9 +178,7 @@ def _gain(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], photo: PicturedFac
 def _held(brightest: float, rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:
     """The factor that keeps teeth whose lightest have the luminance `brightest` between what the skin beside them has, and somewhat more, and
     what a light place of the face has."""
-    mask = np.zeros(rgb.shape[:2], np.uint8)
-    cv2.fillPoly(mask, [mesh[list(FACE_OVAL), :2].round().astype(np.int32)], 1)
-    light = rgb[mask > 0].astype(np.float32) @ LUMINANCE_WEIGHTS
+    light = face_luminance(rgb, mesh)
     most = float(np.percentile(light, FACE_LIGHT_PERCENTILE)) if len(light) else 255.0
     least = MIN_PHOTO_TEETH_TO_SKIN_RATIO * float(skin_colour(rgb, mesh) @ LUMINANCE_WEIGHTS)
     return float(np.clip(brightest, min(least, most), most)) / brightest

@@ -17,7 +17,7 @@ from engine.face_animation.mouth.lip_contours import (
 from engine.face_animation.mouth.modelled.resting_mouth import BEHIND_LIPS_EYE_DISTANCES
 from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
-from engine.face_animation.skin_colour import LUMINANCE_WEIGHTS
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.imaging.resample import resized
 from engine.perception.expression.features import frontalise
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
