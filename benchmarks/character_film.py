@@ -30,7 +30,7 @@ from engine.character.film.motions import MotionChoice, choose_motion
 from engine.character.rig.measures import picture_camera
 from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.skinning import skin
 from engine.render import character as renderer
 from engine.render.ground_shadow import cast_on_ground
 from engine.render.multisampling import draw_samples, select_pixels

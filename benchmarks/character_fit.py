@@ -38,8 +38,8 @@ from engine.character.figure.silhouette import Silhouette, cut_out
 from engine.character.fit.template_fit import FittedBody, load_human
 from engine.character.stages import fit_template
 from engine.errors import InputError
-from engine.geometry.joint_names import SIDE_NAMES
-from engine.geometry.skinning import bone_transforms, skin
+from engine.geometry.rigging.joint_names import SIDE_NAMES
+from engine.geometry.rigging.skinning import bone_transforms, skin
 from engine.imaging.masks.mask_pieces import bounding_box
 from engine.media.limits import Limits
 from engine.perception.body import BODY_LANDMARKS

@@ -43,8 +43,8 @@ from engine.character.fit.template_fit import load_human
 from engine.character.texture.texture import BackTexture
 from engine.errors import InputError
 from engine.geometry.camera import Camera
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import skin
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place
 from engine.motion.kinematics import pose_transforms

@@ -45,7 +45,7 @@ from engine.character.surface import layers
 from engine.character.surface.part_surface import OUTLINE_DEPTH_SMOOTHING_PIXELS, Surface, Warp, filled, part_surface
 from engine.errors import InputError
 from engine.geometry.registration.rigid import fit_similarity
-from engine.geometry.skinning import bone_transforms
+from engine.geometry.rigging.skinning import bone_transforms
 from engine.imaging.masks.mask_pieces import rows_apart
 from engine.media.limits import Limits
 

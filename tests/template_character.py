@@ -9,10 +9,10 @@ from scipy.spatial.transform import Rotation
 from engine.body import load_template
 from engine.body.subdivision import catmull_clark
 from engine.body.template import load_rig
-from engine.geometry.skeleton import Skeleton
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import bone_transforms, skin
-from engine.geometry.surface import triangulate
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.rigging.skeleton import Skeleton
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import bone_transforms, skin
 from engine.motion.clip import Clip
 
 

@@ -31,7 +31,7 @@ from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig, load_template
 from engine.geometry.camera import Camera
-from engine.geometry.texture_atlas import unwrap
+from engine.geometry.texture_charts.texture_atlas import unwrap
 from engine.imaging.histogram_matching import to_lab
 from engine.media.tone_mapping import srgb_code, srgb_light
 from engine.media.video import read_video

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from engine.character.rig.measures import pose
 from engine.character.rig.rigging import Character
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.skinning import skin
 from engine.motion.kinematics import pose_transforms
 from engine.motion.library import built_in
 

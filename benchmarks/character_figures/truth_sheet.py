@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from benchmarks.known_truth.comparison import Comparison
 from benchmarks.presentation.contact_sheet import Row, at_height, contact_sheet, write_sheet
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import rasterise
 

@@ -19,7 +19,7 @@ from engine.body.cache import CACHE_FORMAT, cache_folder
 from engine.body.rig import HUMAN_RIG
 from engine.body.shape import load_shape_space
 from engine.body.template import load_rig, load_template
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.skinning import skin
 from engine.motion.kinematics import pose_transforms
 from engine.motion.library import built_in
 

@@ -15,8 +15,8 @@ from engine.body.rest_pose import t_pose
 from engine.body.rig import HUMAN_RIG
 from engine.body.shape import Phenotype, load_shape_space
 from engine.body.template import load_rig, load_template
-from engine.geometry.skinning import bone_transforms, skin
-from engine.geometry.surface import triangulate, vertex_normals
+from engine.geometry.mesh.surface import triangulate, vertex_normals
+from engine.geometry.rigging.skinning import bone_transforms, skin
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import Raster
 

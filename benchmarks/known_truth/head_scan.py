@@ -11,7 +11,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
 from engine.media.image import read_image
 from engine.render.attributes import interpolate, sample_texture
 from engine.render.film import box_downsample

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from engine.geometry.camera import Camera
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
 from engine.render.attributes import interpolate
 from engine.render.film import box_downsample
 from engine.render.rasteriser import Raster, rasterise

@@ -16,8 +16,8 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from engine.geometry.skeleton import Skeleton
-from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skeleton import Skeleton
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 
 COMPONENT_TYPES: dict[int, Any] = {5121: np.uint8, 5123: np.uint16, 5126: np.float32}
 COMPONENT_COUNTS = {"VEC3": 3, "VEC4": 4, "MAT4": 16}

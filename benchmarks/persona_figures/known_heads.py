@@ -19,7 +19,7 @@ from benchmarks.known_truth.head_scan import read_head_scan
 from benchmarks.scan_studio.people.template_people import template_subject
 from benchmarks.shared_media import media
 from engine.body.template import load_template
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
 from engine.perception.faces import FaceTracker
 from engine.render.attributes import interpolate, sample_texture
 from engine.render.rasteriser import depth_map, rasterise

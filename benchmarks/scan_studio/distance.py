@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from benchmarks.known_truth.surface_distance import sample_outside
-from engine.geometry.closest_points import closest_points
-from engine.geometry.welding import same_rows
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.welding import same_rows
 
 MAX_EDGE_METRES = 0.012
 """Metres to which edges are cut, so that the triangle nearest to a point is nearly always one of those around the nearest

@@ -15,8 +15,8 @@ from benchmarks.scan_studio.people.pictured_moments import PICTURED_NAMES, pictu
 from benchmarks.scan_studio.people.rigged_people import T_POSE_HEIGHT_METRES, read_rigged
 from benchmarks.shared_media import media
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import SIDE_NAMES
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.joint_names import SIDE_NAMES
+from engine.geometry.rigging.skinning import skin
 from engine.motion.kinematics import pose_transforms
 
 PHOTOGRAPHED_PEOPLE = ("readyplayer.me", "soldier")

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from engine.avatar.turntable import backdrop, orbit_camera
 from engine.geometry.camera import Camera
-from engine.geometry.morph_target import MorphTarget, MorphTrack, morphed
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.morph_target import MorphTarget, MorphTrack, morphed
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import skin
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place, loop_travel
 from engine.motion.kinematics import pose_transforms

@@ -15,9 +15,9 @@ from engine.avatar.registration.rigging import Pose
 from engine.avatar.worn import Attachments
 from engine.body.rig import Rig
 from engine.body.template import Template
-from engine.geometry.morph_target import MorphTarget, morph_target
+from engine.geometry.rigging.morph_target import MorphTarget, morph_target
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.geometry.simplification.decimation import decimate, joint_importance
-from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 
 HEAD_VERTEX_WEIGHT = 8.0

@@ -20,10 +20,10 @@ from engine.body.rig import HUMAN_RIG
 from engine.body.template import FACE_UNITS, load_rig
 from engine.errors import InputError
 from engine.export.gltf_joints import axes_above
-from engine.geometry.morph_target import MorphTarget, morph_target
-from engine.geometry.skeleton import Skeleton
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import MAX_VERTEX_INFLUENCES
+from engine.geometry.rigging.morph_target import MorphTarget, morph_target
+from engine.geometry.rigging.skeleton import Skeleton
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import MAX_VERTEX_INFLUENCES
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.files.gltf_accessors import Accessors

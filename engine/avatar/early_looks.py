@@ -12,7 +12,7 @@ from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.body.template import Template
 from engine.export.ply import write_mesh_ply
 from engine.export.still import write_still
-from engine.geometry.surface import triangulate
+from engine.geometry.mesh.surface import triangulate
 from engine.imaging.resample import resized, size_within
 
 TEXTURE_SIDE_PIXELS = 640

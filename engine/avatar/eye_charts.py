@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.template import Template
-from engine.geometry.surface import triangulate
-from engine.geometry.texture_atlas import atlas_from_uv
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.texture_charts.texture_atlas import atlas_from_uv
 
 EYE_SCALE = 4.0
 """By how much the charts of the fronts of both eyeballs are larger than the template has them."""

@@ -20,8 +20,8 @@ from engine.body.face.face_capture import (
 from engine.body.template import load_template
 from engine.errors import InputError
 from engine.face_animation.driver_tracking.neutral import choose_neutral_frame
-from engine.geometry.morph_target import MorphTrack
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.morph_target import MorphTrack
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.media.excerpt import Excerpt
 from engine.motion import rotation
 from engine.motion.clip import Clip

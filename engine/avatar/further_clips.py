@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from engine.avatar.stages import ClipScan
-from engine.geometry.point_cloud import joined, thinned
+from engine.geometry.point_clouds.point_cloud import joined, thinned
 from engine.geometry.registration.iterative_closest_point import rigid_onto_cloud
 
 FURTHER_CLOUD_SPACING_METRES = 0.004

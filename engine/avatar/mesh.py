@@ -13,11 +13,11 @@ from engine.avatar.registration.rigging import Pose, unposed
 from engine.avatar.worn import Attachments
 from engine.body.rig import Rig
 from engine.body.template import Template
-from engine.geometry.morph_target import MorphTarget, morph_target
-from engine.geometry.skeleton import Skeleton
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import MAX_VERTEX_INFLUENCES
-from engine.geometry.surface import triangulate
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.rigging.morph_target import MorphTarget, morph_target
+from engine.geometry.rigging.skeleton import Skeleton
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import MAX_VERTEX_INFLUENCES
 
 AVATAR_PARTS = ("body", "left_eye", "right_eye", "upper_teeth", "lower_teeth", "tongue")
 """The template's parts that an avatar has. Lashes are left out: as bare strips, without alpha, they are fins."""

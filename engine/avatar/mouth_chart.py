@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.template import Template
-from engine.geometry.surface import triangulate
-from engine.geometry.texture_atlas import atlas_from_uv
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.texture_charts.texture_atlas import atlas_from_uv
 
 MOUTH_RADIUS_METRES = 0.04
 """Metres from the middle of the tongue, along each axis, within which the mouth's bag lies."""

@@ -39,7 +39,7 @@ from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.errors import InputError
 from engine.export.ply import write_ply
 from engine.export.still import write_first_impression, write_still
-from engine.geometry.point_cloud import PointCloud, joined, thinned
+from engine.geometry.point_clouds.point_cloud import PointCloud, joined, thinned
 from engine.geometry.registration.rigid import Similarity
 from engine.kind import Given
 from engine.run import Run

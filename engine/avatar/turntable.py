@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import skin
 from engine.motion.clip import Clip
 from engine.motion.kinematics import pose_transforms
 from engine.render.character import Actor, film_cast, prepare_character

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.texture_atlas import TextureAtlas
+from engine.geometry.texture_charts.texture_atlas import TextureAtlas
 
 
 @dataclass(frozen=True)

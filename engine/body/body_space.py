@@ -18,7 +18,7 @@ from engine.body.rest_pose import t_pose
 from engine.body.rig import HUMAN_RIG, Rig
 from engine.body.shape import Phenotype, ShapeSpace, load_shape_space
 from engine.body.template import load_rig, load_template
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 
 SPACE_COMPONENTS = 40
 SAMPLED_BODY_COUNT = 600

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from engine.body.body_space import BodySpace
 from engine.body.rig import Rig
 from engine.body.template import Template
-from engine.geometry.joint_names import FINGER_NAMES, Side
+from engine.geometry.rigging.joint_names import FINGER_NAMES, Side
 from engine.perception.hands import HAND_JOINTS
 
 FINGERTIP_DEPTH_METRES = 0.006

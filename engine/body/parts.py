@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.rig import Rig
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 
 BODY_PARTS = ("head", "torso", "left_arm", "right_arm", "left_leg", "right_leg")
 """Labels in order; the person's own left and right."""

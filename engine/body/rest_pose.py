@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.rig import Rig
-from engine.geometry.skeleton import Skeleton
-from engine.geometry.skinning import bone_transforms, skin
+from engine.geometry.rigging.skeleton import Skeleton
+from engine.geometry.rigging.skinning import bone_transforms, skin
 
 T_POSE_DIRECTIONS: dict[str, tuple[float, float, float]] = {
     **dict.fromkeys(("LeftArm", "LeftForeArm", "LeftHand"), (1.0, 0.0, 0.0)),

@@ -49,7 +49,7 @@ from engine.export.still import write_first_impression, write_still
 from engine.export.usdz import write_usdz
 from engine.export.video import VideoWriter
 from engine.export.vrm import VrmMeta, write_vrm
-from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.kind import Given
 from engine.media.image import over_white, write_image
 from engine.motion.clip import Clip

@@ -8,8 +8,8 @@ from scipy.spatial.transform import Rotation
 
 from engine.character.fit.template_fit import load_human
 from engine.geometry.camera import Camera
-from engine.geometry.skinning import bone_transforms, skin
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
+from engine.geometry.rigging.skinning import bone_transforms, skin
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import rasterise
 

@@ -50,8 +50,8 @@ from engine.character.texture.limb_texture import LimbSurfaces
 from engine.character.texture.rings import limb_heights
 from engine.character.texture.round_sides import with_round_sides
 from engine.character.texture.texture import BackTexture, PictureOnGrid, Tiles, atlas, paint_tiles
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.geometry.simplification.decimation import decimate, joint_importance
-from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.imaging.filling.nearest import nearest_colours
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
 from engine.media.limits import Limits

@@ -25,10 +25,10 @@ from engine.export.gltf_morphs import add_morphs
 from engine.export.influences import quantise_influences
 from engine.export.meshopt_compression import compressed
 from engine.export.synthetic import SOURCE_TYPE, SYNTHETIC_STATEMENT, marked_jpeg
-from engine.geometry.joint_axes import mixamo_axes
-from engine.geometry.morph_target import MorphTarget, MorphTrack
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.welding import seamless_normals
+from engine.geometry.mesh.welding import seamless_normals
+from engine.geometry.rigging.joint_axes import mixamo_axes
+from engine.geometry.rigging.morph_target import MorphTarget, MorphTrack
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 
 DETAIL_COVERAGE_RATIO = 0.5
@@ -81,7 +81,7 @@ class CharacterModel:
     material_of: NDArray[np.integer] | None = None
     """(T,) which of the materials each triangle has, where there are several."""
     mixamo: bool = False
-    """Built as Mixamo's and Ready Player Me's characters are: joints with their axes (`engine.geometry.joint_axes`), so that
+    """Built as Mixamo's and Ready Player Me's characters are: joints with their axes (`engine.geometry.rigging.joint_axes`), so that
     motions and poses made for those fit; the meshes within `Armature`, where players of avatars look for them."""
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from engine.export.animation_tracks import tracks
 from engine.export.gltf_buffer import Buffer
 from engine.export.gltf_joints import axes_above
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 

@@ -10,7 +10,7 @@ import pygltflib as gl
 from numpy.typing import NDArray
 
 from engine.export.gltf_buffer import Buffer
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 
 ROOT_NAME = "Armature"

@@ -9,9 +9,9 @@ import numpy as np
 import pygltflib as gl
 
 from engine.export.gltf_buffer import Buffer
-from engine.geometry.morph_target import MorphTarget
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.welding import seamless_normals, weld
+from engine.geometry.mesh.welding import seamless_normals, weld
+from engine.geometry.rigging.morph_target import MorphTarget
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 
 NORMAL_TOLERANCE = 1e-4
 """A change of a unit normal that nobody sees."""

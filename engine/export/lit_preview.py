@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.geometry.camera import Camera
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.render.character import DrawnCharacter
 
 NEAR_PLANE_METRES, FAR_PLANE_METRES = 0.05, 100.0

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.point_cloud import PointCloud
+from engine.geometry.point_clouds.point_cloud import PointCloud
 
 VERTEX_RECORD = np.dtype([("xyz", "<f4", 3), ("normal", "<f4", 3), ("rgb", "u1", 3)])
 PLY_HEADER = """ply

@@ -16,9 +16,9 @@ from engine.export.animation_tracks import tracks
 from engine.export.glb import jpeg
 from engine.export.influences import FULL_INFLUENCE, quantise_influences
 from engine.export.synthetic import SOURCE_TYPE, SYNTHETIC_STATEMENT
-from engine.geometry.skeleton import Skeleton
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.welding import seamless_normals
+from engine.geometry.mesh.welding import seamless_normals
+from engine.geometry.rigging.skeleton import Skeleton
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from engine.export.glb import JPEG_QUALITY, CharacterModel, build_glb, joint_names, jpeg, save_glb
 from engine.export.vrm_expressions import LOOK_EXPRESSIONS, Expression, expressions_document
-from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 
 LICENCE_URL = "https://vrm.dev/licenses/1.0/"
 

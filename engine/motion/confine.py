@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.feet.foot_contact import sole_places

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
-from engine.geometry.joint_names import SIDE_NAMES
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.joint_names import SIDE_NAMES
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion.clip import Clip, loop_step
 from engine.motion.feet.foot_contact import sole_places
 from engine.motion.feet.legs import HeldFoot, set_legs

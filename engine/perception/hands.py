@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import FINGER_NAMES, SIDE_NAMES, Side
+from engine.geometry.rigging.joint_names import FINGER_NAMES, SIDE_NAMES, Side
 from engine.perception.body import Body
 from engine.perception.solutions import network
 

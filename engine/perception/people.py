@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.perception.body import BODY_LANDMARKS, FAINT_CONFIDENCE, Body, find_body
 from engine.perception.faces import find_faces

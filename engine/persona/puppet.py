@@ -15,8 +15,8 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from engine.face_animation.mouth.mouth_interior import MouthInterior
-from engine.geometry.adjacency import edge_table
-from engine.geometry.subdivision import midpoint_subdivision
+from engine.geometry.mesh.adjacency import edge_table
+from engine.geometry.mesh.subdivision import midpoint_subdivision
 from engine.perception.face_tessellation import face_triangles, opening_triangles
 from engine.persona.mouth.persona_mouth import puppet_mouth
 from engine.persona.persona import Persona

@@ -16,12 +16,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.adjacency import edge_table
 from engine.geometry.camera import Camera
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import skin
-from engine.geometry.surface import vertex_normals
-from engine.geometry.welding import is_closed, weld
+from engine.geometry.mesh.adjacency import edge_table
+from engine.geometry.mesh.surface import vertex_normals
+from engine.geometry.mesh.welding import is_closed, weld
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import skin
 from engine.motion.clip import Clip
 from engine.motion.kinematics import pose_transforms
 from engine.render.ground_shadow import GroundShadow, cast_on_ground
@@ -54,9 +54,9 @@ class PreparedCharacter:
     spread: NDArray[np.float32]
     """(T,) the area of each triangle on the texture, texels."""
     point: NDArray[np.int32]
-    """(V,) the point of the surface that each vertex is (`engine.geometry.welding.weld`)."""
+    """(V,) the point of the surface that each vertex is (`engine.geometry.mesh.welding.weld`)."""
     edges: NDArray[np.int32]
-    """(E, 4) the edges of the surface, as `engine.geometry.adjacency.edge_table` gives them."""
+    """(E, 4) the edges of the surface, as `engine.geometry.mesh.adjacency.edge_table` gives them."""
     closed: bool
     """A ray enters a closed surface as often as it leaves it, however it is bent: the backs of its triangles need not
     be drawn, and every pixel is covered as before."""

@@ -28,7 +28,7 @@ class Surface(NamedTuple):
     triangles : (T, 3) int32, counter-clockwise from outside.
     uv : (V, 2) float32, as in glTF.
     spread : (T,) float32, of `triangle_spread`.
-    edges : (E, 4) int32, of `engine.geometry.adjacency.edge_table`.
+    edges : (E, 4) int32, of `engine.geometry.mesh.adjacency.edge_table`.
     cull : whether backs are left out.
     mipmap : the texture.
     """

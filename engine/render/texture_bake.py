@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.geometry.camera import Camera
-from engine.geometry.surface import vertex_normals
-from engine.geometry.texture_atlas import TextureAtlas
+from engine.geometry.mesh.surface import vertex_normals
+from engine.geometry.texture_charts.texture_atlas import TextureAtlas
 from engine.imaging.filling.nearest import nearest_in
 from engine.render.rasteriser import Raster, rasterise
 from engine.render.visibility import DEPTH_JUMP, DEPTH_SLACK, DepthBuffer, depth_buffer, shows, view_cosines

@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import connected_components
 
 from engine.geometry.deformation.cotangent_laplacian import cotangent_laplacian
 from engine.geometry.deformation.handles import HeldSystem, handles
-from engine.geometry.texture_atlas import TextureAtlas
+from engine.geometry.texture_charts.texture_atlas import TextureAtlas
 from engine.render.rasteriser import Raster
 from engine.render.texture_bake import BakedTexture, texel_raster
 

@@ -8,8 +8,8 @@ from template_character import template_character, walk
 from engine.avatar.acting import Scene, built_in_clips, bust_camera, film, standing_clip, wide_camera
 from engine.avatar.combined_targets import COMBINED_TARGETS, with_combined_targets
 from engine.body.template import FACE_UNITS
-from engine.geometry.morph_target import MorphTrack, morph_target
-from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.morph_target import MorphTrack, morph_target
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.motion.edit import loop_travel
 from engine.motion.kinematics import pose_transforms
 

@@ -21,7 +21,7 @@ from engine.body.face.visemes import VISEMES
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import FACE_UNITS, load_rig, load_template
 from engine.geometry.camera import Camera
-from engine.geometry.morph_target import MorphTrack
+from engine.geometry.rigging.morph_target import MorphTrack
 from engine.motion.library import built_in
 from engine.run import Run
 

@@ -8,8 +8,8 @@ from engine.avatar.mesh import AVATAR_PARTS, Surface, morphs_of, skinned_mesh, s
 from engine.body.rest_pose import t_pose
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import Template, load_rig, load_template
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.welding import is_closed
+from engine.geometry.mesh.welding import is_closed
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 
 
 @pytest.fixture(scope="module")

@@ -5,8 +5,8 @@ import numpy as np
 from engine.avatar.eye_charts import EYE_SCALE, avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
 from engine.body.template import load_template
-from engine.geometry.surface import triangulate
-from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.texture_charts.texture_atlas import TextureAtlas, atlas_from_uv
 from engine.render.texture_bake import chart_gap, charts_of, texel_raster
 
 

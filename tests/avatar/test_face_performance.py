@@ -9,7 +9,7 @@ from template_character import template_character
 
 from engine.avatar.face_performance import FacePerformance, acting_clip, capture_performance
 from engine.errors import InputError
-from engine.geometry.morph_target import MorphTrack
+from engine.geometry.rigging.morph_target import MorphTrack
 from engine.media.excerpt import Excerpt
 from engine.motion import rotation
 from engine.motion.library import built_in

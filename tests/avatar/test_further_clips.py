@@ -14,7 +14,7 @@ from engine.avatar.mesh import surface_of
 from engine.avatar.stages import ClipScan
 from engine.body.template import load_template
 from engine.geometry.camera import Camera
-from engine.geometry.point_cloud import PointCloud
+from engine.geometry.point_clouds.point_cloud import PointCloud
 from engine.geometry.registration.rigid import Similarity
 
 

@@ -9,7 +9,7 @@ from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.options import KnownLens
 from engine.avatar.stages import STEREO_SIDE_PIXELS, ClipScan, lens_of_frames, stereo_side
 from engine.geometry.camera import Camera
-from engine.geometry.point_cloud import PointCloud
+from engine.geometry.point_clouds.point_cloud import PointCloud
 
 
 def test_a_lens_sees_in_shrunk_frames_what_it_sees_in_the_clip() -> None:

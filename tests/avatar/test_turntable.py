@@ -5,7 +5,7 @@ import pytest
 from template_character import still, template_character
 
 from engine.avatar.turntable import backdrop, orbit_camera, turntable
-from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 
 SIZE = (72, 128)
 

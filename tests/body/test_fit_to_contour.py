@@ -18,8 +18,8 @@ from engine.body.landmarks import landmark_model
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
 from engine.geometry.camera import Camera
-from engine.geometry.skinning import bone_transforms, skin
-from engine.geometry.surface import triangulate
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.rigging.skinning import bone_transforms, skin
 
 TEMPLATE, SPACE, BONES = load_template(), load_body_space(), load_rig(HUMAN_RIG)
 MARKS, SKIN = landmark_model(TEMPLATE, SPACE, BONES), skin_points(TEMPLATE, SPACE, BONES)

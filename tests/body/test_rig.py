@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 from engine.body import Template
 from engine.body.rig import FACE_JOINTS, HUMAN_RIG, RIG_NAMES, Rig
 from engine.body.template import load_rig
-from engine.geometry.skinning import bone_transforms, skin
+from engine.geometry.rigging.skinning import bone_transforms, skin
 
 
 @pytest.fixture(scope="module", params=[*RIG_NAMES, HUMAN_RIG])

@@ -13,8 +13,8 @@ from engine.body.hands import HandModel, finger_landmarks, hand_model
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import FINGER_NAMES
-from engine.geometry.skinning import bone_transforms
+from engine.geometry.rigging.joint_names import FINGER_NAMES
+from engine.geometry.rigging.skinning import bone_transforms
 from engine.perception.hands import HAND_JOINTS
 
 FOCAL, CENTRE, WRIST = 2000.0, (500.0, 500.0), np.array([0.4, 0.1, -3.5])

@@ -26,8 +26,8 @@ from engine.character.rig.rigging import MIN_VOLUME_RATIO, TARGET_VOLUME_RATIO, 
 from engine.character.surface.part_surface import Surface, part_surface, warp_part
 from engine.character.surface.sheets import Layer, close
 from engine.geometry.camera import Camera
-from engine.geometry.skinning import skin
-from engine.geometry.welding import is_closed
+from engine.geometry.mesh.welding import is_closed
+from engine.geometry.rigging.skinning import skin
 from engine.imaging.filling.nearest import continued_colours
 from engine.motion.kinematics import joint_places, pose_transforms
 

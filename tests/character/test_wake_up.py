@@ -20,7 +20,7 @@ from engine.character.rig.measures import border_edges
 from engine.character.sample import sample_picture
 from engine.errors import InputError
 from engine.geometry.camera import Camera
-from engine.geometry.welding import weld
+from engine.geometry.mesh.welding import weld
 from engine.media.image import read_image, write_image
 from engine.media.video import read_video
 from engine.motion import rotation

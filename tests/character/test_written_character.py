@@ -10,7 +10,7 @@ from template_character import template_character
 
 from benchmarks.known_truth.written_character import outline, read_written
 from engine.export.glb import CharacterModel, write_glb
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.skinning import skin
 from engine.motion.clip import Clip
 from engine.motion.kinematics import pose_transforms
 

@@ -12,9 +12,9 @@ from PIL import Image
 from template_character import still, template_character, walk
 
 from engine.export.glb import JPEG_QUALITY, TEXTURE_REDUCTIONS, CharacterModel, WrittenGlb, jpeg, write_glb
-from engine.geometry.joint_axes import mixamo_axes
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.joint_axes import mixamo_axes
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import skin
 from engine.motion.edit import loop_travel
 from engine.motion.kinematics import pose_transforms
 from engine.motion.library import CLIPS, built_in

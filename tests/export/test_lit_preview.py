@@ -12,7 +12,7 @@ from template_character import template_character, walk
 
 from engine.export.lit_preview import LitPreview
 from engine.geometry.camera import Camera
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.skinning import skin
 from engine.motion.kinematics import pose_transforms
 from engine.render.character import draw_character, prepare_character
 

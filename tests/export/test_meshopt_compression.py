@@ -13,7 +13,7 @@ from template_character import still, template_character, walk
 
 from engine.export.glb import CharacterModel, write_glb
 from engine.export.meshopt_compression import STEP_EXPONENTS
-from engine.geometry.morph_target import morph_target
+from engine.geometry.rigging.morph_target import morph_target
 from engine.meshopt.attribute_codec import encode_attributes
 from engine.meshopt.filters import encode_exponential
 from engine.meshopt.index_codec import encode_indices

@@ -18,9 +18,9 @@ from engine.export.glb import CharacterModel, build_glb, write_glb
 from engine.export.gltf_materials import Material, TextureTransform
 from engine.export.vrm import VrmMeta, write_vrm
 from engine.export.vrm_expressions import ARKIT_MIXTURES, PRESET_NAMES, Expression, arkit_expressions
-from engine.geometry.morph_target import MorphTarget, MorphTrack, morph_target
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.surface import triangulate
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.rigging.morph_target import MorphTarget, MorphTrack, morph_target
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 
 META = VrmMeta("Person", ("A. Author",))
 

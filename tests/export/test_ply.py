@@ -6,7 +6,7 @@ import numpy as np
 import trimesh
 
 from engine.export.ply import write_mesh_ply, write_ply
-from engine.geometry.point_cloud import PointCloud
+from engine.geometry.point_clouds.point_cloud import PointCloud
 
 
 def test_trimesh_reads_back_what_was_written(tmp_path: Path) -> None:

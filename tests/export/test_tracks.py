@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from engine.export.animation_tracks import SINGLE_FRAME_SECONDS, closing_root, tracks
 from engine.export.influences import FULL_INFLUENCE, quantise_influences
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion.clip import Clip
 
 BONE = Skeleton(("Hips",), np.array([-1], np.int32), np.zeros((1, 3), np.float32))

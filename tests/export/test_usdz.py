@@ -10,8 +10,8 @@ from pxr import Usd, UsdGeom, UsdShade, UsdSkel, UsdValidation
 from template_character import still, template_character, walk
 
 from engine.export.usdz import joint_paths, write_usdz
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import skin
 from engine.motion.kinematics import pose_transforms
 
 

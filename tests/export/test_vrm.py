@@ -10,7 +10,7 @@ from template_character import still, template_character
 from engine.body.template import load_rig
 from engine.export.glb import CharacterModel
 from engine.export.vrm import VrmMeta, human_bones, write_vrm
-from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 
 SIDES = ("Left", "Right")
 

@@ -34,7 +34,7 @@ from engine.export.ply import write_ply
 from engine.export.still import write_first_impression, write_still
 from engine.export.video import VideoWriter
 from engine.geometry.camera import Camera
-from engine.geometry.point_cloud import PointCloud
+from engine.geometry.point_clouds.point_cloud import PointCloud
 from engine.kind import Given, Needs
 from engine.motion.library import built_in
 from engine.run import Run

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from humanoids import build_skeleton
 
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 
 
 @pytest.fixture(scope="session")

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from humanoids import told_by
 
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.beginning import MAX_MOTION_SECONDS, beginning, duration, length_warning
 from engine.motion.check import check_motion

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.confine import MovementRoom, confine_clip
 from engine.motion.edit import repeat_loop

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.edit import KEPT_PART_JOINTS, in_place, keep_pictured_parts, loop_travel, repeat_loop
 from engine.motion.feet.foot_contact import sole_places

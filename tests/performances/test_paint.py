@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from engine.geometry.surface import triangulate, vertex_normals
+from engine.geometry.mesh.surface import triangulate, vertex_normals
 from engine.performances.modelling import chart
 from engine.performances.modelling.actor import LOWER_ARCH, UPPER_ARCH
 from engine.performances.modelling.figure import Figure, build_figure

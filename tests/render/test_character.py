@@ -8,9 +8,9 @@ import pytest
 from template_character import template_character, walk
 
 from engine.geometry.camera import Camera
-from engine.geometry.skeleton import Skeleton
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.skeleton import Skeleton
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import skin
 from engine.motion.clip import Clip
 from engine.motion.kinematics import pose_transforms
 from engine.render.backdrop import Backdrop

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from template_character import template_character, walk
 
-from engine.geometry.adjacency import edge_table
 from engine.geometry.camera import Camera
-from engine.geometry.skinning import skin
-from engine.geometry.welding import weld
+from engine.geometry.mesh.adjacency import edge_table
+from engine.geometry.mesh.welding import weld
+from engine.geometry.rigging.skinning import skin
 from engine.motion.kinematics import pose_transforms
 from engine.render.multisampling import draw_samples, sample_offsets, select_pixels
 from engine.render.outline import facings, mark_outline

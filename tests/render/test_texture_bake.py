@@ -8,7 +8,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
-from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
+from engine.geometry.texture_charts.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
 from engine.render.attributes import interpolate, sample_texture
 from engine.render.mipmap import build_mipmap
 from engine.render.rasteriser import rasterise

@@ -9,7 +9,7 @@ import pytest
 import trimesh
 from numpy.typing import NDArray
 
-from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
+from engine.geometry.texture_charts.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
 from engine.render.attributes import interpolate
 from engine.render.texture_bake import BakedTexture, bake, texel_raster
 from engine.render.texture_fill import filled_over_surface

@@ -9,7 +9,7 @@ import numpy as np
 
 from benchmarks.scan_studio.people.pictured_poses import POSES
 from benchmarks.scan_studio.people.rigged_people import held_pose
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.files.reading import read_motion
 from engine.motion.retargeting.retarget import retarget

@@ -12,9 +12,9 @@ from scipy.spatial.transform import Rotation
 from benchmarks.scan_studio.people.rigged_glb import TexturedPart, accessor_array, material_image, node_worlds
 from benchmarks.scan_studio.people.scanned_people import RIGGED_PEOPLE, one_texture
 from engine.body.rest_pose import T_POSE_DIRECTIONS, shortest_rotation
-from engine.geometry.skeleton import Skeleton
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import bone_transforms, skin
+from engine.geometry.rigging.skeleton import Skeleton
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import bone_transforms, skin
 from engine.motion.clip import Clip
 from engine.motion.files.gltf_file import GltfFile
 

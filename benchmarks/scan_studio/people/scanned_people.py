@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from benchmarks.scan_studio.people.rigged_glb import TexturedPart, read_in_a_pose
 from benchmarks.scan_studio.people.subject import Arm, Subject, room_light
-from engine.geometry.surface import vertex_normals
-from engine.geometry.welding import same_rows
+from engine.geometry.mesh.surface import vertex_normals
+from engine.geometry.mesh.welding import same_rows
 
 SCANNED_HEIGHT_METRES = 1.75
 """Of height, to which they are scaled."""

@@ -24,8 +24,8 @@ from engine.body.makehuman import read_mask
 from engine.body.rig import HUMAN_RIG
 from engine.body.shape import Phenotype
 from engine.body.template import Template, load_rig, load_template
-from engine.geometry.surface import triangulate, vertex_normals
-from engine.geometry.texture_atlas import atlas_from_uv
+from engine.geometry.mesh.surface import triangulate, vertex_normals
+from engine.geometry.texture_charts.texture_atlas import atlas_from_uv
 from engine.imaging.filling.nearest import nearest_colours
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import Raster

@@ -20,10 +20,10 @@ from engine.avatar.options import MAX_ATTACHED_TRIANGLES
 from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.template_skin.skin import grown
 from engine.avatar.worn import Attachments, no_attachments
-from engine.geometry.atlas_room import cells_of, placed_between
 from engine.geometry.camera import Camera
-from engine.geometry.surface import triangle_areas, triangulate
-from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
+from engine.geometry.mesh.surface import triangle_areas, triangulate
+from engine.geometry.texture_charts.atlas_room import cells_of, placed_between
+from engine.geometry.texture_charts.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
 
 MAX_PIECES = 6
 """Pieces, the largest first."""

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.geometry.closest_points import closest_points
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.surface import vertex_normals
 
 
 @dataclass(frozen=True)

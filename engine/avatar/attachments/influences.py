@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.attachments.body_surface import BodySurface
-from engine.geometry.adjacency import neighbours
-from engine.geometry.closest_points import closest_points
-from engine.geometry.skinning import MAX_VERTEX_INFLUENCES
+from engine.geometry.mesh.adjacency import neighbours
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.rigging.skinning import MAX_VERTEX_INFLUENCES
 
 INFLUENCE_SMOOTHING_ROUNDS = 300
 """Rounds in which a vertex' influences become the mean of those around, a hand's breadth and more: a coat's tail that lies between

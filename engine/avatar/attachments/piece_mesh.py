@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 from engine.avatar.attachments.body_surface import BodySurface
-from engine.geometry.fairing import fair
+from engine.geometry.mesh.fairing import fair
+from engine.geometry.mesh.surface import triangle_areas
+from engine.geometry.rigging.skeleton import Skeleton
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.geometry.simplification.decimation import decimate
-from engine.geometry.skeleton import Skeleton
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.surface import triangle_areas
 
 FAIRING_ROUNDS = 50
 """Rounds of fairing."""

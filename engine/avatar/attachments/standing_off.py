@@ -9,8 +9,8 @@ from scipy.spatial import cKDTree
 
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.avatar.attachments.silhouettes import MIN_BESIDE_VIEWS, Silhouettes
-from engine.geometry.cloud_cleaning import crowded_points
-from engine.geometry.point_cloud import thinning
+from engine.geometry.point_clouds.cloud_cleaning import crowded_points
+from engine.geometry.point_clouds.point_cloud import thinning
 
 MIN_STANDING_OFF_METRES = 0.012
 """Metres from the skin at which a surface stands off it."""

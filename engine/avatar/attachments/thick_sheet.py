@@ -15,8 +15,8 @@ from scipy.spatial import cKDTree
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.avatar.attachments.silhouettes import Silhouettes
 from engine.avatar.attachments.standing_off import MIN_FACE_DISTANCE_METRES
-from engine.geometry.iso_surface import iso_surface
-from engine.geometry.point_sheet import PointSheet, sheet_through
+from engine.geometry.mesh.iso_surface import iso_surface
+from engine.geometry.point_clouds.point_sheet import PointSheet, sheet_through
 
 GRID_SPACING_METRES = 0.003
 """Metres between the grid's points."""

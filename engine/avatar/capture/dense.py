@@ -19,12 +19,12 @@ from engine.avatar.capture.captured_view import CapturedView
 from engine.avatar.capture.silhouette_rims import rim_points
 from engine.errors import InputError
 from engine.geometry.camera import Camera
-from engine.geometry.cloud_cleaning import crowded, in_large_pieces, smoothed_along_normals
 from engine.geometry.multiview.depth_fusion import Agreement, FusedPoints, fuse_depth_maps
 from engine.geometry.multiview.patch_match_stereo import DepthMap, StereoView, nothing_measured, patch_match_stereo
 from engine.geometry.multiview.view_selection import chosen_sources, shared_sight
 from engine.geometry.multiview.visual_hull import VisualHull, depth_range, visual_hull
-from engine.geometry.point_cloud import PointCloud, joined, thinning
+from engine.geometry.point_clouds.cloud_cleaning import crowded, in_large_pieces, smoothed_along_normals
+from engine.geometry.point_clouds.point_cloud import PointCloud, joined, thinning
 from engine.geometry.registration.cloud_alignment import align_to_surface
 
 HULL_SPACING_METRES = 0.008

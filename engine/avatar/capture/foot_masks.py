@@ -17,7 +17,7 @@ from engine.avatar.capture.floor_mosaic import FloorMosaic, FloorView, cost_amon
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.body.fitting.residuals import FOOT_LANDMARKS, MIN_DEPTH_METRES
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.imaging.masks.colour_segmentation import MIN_MIXTURE_PIXELS, ColourMixture, ContrastGraph
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, near_lines
 from engine.imaging.masks.mask_pieces import without_small_pieces

@@ -17,7 +17,7 @@ from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.body.fitting.hand_fitting import HAND_BONES
 from engine.body.fitting.residuals import MIN_DEPTH_METRES
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.imaging.masks.colour_segmentation import grab_cut
 from engine.imaging.masks.mask_distance import near_lines
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.imaging.resample import resized, size_within
 from engine.perception.body import BODY_LANDMARKS, Body
 from engine.perception.people import find_people

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.capture.captured_view import CapturedView
 from engine.geometry.multiview.visual_hull import VisualHull, depth_range
-from engine.geometry.point_cloud import PointCloud
+from engine.geometry.point_clouds.point_cloud import PointCloud
 
 MAX_CHORD_METRES = 0.25
 """Metres within the hull up to which the middle is taken for where the line of sight touches the person."""

@@ -18,7 +18,7 @@ from engine.avatar.landmarks.spatial import (
 )
 from engine.body.fitting.hand_fitting import hand_length
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 
 DETECTED_SIGMA_SHARE = 6 / 720
 """By what share of a frame's shorter side a landmark of the body is off, usually."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.perception.body import BODY_LANDMARKS, Body, find_body
 from engine.perception.face_wear import FaceWear, face_wear
 from engine.perception.faces import find_faces

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.registration.rigid import Similarity
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 
 FACE_LANDMARKS = 68
 """Points of a face (iBUG)."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.landmarks.in_frames import FrameLandmarks
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 
 SIDE_VIEW_LANDMARKS = ("Ear", "Index", "Pinky", "Thumb")
 BACK_VIEW_LANDMARKS = ("Heel",)

@@ -11,7 +11,7 @@ from engine.body.body_space import BodySpace
 from engine.body.fitting.posing import BodyPoser
 from engine.body.landmarks import LandmarkModel
 from engine.compiled import njit
-from engine.geometry.skinning import skin as blend
+from engine.geometry.rigging.skinning import skin as blend
 
 TURN_STEP = 1e-4
 """Of a place or a turn, from which the derivatives of the joints' transforms come ..."""

@@ -21,9 +21,9 @@ from engine.body.fitting.pose_prior import MEAN_LOWERED_ARMS_RADIANS, joint_limi
 from engine.body.fitting.posing import FITTED_JOINTS
 from engine.body.landmarks import LandmarkModel
 from engine.errors import InputError
-from engine.geometry.closest_points import closest_points
-from engine.geometry.point_cloud import PointCloud
-from engine.geometry.surface import face_normals
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.surface import face_normals
+from engine.geometry.point_clouds.point_cloud import PointCloud
 
 COARSE_SHAPE_COEFFICIENTS = 20
 """Directions of the body space in which a body may differ from the mean."""

@@ -9,8 +9,8 @@ from scipy.sparse.linalg import splu
 
 from engine.avatar.registration.template_skin.lip_contact import closed_mouth
 from engine.avatar.registration.template_skin.skin import Skin
-from engine.geometry.adjacency import neighbours
-from engine.geometry.point_cloud import PointCloud
+from engine.geometry.mesh.adjacency import neighbours
+from engine.geometry.point_clouds.point_cloud import PointCloud
 from engine.geometry.registration.nonrigid_registration import (
     ElasticSurface,
     SurfaceLandmarks,

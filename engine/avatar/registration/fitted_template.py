@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.errors import Notice
 from engine.geometry.registration.rigid import Similarity
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.cache import cached_arrays
 from engine.body.garments.shoes import shod
 from engine.body.garments.toe_cap import ToeCap, toe_cap
-from engine.geometry.point_cloud import PointCloud
+from engine.geometry.point_clouds.point_cloud import PointCloud
 
 FOOT_REACH_METRES = 0.02
 """Metres from the coarse fit's feet within which points are of them."""

@@ -12,9 +12,9 @@ from engine.avatar.registration.models import HumanModels
 from engine.body.fitting.articulated_hand import TURNED_LANDMARKS
 from engine.body.fitting.hand_in_space import fit_hand_in_space
 from engine.body.fitting.hand_on_points import HandSkin
-from engine.geometry.joint_names import SIDE_NAMES
-from engine.geometry.point_cloud import PointCloud
-from engine.geometry.skinning import skin as blend
+from engine.geometry.point_clouds.point_cloud import PointCloud
+from engine.geometry.rigging.joint_names import SIDE_NAMES
+from engine.geometry.rigging.skinning import skin as blend
 
 
 @dataclass(frozen=True)

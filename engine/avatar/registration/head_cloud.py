@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.fine import FIRST_INNER_FACE_POINT
 from engine.avatar.registration.template_skin.skin import Skin, grown
-from engine.geometry.point_cloud import PointCloud, joined
+from engine.geometry.point_clouds.point_cloud import PointCloud, joined
 from engine.geometry.registration.iterative_closest_point import rigid_onto_cloud
 from engine.geometry.registration.rigid import Similarity, fit_rigid, fit_robustly, fit_similarity
 

@@ -11,12 +11,12 @@ from scipy.spatial.transform import Rotation
 from engine.avatar.registration.fine import FIRST_INNER_FACE_POINT
 from engine.avatar.registration.template_skin.skin import Skin, grown
 from engine.body.face.head_space import HeadSpace
-from engine.geometry.closest_points import closest_points
 from engine.geometry.deformation.handles import handles
 from engine.geometry.deformation.laplacian_deformation import LaplacianDeformation
-from engine.geometry.point_cloud import PointCloud
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.surface import face_normals
+from engine.geometry.point_clouds.point_cloud import PointCloud
 from engine.geometry.registration.rigid import fit_similarity
-from engine.geometry.surface import face_normals
 
 GATE_METRES = (*[0.02] * 5, *[0.008] * 7)
 """Metres within which points are of the surface there, by rounds."""

@@ -27,9 +27,9 @@ from engine.avatar.registration.rigging import Pose, on_the_ground, rest_joints,
 from engine.body.face.visemes import viseme_displacements
 from engine.errors import InputError, Notice
 from engine.geometry.deformation.cage_coordinates import cage_coordinates
-from engine.geometry.joint_names import SIDE_NAMES
-from engine.geometry.point_cloud import PointCloud, thinned
+from engine.geometry.point_clouds.point_cloud import PointCloud, thinned
 from engine.geometry.registration.rigid import Similarity
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 
 BODY_SPACING_METRES = 0.0035
 """Metres between points of the body's cloud that are used: twice the template's density, about 150,000 in all."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 
 MIN_BLEND_STRETCH_RATIO, MAX_BLEND_STRETCH_RATIO = 0.5, 2.0
 """Least and most by which what is blended of the joints' turns may shrink or stretch a place, in any direction, when it is undone:

@@ -20,7 +20,7 @@ from engine.avatar.texture.image_shift import ImageShift
 from engine.avatar.texture.lattice_step import lattice_step
 from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.compiled import njit
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
 from engine.imaging.resample import resized, size_within
 from engine.render.sampling import bilinear
 from engine.render.texture_bake import texel_raster

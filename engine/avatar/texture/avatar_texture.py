@@ -15,7 +15,7 @@ from engine.avatar.texture.template_surface import TemplateSurface
 from engine.avatar.texture.template_texture.placing import place_eyes, place_hands, place_lids, place_mouth
 from engine.avatar.texture.views import FrameView
 from engine.body.rig import Rig
-from engine.geometry.surface import triangle_areas
+from engine.geometry.mesh.surface import triangle_areas
 from engine.render.texture_bake import charts_of, pad_charts
 
 

@@ -19,9 +19,9 @@ from engine.avatar.texture.views import ChartedSurface
 from engine.avatar.worn import Attachments
 from engine.body.rig import Rig
 from engine.body.template import Template
-from engine.geometry.joint_names import SIDE_NAMES, Side
-from engine.geometry.surface import triangulate
-from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.rigging.joint_names import SIDE_NAMES, Side
+from engine.geometry.texture_charts.texture_atlas import TextureAtlas, atlas_from_uv
 
 HAND_DRIFT_METRES = 0.025
 """Metres from a hand within which frames may show it in place of what is there ..."""

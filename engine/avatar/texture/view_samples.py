@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.texture.views import ChartedSurface, FrameView
-from engine.geometry.adjacency import edge_table, neighbours
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.adjacency import edge_table, neighbours
+from engine.geometry.mesh.surface import vertex_normals
 from engine.render.sampling import bilinear
 from engine.render.visibility import depth_buffer, seen_points, view_cosines
 

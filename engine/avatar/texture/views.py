@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.texture.image_shift import ImageShift
 from engine.geometry.camera import Camera
-from engine.geometry.texture_atlas import TextureAtlas
+from engine.geometry.texture_charts.texture_atlas import TextureAtlas
 
 
 @dataclass(frozen=True)

@@ -22,8 +22,8 @@ from engine.body.face.face_mesh_points import FaceMeshPoints, face_mesh_points
 from engine.body.face.face_points import PICTURE_TO_TEMPLATE
 from engine.body.template import FACE_UNITS, Template
 from engine.compiled import njit
-from engine.geometry.joint_names import SIDE_NAMES
 from engine.geometry.registration.rigid import fit_similarities
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS, RIGID_VERTICES, eye_distance
 
 CAPTURED_UNITS = tuple(unit for unit in FACE_UNITS if unit != "tongueOut")

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from engine.body.fitting.pose_prior import JOINT_LIMIT_SIGMA
 from engine.body.fitting.posing import rotation_matrices
 from engine.body.hands import HandModel, finger_landmarks
-from engine.geometry.joint_names import FINGER_NAMES
+from engine.geometry.rigging.joint_names import FINGER_NAMES
 
 WRIST_SIGMA = (1.0, 0.5, 0.7)
 """Radians about x, y and z of the T-pose by which hands turn on their arms, usually: the forearm turns with them about x."""

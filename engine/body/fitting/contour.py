@@ -17,7 +17,7 @@ from scipy.ndimage import gaussian_filter1d
 from engine.body.body_space import BodySpace
 from engine.body.rig import Rig
 from engine.body.template import Template
-from engine.geometry.surface import triangulate, vertex_normals
+from engine.geometry.mesh.surface import triangulate, vertex_normals
 
 CONTOUR_POINTS = 240
 """Points along a contour."""

@@ -13,7 +13,7 @@ from engine.body.fitting.observation import DIRECTED_LIMBS, Observation
 from engine.body.fitting.posing import FITTED_JOINTS, POSED_SHAPE_COEFFICIENTS
 from engine.body.landmarks import LandmarkModel
 from engine.body.rest_pose import T_POSE_DIRECTIONS, shortest_rotation
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 
 
 def first_guess(

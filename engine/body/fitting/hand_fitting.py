@@ -24,7 +24,7 @@ from engine.body.fitting.articulated_hand import (
 from engine.body.fitting.least_squares import levenberg_marquardt
 from engine.body.hands import HandModel, finger_landmarks
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import FINGER_NAMES
+from engine.geometry.rigging.joint_names import FINGER_NAMES
 
 LANDMARK_SIGMA_HAND_LENGTHS = 0.05
 """How far landmarks are off, usually, in lengths of the hand seen."""

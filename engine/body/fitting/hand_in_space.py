@@ -21,7 +21,7 @@ from engine.body.fitting.articulated_hand import (
 from engine.body.fitting.hand_on_points import HAND_GATES_METRES, HandSkin, PointsOfHand
 from engine.body.fitting.least_squares import levenberg_marquardt
 from engine.body.hands import HandModel, finger_landmarks
-from engine.geometry.joint_names import FINGER_NAMES
+from engine.geometry.rigging.joint_names import FINGER_NAMES
 
 HAND_LANDMARK_SIGMA_METRES = 0.006
 """Metres by which landmarks are off, usually."""

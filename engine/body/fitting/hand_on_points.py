@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.fitting.articulated_hand import TURNED_LANDMARKS, ArticulatedHand
-from engine.geometry.closest_points import closest_points
-from engine.geometry.point_cloud import PointCloud
-from engine.geometry.surface import face_normals
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.surface import face_normals
+from engine.geometry.point_clouds.point_cloud import PointCloud
 
 HAND_POINT_SIGMA_METRES = 0.003
 """Metres by which points are off a hand's skin, usually ..."""

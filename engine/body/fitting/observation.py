@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.body.fitting.contour import Contour
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 
 DIRECTED_LIMBS = (
     *((f"{side}{a}", f"{side}{b}") for side in SIDE_NAMES for a, b in (("Arm", "ForeArm"), ("ForeArm", "Hand"))),

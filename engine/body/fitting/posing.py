@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from engine.body.body_space import BodySpace
 from engine.body.landmarks import LandmarkModel
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 
 FITTED_JOINTS = (
     *("Hips", "Spine", "Spine1", "Spine2", "Neck", "Head"),

@@ -17,7 +17,7 @@ from engine.body.fitting.pose_prior import joint_limits, pose_prior
 from engine.body.fitting.posing import BodyPoser, PosedBodies
 from engine.body.landmarks import LandmarkModel
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 
 LANDMARK_CUTOFF_SIGMAS = 4.0
 """Deviations at which a landmark's pull is at its strongest (Geman-McClure)."""

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.garments.toe_cap import ToeCap
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
 
 SHOE_LENGTH_RATIO, SHOE_WIDTH_RATIO = 1.09, 1.15
 """Of a shoe, in lengths and widths of the foot in it."""

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import splu
 
-from engine.geometry.adjacency import edges
-from engine.geometry.injective_disk import injective_disk
+from engine.geometry.mesh.adjacency import edges
+from engine.geometry.texture_charts.injective_disk import injective_disk
 
 TOE_SHARE = 0.66
 """Of a foot's length from the heel, from where on it is toes."""

@@ -19,10 +19,10 @@ from engine.character.parts.label_map import Labels
 from engine.character.rig.rigging import Character, at_rest
 from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheets import ClosedMesh, Layer, close
-from engine.geometry.joint_names import SIDE_NAMES
-from engine.geometry.skeleton import Skeleton
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import bone_transforms
+from engine.geometry.rigging.joint_names import SIDE_NAMES
+from engine.geometry.rigging.skeleton import Skeleton
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import bone_transforms
 from engine.imaging.filling.nearest import continued_colours
 from engine.imaging.masks.mask_pieces import bounding_box
 from engine.motion.clip import Clip

@@ -17,8 +17,8 @@ from engine.body.rest_pose import T_POSE_DIRECTIONS
 from engine.character.figure.figure import Figure
 from engine.character.fit.template_fit import FIGURE_FOCAL_LENGTH_SIDES, FittedBody, load_human
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import FINGER_NAMES, SIDE_NAMES
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.joint_names import FINGER_NAMES, SIDE_NAMES
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.imaging.masks.mask_pieces import bounding_box
 
 DRAWING_HEIGHT_METRES = 1.7

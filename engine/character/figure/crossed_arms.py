@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.body.fitting.observation import Crossing
 from engine.character.figure.figure import MIN_JOINT_CONFIDENCE, Figure
-from engine.geometry.joint_names import SIDE_NAMES, Side
+from engine.geometry.rigging.joint_names import SIDE_NAMES, Side
 from engine.imaging.masks.colour_segmentation import ColourMixture
 from engine.perception.body import BODY_LANDMARKS
 from engine.perception.landmarks import FACE_OVAL

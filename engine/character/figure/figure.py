@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from engine.character.figure.placed_joints import REQUIRED_PLACED_JOINTS, check_places, check_skeleton, in_words
 from engine.character.figure.posture import check_posture
 from engine.errors import InputError
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.imaging.resample import resized, size_within
 from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits

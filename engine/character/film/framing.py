@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from engine.character.rig.rigging import Character
 from engine.geometry.camera import Camera
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import skin
 from engine.motion.clip import Clip
 from engine.motion.confine import MovementRoom, confine_clip
 from engine.motion.feet.sole import leg_length

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.export.lit_preview import LitPreview
 from engine.geometry.camera import Camera
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.skinning import skin
 from engine.motion.kinematics import pose_transforms
 from engine.render.character import Actor
 

@@ -14,7 +14,7 @@ from engine.character.rig.measures import pose as posed_vertices
 from engine.character.rig.rigging import Character
 from engine.errors import InputError
 from engine.geometry.camera import Camera
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion.beginning import beginning, length_warning
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place, keep_pictured_parts, loop_travel

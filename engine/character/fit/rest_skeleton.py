@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from engine.body.body_space import BodySpace
 from engine.character.fit.template_fit import FittedBody
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion.kinematics import pose_transforms
 
 

@@ -26,8 +26,8 @@ from engine.character.figure.figure import Figure
 from engine.character.figure.picture_space import PictureCamera
 from engine.character.fit.posed_template import PosedTemplate
 from engine.geometry.camera import Camera
-from engine.geometry.skinning import bone_transforms, skin
-from engine.geometry.surface import triangulate
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.rigging.skinning import bone_transforms, skin
 from engine.perception.body import BODY_LANDMARKS
 from engine.render.rasteriser import rasterise
 

@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import Raster, rasterise
 

@@ -24,7 +24,7 @@ from engine.character.surface.legs_beneath import LEG_UNDER_CLOTH_SHARE
 from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheet_border import open_edges
 from engine.character.surface.sheets import Layer
-from engine.geometry.adjacency import neighbours
+from engine.geometry.mesh.adjacency import neighbours
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import rows_apart
 from engine.render.attributes import interpolate

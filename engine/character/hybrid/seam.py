@@ -14,7 +14,7 @@ from engine.character.hybrid.hybrid import Hybrid
 from engine.character.hybrid.trunk import LIMB_LABELS
 from engine.character.shell.colours.paint import texels
 from engine.character.texture.texture import Tiles
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.render.rasteriser import rasterise
 

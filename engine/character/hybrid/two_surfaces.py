@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.character.rig.rigging import Character
 from engine.character.texture.texture import MAX_TEXTURE_WIDTH_PIXELS
-from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 
 CROP_MARGIN_TEXELS = 8
 """Texels around what is used of a texture that are kept."""

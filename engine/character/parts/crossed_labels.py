@@ -19,7 +19,7 @@ from engine.body.rig import Rig
 from engine.character.figure.crossed_arms import CrossedArms
 from engine.character.figure.figure import Figure
 from engine.character.fit.posed_template import PosedTemplate
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
 from engine.imaging.masks.mask_pieces import largest_piece
 

@@ -18,7 +18,7 @@ from engine.body.rig import Rig
 from engine.character.fit.template_maps import side_maps
 from engine.character.parts.labels import ARM_LABELS, complete_labels
 from engine.character.parts.unfound_hands import SEEN_FINGER_CONFIDENCE, UnfoundHand, unit
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.imaging.masks.colour_segmentation import MIN_MIXTURE_PIXELS, ColourMixture, smoothed_map
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.imaging.masks.mask_pieces import pieces_touching

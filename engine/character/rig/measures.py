@@ -15,8 +15,8 @@ from engine.character.fit.template_fit import FittedBody
 from engine.character.rig.left_out import LeftOut, left_out
 from engine.character.rig.rigging import Character
 from engine.geometry.camera import Camera
-from engine.geometry.skinning import skin
-from engine.geometry.welding import is_closed, weld
+from engine.geometry.mesh.welding import is_closed, weld
+from engine.geometry.rigging.skinning import skin
 from engine.imaging.masks.mask_pieces import rows_apart
 from engine.motion.clip import Clip
 from engine.motion.kinematics import pose_transforms

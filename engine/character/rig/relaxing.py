@@ -17,8 +17,8 @@ from engine.character.rig.measures import pose
 from engine.character.rig.rigging import Character, at_rest
 from engine.character.surface.sheets import strongest
 from engine.compiled import njit
-from engine.geometry.skinning import skin
-from engine.geometry.welding import weld
+from engine.geometry.mesh.welding import weld
+from engine.geometry.rigging.skinning import skin
 from engine.motion.kinematics import pose_transforms
 from engine.motion.library import CLIPS, built_in
 

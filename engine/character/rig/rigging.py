@@ -14,8 +14,8 @@ from engine.character.fit.rest_skeleton import PicturedJoints, pictured_joints
 from engine.character.fit.template_fit import FittedBody
 from engine.character.surface.sheets import ClosedMesh
 from engine.character.surface.soles import with_soles
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.welding import same_rows
+from engine.geometry.mesh.welding import same_rows
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 
 MIN_VOLUME_RATIO, TARGET_VOLUME_RATIO = 0.35, 0.6

@@ -16,7 +16,7 @@ from engine.character.fit.template_fit import FittedBody, load_human
 from engine.character.rig.rigging import Character, at_rest, pictured_clip
 from engine.character.shell.piece import Piece
 from engine.character.shell.shell import Shell
-from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.imaging.masks.mask_pieces import bounding_box
 
 MIXED_COLOUR_BAND_PIXELS = 1.5

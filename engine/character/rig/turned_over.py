@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from engine.character.rig.measures import pose, projected_areas
 from engine.character.rig.rigging import Character, at_rest
-from engine.geometry.adjacency import neighbours
 from engine.geometry.camera import Camera
-from engine.geometry.welding import weld
+from engine.geometry.mesh.adjacency import neighbours
+from engine.geometry.mesh.welding import weld
 from engine.motion.kinematics import pose_transforms
 from engine.render.rasteriser import rasterise
 

@@ -18,7 +18,7 @@ from engine.character.shell.matching import match_outlines
 from engine.character.shell.outlines import Outlines
 from engine.character.shell.template_mesh import TemplateMesh
 from engine.geometry.deformation.cotangent_laplacian import cotangent_laplacian
-from engine.geometry.surface import vertex_areas, vertex_normals
+from engine.geometry.mesh.surface import vertex_areas, vertex_normals
 
 STIFFNESS_SCHEDULE = ((400.0, 0.05), (100.0, 0.06), (25.0, 0.07), (6.0, 0.07), (2.0, 0.06), (0.5, 0.05))
 """How stiff the surface is in each round, and how far within the outline its rim may be, as a share of the person's height."""

@@ -18,7 +18,7 @@ from engine.character.figure.silhouette import GRID_HEIGHT_PIXELS, Silhouette
 from engine.character.parts.labels import ARM_LABELS
 from engine.character.shell.piece import Piece
 from engine.character.shell.template_mesh import TemplateMesh
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
 from engine.render.rasteriser import rasterise
 
 VERTEX_SPACING_PIXELS = 2

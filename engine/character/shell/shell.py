@@ -27,7 +27,7 @@ from engine.character.shell.props import props_of
 from engine.character.shell.skirt import skirt_of
 from engine.character.shell.template_mesh import MIN_SURE_HEAD_WEIGHT, TemplateMesh, template_mesh
 from engine.character.shell.thickness import thickened
-from engine.geometry.skinning import bone_transforms, skin
+from engine.geometry.rigging.skinning import bone_transforms, skin
 from engine.imaging.masks.mask_distance import distance_to
 from engine.perception.landmarks import JAW_LANDMARK_COUNT, fiducials
 

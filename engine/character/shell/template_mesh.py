@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from engine.body import load_template
 from engine.body.parts import BODY_PARTS, part_of_bone
 from engine.character.fit.template_fit import load_human
-from engine.geometry.skinning import MAX_VERTEX_INFLUENCES
-from engine.geometry.surface import triangulate
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.rigging.skinning import MAX_VERTEX_INFLUENCES
 
 EAR_RADIUS_METRES, EAR_DEPTH_METRES = 0.045, 0.025
 """Metres around the outermost point of an ear, and inwards from it, that are the ear's."""

@@ -11,7 +11,7 @@ from engine.character.figure.silhouette import GRID_HEIGHT_PIXELS
 from engine.character.shell.displacement import Displaced
 from engine.character.shell.template_mesh import TemplateMesh
 from engine.geometry.deformation.cotangent_laplacian import cotangent_laplacian
-from engine.geometry.surface import vertex_areas, vertex_normals
+from engine.geometry.mesh.surface import vertex_areas, vertex_normals
 
 BENDING_WEIGHT, RIM_DEPTH_WEIGHT = 20.0, 0.3
 """What bending of the thickness costs, and how much what a rim says of it counts."""

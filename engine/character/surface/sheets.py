@@ -18,7 +18,7 @@ from scipy.ndimage import distance_transform_edt
 from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheet_border import joining_strip, open_edges, smoothed_border, to_the_edge
 from engine.character.surface.solid_limb import SolidLimb, places_on_the_picture
-from engine.geometry.skinning import MAX_VERTEX_INFLUENCES
+from engine.geometry.rigging.skinning import MAX_VERTEX_INFLUENCES
 from engine.render.rasteriser import rasterise
 
 MIN_HALF_DEPTH_PIXELS, MIN_BORDER_HALF_DEPTH_PIXELS = 0.5, 0.3

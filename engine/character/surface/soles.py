@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
 
 MAX_SOLE_NORMAL_HEIGHT = -0.35
 """The upward part of the normal, at most, of what is an underside."""

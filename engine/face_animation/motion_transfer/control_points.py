@@ -17,8 +17,8 @@ from engine.face_animation.motion_transfer.fringe import fringe_share
 from engine.face_animation.motion_transfer.head_room import head_room
 from engine.face_animation.motion_transfer.spectacles import spectacles_share
 from engine.face_animation.warping.contour_rings import contour_rings, rings_end
+from engine.geometry.mesh.surface import area_vectors, summed_at_corners
 from engine.geometry.registration.rigid import Similarity
-from engine.geometry.surface import area_vectors, summed_at_corners
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.window import Window
 from engine.perception.head_pose import canonical_face

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.adjacency import edges
+from engine.geometry.mesh.adjacency import edges
 from engine.perception.face_tessellation import face_triangles
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, NOSE_BASE_VERTEX

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array, diags_array, eye_array, vstack
 
-from engine.geometry.adjacency import edges
+from engine.geometry.mesh.adjacency import edges
 from engine.imaging.warping.delaunay import delaunay
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, eye_distance
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 from engine.geometry.deformation.handles import HeldSystem, handles
-from engine.geometry.surface import area_vectors, triangle_areas
+from engine.geometry.mesh.surface import area_vectors, triangle_areas
 
 MIN_SINE = 1e-6
 """Twice a triangle's area as a share of its longest edge squared; one with less says nothing of how it is deformed."""

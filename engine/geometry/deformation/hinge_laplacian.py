@@ -11,9 +11,9 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from engine.geometry.adjacency import edge_table, edges
+from engine.geometry.mesh.adjacency import edge_table, edges
+from engine.geometry.mesh.surface import triangle_areas, vertex_normals
 from engine.geometry.nearest_rotations import nearest_rotations
-from engine.geometry.surface import triangle_areas, vertex_normals
 
 MAX_COTANGENT = 4.0
 """Slivers have boundless cotangents: a hinge of one would outweigh its neighbours."""

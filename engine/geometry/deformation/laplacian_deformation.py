@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from engine.geometry.deformation.cotangent_laplacian import cotangent_edges, cotangent_laplacian, edge_differences
 from engine.geometry.deformation.handles import Handles, HeldSystem
+from engine.geometry.mesh.surface import vertex_areas
 from engine.geometry.nearest_rotations import nearest_rotations
-from engine.geometry.surface import vertex_areas
 
 MAX_ROUNDS = 100
 """Rounds of an as-rigid-as-possible deformation, at most."""

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.geometry.camera import Camera
 from engine.geometry.multiview.patch_match_stereo import DepthMap
-from engine.geometry.point_cloud import PointCloud
+from engine.geometry.point_clouds.point_cloud import PointCloud
 
 FUSION_ROUNDS = 2
 """How often the views are asked about a point: the second time where the first has moved it."""

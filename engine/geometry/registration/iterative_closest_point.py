@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
-from engine.geometry.closest_points import closest_points
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.surface import face_normals
 from engine.geometry.registration.rigid import Similarity
-from engine.geometry.surface import face_normals
 
 MOTION_DAMPING = 1e-9
 """What keeps a motion along which the surface is the same, such as a ball's turn, at none."""

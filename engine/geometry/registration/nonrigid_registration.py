@@ -17,11 +17,11 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
-from engine.geometry.closest_points import closest_points
 from engine.geometry.deformation.handles import surface_points
 from engine.geometry.deformation.hinge_laplacian import HingeLaplacian
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.surface import vertex_areas, vertex_normals
 from engine.geometry.registration.point_noise import point_noise
-from engine.geometry.surface import vertex_areas, vertex_normals
 
 MIN_MATCH_NORMAL_COSINE = 0.2
 """Between the normals of a point and of the surface there: what faces another way is another side of the body."""

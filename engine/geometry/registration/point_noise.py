@@ -10,9 +10,9 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from engine.geometry.adjacency import neighbours
-from engine.geometry.closest_points import closest_points
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.adjacency import neighbours
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.surface import vertex_normals
 
 SURFACE_REACH_METRES = 0.03
 """Metres from the surface within which points are of it."""

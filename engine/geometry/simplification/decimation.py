@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.mesh.welding import weld
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.geometry.simplification.edge_collapse import collapse_edges
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.welding import weld
 
 BORDER_WEIGHT = 30.0
 """Weight of the planes that hold open borders in place, against those of the surface."""

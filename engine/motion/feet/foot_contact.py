@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.feet.sole import soles
 from engine.motion.kinematics import place_joints, world_rotations

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDE_NAMES
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.joint_names import SIDE_NAMES
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 
 Array = NDArray[np.float64]

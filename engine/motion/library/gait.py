@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.library.curves import Keys, ease, hermite_curve, periodic_curve
 from engine.motion.library.posture import Arm, Foot, Posture, embody

@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import FINGER_NAMES, SIDE_NAMES
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.joint_names import FINGER_NAMES, SIDE_NAMES
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.feet.inverse_kinematics import two_bones

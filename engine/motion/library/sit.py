@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.library.curves import curve_through, ease
 from engine.motion.library.posture import Arm, Foot, Posture, embody

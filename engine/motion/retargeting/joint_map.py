@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.geometry.joint_names import FINGER_NAMES, SIDE_NAMES
+from engine.geometry.rigging.joint_names import FINGER_NAMES, SIDE_NAMES
 from engine.motion import rotation
 from engine.motion.files.source_motion import SourceMotion
 from engine.motion.retargeting.joint_names import SIDED_JOINTS, TARGET_NAMES, match_names

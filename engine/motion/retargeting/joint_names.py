@@ -13,7 +13,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from engine.geometry.joint_names import FINGER_NAMES, SIDE_NAMES
+from engine.geometry.rigging.joint_names import FINGER_NAMES, SIDE_NAMES
 
 SIDED_JOINTS = ("Shoulder", "Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot", "ToeBase")
 

@@ -16,8 +16,8 @@ from itertools import pairwise, permutations, product
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDE_NAMES
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.joint_names import SIDE_NAMES
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.files.source_motion import SourceMotion
 from engine.motion.kinematics import world_rotations

@@ -15,8 +15,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDE_NAMES
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.joint_names import SIDE_NAMES
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.feet.foot_contact import FeetReport

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.body.subdivision import Subdivision, catmull_clark
 from engine.body.template import vertex_mask
-from engine.geometry.surface import triangulate, vertex_normals
+from engine.geometry.mesh.surface import triangulate, vertex_normals
 from engine.performances.modelling import chart
 from engine.performances.modelling.brows import RootedHairs, grow_brows, grow_lashes, place_hairs
 from engine.performances.modelling.eyes import Eyeball, build_eyeball

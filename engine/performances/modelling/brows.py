@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.geometry.surface import triangulate
+from engine.geometry.mesh.surface import triangulate
 from engine.performances.modelling.chart import smooth_curve
 from engine.performances.modelling.eyes import Eyeball
 from engine.performances.modelling.figure import Figure

@@ -14,8 +14,8 @@ from engine.body import Phenotype, Template, load_shape_space, load_template
 from engine.body.rig import Rig
 from engine.body.subdivision import catmull_clark
 from engine.body.template import load_rig
-from engine.geometry.skinning import bone_transforms, skin
-from engine.geometry.surface import triangulate
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.rigging.skinning import bone_transforms, skin
 from engine.performances.modelling.eyes import EYEBALL_RADIUS_METRES, build_eyeball, profile
 from engine.performances.modelling.lids import Lids, build_lids
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.geometry.surface import triangle_areas, triangulate, vertex_normals
+from engine.geometry.mesh.surface import triangle_areas, triangulate, vertex_normals
 from engine.performances.modelling.chart import AXIS_DEPTH, CHART_RADIUS_METRES, smooth_curve, smooth_step
 from engine.performances.modelling.figure import Figure
 

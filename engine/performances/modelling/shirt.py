@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.surface import triangulate
+from engine.geometry.mesh.surface import triangulate
 from engine.performances.modelling.figure import Figure
 from engine.render.rasteriser import rasterise
 

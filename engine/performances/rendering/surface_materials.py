@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.surface import chart_tangents
+from engine.geometry.mesh.surface import chart_tangents
 from engine.performances.modelling import chart
 from engine.performances.modelling.actor import Actor, Part, Scene
 from engine.performances.modelling.eyes import colour_of_eye

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.performances.modelling.figure import Pose
 from engine.performances.scores.timing import ease, idle_noise
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.performances.catalogue import performance
 from engine.performances.modelling.figure import Pose
 from engine.performances.scores.acting import Units, add, head_sway, lids, pose, sum_turns

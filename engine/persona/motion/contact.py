@@ -14,7 +14,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
-from engine.geometry.adjacency import neighbours
+from engine.geometry.mesh.adjacency import neighbours
 from engine.perception.face_tessellation import face_triangles
 from engine.perception.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE
 

@@ -19,8 +19,8 @@ from engine.body.body_space import BodySpace, load_body_space
 from engine.body.face.face_capture import CAPTURED_UNITS
 from engine.body.face.face_points import PICTURE_TO_TEMPLATE, lay_canonical_face
 from engine.body.template import Template, load_template
+from engine.geometry.mesh.surface import triangulate
 from engine.geometry.registration.rigid import fit_similarity
-from engine.geometry.surface import triangulate
 from engine.perception.head_pose import canonical_face, mirror_vertices
 from engine.perception.landmarks import (
     EYE_CORNER_VERTICES,

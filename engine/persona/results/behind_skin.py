@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.persona.puppet import Puppet
 from engine.persona.results.face_units import FaceUnits
 from engine.render.rasteriser import depth_map

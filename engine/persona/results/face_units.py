@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.persona.motion.deformation_transfer import DeformationTransfer
 from engine.persona.motion.mesh_units import EYE_OUTLINE_VERTICES, lids_met, load_mesh_units
 from engine.persona.motion.performance import FRAME_SIZE

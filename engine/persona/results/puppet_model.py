@@ -11,9 +11,9 @@ from engine.body.face.face_points import PICTURE_TO_TEMPLATE
 from engine.body.template import FACE_UNITS
 from engine.export.glb import CharacterModel, write_glb
 from engine.export.gltf_materials import Material
-from engine.geometry.morph_target import morph_target
-from engine.geometry.skeleton import Skeleton
-from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.morph_target import morph_target
+from engine.geometry.rigging.skeleton import Skeleton
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.persona.persona import Persona
 from engine.persona.puppet import Puppet
 from engine.persona.results.face_units import FaceUnits

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
 from engine.imaging.resample import resized
 from engine.perception.face_tessellation import face_triangles, opening_triangles
 from engine.perception.landmarks import FACE_OVAL

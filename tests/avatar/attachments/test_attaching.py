@@ -13,9 +13,9 @@ from engine.avatar.registration.rigging import Pose
 from engine.avatar.texture.template_surface import template_surface
 from engine.avatar.worn import Attachments, no_attachments
 from engine.body.rest_pose import t_pose
-from engine.geometry.atlas_room import cells_of
 from engine.geometry.camera import Camera
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.skinning import skin
+from engine.geometry.texture_charts.atlas_room import cells_of
 from engine.motion.kinematics import pose_transforms
 from engine.render.rasteriser import rasterise
 

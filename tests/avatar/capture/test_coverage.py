@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from engine.avatar.capture.coverage import coverage
-from engine.geometry.point_cloud import PointCloud
+from engine.geometry.point_clouds.point_cloud import PointCloud
 
 
 def cloud_of(points: np.ndarray) -> PointCloud:

@@ -10,9 +10,9 @@ from scipy.spatial.transform import Rotation
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.models import HumanModels
-from engine.geometry.point_cloud import PointCloud
+from engine.geometry.mesh.surface import face_normals, triangle_areas
+from engine.geometry.point_clouds.point_cloud import PointCloud
 from engine.geometry.registration.rigid import Similarity
-from engine.geometry.surface import face_normals, triangle_areas
 
 TO_HEAD = Similarity(1.3 * Rotation.from_rotvec([0.1, 0.4, -0.1]).as_matrix(), np.array([0.1, -1.5, 0.3]))
 """From the body's world to that of the head's clip."""

@@ -10,7 +10,7 @@ from known_person import KnownPerson, sampled
 
 from engine.avatar.registration.footwear import seen_barefoot
 from engine.avatar.registration.models import HumanModels
-from engine.geometry.point_cloud import PointCloud, joined
+from engine.geometry.point_clouds.point_cloud import PointCloud, joined
 
 SKIN, SHADED_SKIN, LEATHER, WHITE = (196, 150, 128), (150, 110, 92), (52, 38, 34), (235, 235, 232)
 

@@ -10,7 +10,7 @@ from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.register import Scan, register
 from engine.errors import InputError
-from engine.geometry.point_cloud import PointCloud
+from engine.geometry.point_clouds.point_cloud import PointCloud
 
 
 def test_the_surface_and_its_vertices_are_found(

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.geometry.camera import Camera
-from engine.geometry.texture_atlas import unwrap
+from engine.geometry.texture_charts.texture_atlas import unwrap
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import rasterise
 from engine.render.texture_bake import texel_raster

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from engine.avatar.texture.template_texture.iris_in_frame import iris_centre
 from engine.avatar.texture.template_texture.lid_shadow import lash_shadow, lid_shadow
 from engine.avatar.texture.views import ChartedSurface
-from engine.geometry.texture_atlas import unwrap
+from engine.geometry.texture_charts.texture_atlas import unwrap
 from engine.performances.modelling.eyes import IRIS_RADIUS
 
 

@@ -11,7 +11,7 @@ from engine.avatar.texture.labels import UNSEEN_LABEL, best_views, stitched
 from engine.avatar.texture.view_samples import ViewSamples, sample_views
 from engine.avatar.texture.views import FrameView
 from engine.geometry.camera import Camera
-from engine.geometry.surface import triangle_areas
+from engine.geometry.mesh.surface import triangle_areas
 from tests.avatar.texture.conftest import Ball, ring
 
 

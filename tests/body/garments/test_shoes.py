@@ -10,7 +10,7 @@ from scipy.spatial import ConvexHull
 from engine.avatar.registration.footwear import in_shoes
 from engine.avatar.registration.models import HumanModels, load_models
 from engine.body.garments.shoes import SHOE_LENGTH_RATIO, SHOE_WIDTH_RATIO
-from engine.geometry.surface import face_normals, triangle_areas
+from engine.geometry.mesh.surface import face_normals, triangle_areas
 
 
 @pytest.fixture(scope="module")

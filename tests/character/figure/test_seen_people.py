@@ -16,7 +16,7 @@ from engine.character.figure.figure import Choice, find_figure
 from engine.character.figure.silhouette import cut_out
 from engine.character.fit.template_fit import load_human
 from engine.character.stages import fit_template
-from engine.geometry.skinning import bone_transforms
+from engine.geometry.rigging.skinning import bone_transforms
 from engine.media.limits import Limits
 
 SEEN_LOOKS = DRESSED_LOOKS[1:4]

@@ -13,8 +13,8 @@ from engine.character.film.motions import MotionChoice, choose_motion
 from engine.character.options import BUILT_IN_MOTIONS
 from engine.character.rig.rigging import Character
 from engine.geometry.camera import Camera
-from engine.geometry.skeleton import Skeleton
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.skeleton import Skeleton
+from engine.geometry.rigging.skinning import skin
 from engine.motion import rotation
 from engine.motion.edit import repeat_loop
 from engine.motion.feet.foot_contact import sole_places

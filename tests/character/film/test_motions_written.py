@@ -13,7 +13,7 @@ from engine.character.film.motions import MotionChoice, Played, choose_motion
 from engine.character.pipeline import MAX_GLB_BYTES, write_small_glb
 from engine.character.rig.rigging import Character
 from engine.geometry.camera import Camera
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.edit import loop_travel

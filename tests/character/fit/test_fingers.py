@@ -13,7 +13,7 @@ from engine.character.fit.hands import turn_hands
 from engine.character.fit.head import joint_axes
 from engine.character.fit.template_fit import FittedBody, load_human
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import FINGER_NAMES
+from engine.geometry.rigging.joint_names import FINGER_NAMES
 
 FOCAL, CENTRE, PLACE = 2200.0, (499.5, 499.5), np.array([0, 0.1, -3.0])
 NOBODY = np.zeros(POSED_SHAPE_COEFFICIENTS, np.float32)

@@ -16,7 +16,7 @@ from engine.character.surface.face_warp import Face, with_face
 from engine.character.surface.part_surface import Surface, warp_part
 from engine.character.surface.sheets import Layer, close
 from engine.geometry.camera import Camera
-from engine.geometry.welding import is_closed
+from engine.geometry.mesh.welding import is_closed
 from engine.perception.head_pose import mesh_from_fiducials
 
 FOCAL, CENTRE, PLACE = 1200.0, (299.5, 399.5), np.array([0, 0.1, -3.0])

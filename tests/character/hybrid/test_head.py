@@ -29,7 +29,7 @@ from engine.character.parts.labels import LEG_LABELS
 from engine.character.shell.shell import ears_laid_back, eyes_in_sockets, shaped_head
 from engine.character.shell.template_mesh import template_mesh
 from engine.character.stages import build_mesh
-from engine.geometry.welding import is_closed
+from engine.geometry.mesh.welding import is_closed
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.render.rasteriser import rasterise
 from tests.character.fit.test_head_and_legs import seen_face

@@ -22,8 +22,8 @@ from engine.character.rig.measures import pose
 from engine.character.rig.rigging import Character, bind
 from engine.character.rig.shell_binding import bind_shell
 from engine.character.shell.template_mesh import template_mesh
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.welding import is_closed, weld
+from engine.geometry.mesh.welding import is_closed, weld
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 from engine.motion.kinematics import pose_transforms
 from engine.render.rasteriser import rasterise

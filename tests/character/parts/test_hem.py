@@ -20,7 +20,7 @@ from engine.character.surface.layers import build_layers
 from engine.character.surface.legs_beneath import leg_under_cloth
 from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheets import Layer, close
-from engine.geometry.welding import is_closed
+from engine.geometry.mesh.welding import is_closed
 from tests.character.parts.test_overlapping_legs import AT_THE_SHINS, SIZE, standing
 
 TORSO, LEFT, RIGHT = (BODY_PARTS.index(name) for name in ("torso", "left_leg", "right_leg"))

@@ -20,7 +20,7 @@ from engine.character.parts.overlapping_legs import as_the_template, leg_before
 from engine.character.surface.layers import build_layers
 from engine.character.surface.sheets import close
 from engine.geometry.camera import Camera
-from engine.geometry.welding import is_closed
+from engine.geometry.mesh.welding import is_closed
 from engine.imaging.masks.mask_distance import distance_to
 
 SIZE = (448, 260)

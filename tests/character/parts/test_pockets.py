@@ -28,7 +28,7 @@ from engine.character.pipeline import cut_all_out, find_figures, reconstruct
 from engine.character.rig.measures import pose
 from engine.character.rig.rigging import Character
 from engine.character.stages import fit_template, label
-from engine.geometry.welding import weld
+from engine.geometry.mesh.welding import weld
 from engine.media.limits import Limits
 from engine.motion.edit import in_place
 from engine.motion.library import built_in

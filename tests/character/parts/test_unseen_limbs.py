@@ -18,7 +18,7 @@ from engine.character.parts.unseen_limbs import unseen_limbs, with_limbs_hidden
 from engine.character.surface.layers import build_layers
 from engine.character.surface.sheets import Layer, close
 from engine.character.surface.solid_limb import places_on_the_picture
-from engine.geometry.welding import is_closed
+from engine.geometry.mesh.welding import is_closed
 from tests.character.parts.test_overlapping_legs import SIZE, fitted_as, standing
 
 LEFT, RIGHT, TORSO = (BODY_PARTS.index(name) for name in ("left_arm", "right_arm", "torso"))

@@ -12,7 +12,7 @@ from template_character import template_character
 from engine.character.rig.measures import border_edges, count_loops, pose, projected_areas, unseen_share
 from engine.character.rig.rigging import Character
 from engine.character.stages import fewer_triangles
-from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.motion.library import built_in
 from engine.render.rasteriser import rasterise
 

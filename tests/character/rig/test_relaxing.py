@@ -14,9 +14,9 @@ from benchmarks.character_figures.stretching import stretched
 from engine.character.rig.measures import pose
 from engine.character.rig.relaxing import SurfaceGraph, relaxed, stiffened_weights
 from engine.character.rig.rigging import Character, at_rest
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import skin
-from engine.geometry.welding import is_closed, weld
+from engine.geometry.mesh.welding import is_closed, weld
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import skin
 from engine.motion.clip import Clip
 from engine.motion.kinematics import pose_transforms
 

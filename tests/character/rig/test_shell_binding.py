@@ -15,7 +15,7 @@ from engine.character.shell.at_rest import shell_at_rest
 from engine.character.shell.piece import Piece
 from engine.character.shell.shell import Shell
 from engine.character.shell.template_mesh import template_mesh
-from engine.geometry.welding import is_closed, weld
+from engine.geometry.mesh.welding import is_closed, weld
 from tests.character.fit.test_head_and_legs import figure_with
 from tests.character.shell.test_displacement import arms_down
 

@@ -13,8 +13,8 @@ from engine.character.rig.measures import pose
 from engine.character.rig.rigging import Character
 from engine.character.rig.turned_over import backs_in_view, without_backs_in_view
 from engine.geometry.camera import Camera
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.welding import weld
+from engine.geometry.mesh.welding import weld
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 
 CAMERA = Camera((0.0, 1.0, 4.0), 700.0, (200.0, 300.0), (600, 400))

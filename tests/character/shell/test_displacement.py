@@ -18,7 +18,7 @@ from engine.character.shell.displacement import KnownPoints, displace
 from engine.character.shell.outlines import part_outlines
 from engine.character.shell.template_mesh import TemplateMesh, template_mesh
 from engine.character.shell.thickness import thickened
-from engine.geometry.skinning import skin
+from engine.geometry.rigging.skinning import skin
 from engine.render.rasteriser import rasterise
 from tests.character.fit.test_head_and_legs import standing
 

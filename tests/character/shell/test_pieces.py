@@ -17,8 +17,8 @@ from engine.character.shell.piece import Piece
 from engine.character.shell.props import props_of
 from engine.character.shell.skirt import skirt_of
 from engine.character.shell.template_mesh import template_mesh
-from engine.geometry.surface import area_vectors
-from engine.geometry.welding import is_closed
+from engine.geometry.mesh.surface import area_vectors
+from engine.geometry.mesh.welding import is_closed
 from tests.character.shell.test_displacement import SHAPE, arms_down, covered, labels_of, on_grid
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from engine.body import load_template
 from engine.character.rig.measures import border_edges
 from engine.character.shell.template_mesh import template_mesh
-from engine.geometry.surface import area_vectors
+from engine.geometry.mesh.surface import area_vectors
 
 
 def test_it_is_closed_and_its_chart_is_of_the_same_triangles() -> None:

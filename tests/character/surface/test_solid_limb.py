@@ -17,7 +17,7 @@ from engine.character.surface.layers import arm_behind_the_other
 from engine.character.surface.part_surface import Surface
 from engine.character.surface.sheets import Layer, close
 from engine.character.surface.solid_limb import SolidLimb, places_on_the_picture, solid_arms, solid_limb
-from engine.geometry.welding import is_closed
+from engine.geometry.mesh.welding import is_closed
 from tests.character.fit.test_head_and_legs import standing
 
 SHAPE = (800, 600)

@@ -14,7 +14,7 @@ from engine.character.surface.sheets import ClosedMesh, Layer, close
 from engine.character.texture.head_area import measure_head
 from engine.character.texture.head_texture import back_of_the_head, find_hair, nape_height
 from engine.character.texture.round_sides import with_round_sides
-from engine.geometry.welding import is_closed
+from engine.geometry.mesh.welding import is_closed
 
 SKIN, BROWN, WHITE, BLACK, PINK = (225, 175, 150), (75, 48, 32), (205, 203, 200), (12, 12, 14), (220, 60, 150)
 FACE = np.float32([100, 110, 40, 50, 0])

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from engine.geometry.deformation.cotangent_laplacian import cotangent_laplacian
 from engine.geometry.deformation.handles import handles, surface_points
 from engine.geometry.deformation.laplacian_deformation import AsRigidAsPossible, LaplacianDeformation
-from engine.geometry.surface import vertex_areas
+from engine.geometry.mesh.surface import vertex_areas
 
 TURN = Rotation.from_rotvec([0.4, -1.9, 0.7]).as_matrix()
 SHIFT = np.array([0.3, -2.0, 1.1])

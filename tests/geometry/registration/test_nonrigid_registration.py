@@ -10,14 +10,14 @@ import scipy.sparse as sp
 import trimesh
 from numpy.typing import NDArray
 
-from engine.geometry.closest_points import closest_points
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.surface import vertex_normals
 from engine.geometry.registration.nonrigid_registration import (
     ElasticSurface,
     SurfaceLandmarks,
     geometric_steps,
     lay_on_points,
 )
-from engine.geometry.surface import vertex_normals
 
 STEPS = geometric_steps(5, (1e-5, 1e-10), (1, 1e-2), (0.08, 0.03))
 

@@ -6,11 +6,11 @@ import trimesh
 from template_character import template_character, walk
 
 from engine.geometry.camera import Camera
+from engine.geometry.mesh.welding import weld
+from engine.geometry.rigging.skeleton import Skeleton
+from engine.geometry.rigging.skinned_mesh import SkinnedMesh
+from engine.geometry.rigging.skinning import skin
 from engine.geometry.simplification.decimation import decimate, joint_importance
-from engine.geometry.skeleton import Skeleton
-from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import skin
-from engine.geometry.welding import weld
 from engine.motion.kinematics import pose_transforms
 from engine.render.rasteriser import rasterise
 

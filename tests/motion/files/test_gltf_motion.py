@@ -12,7 +12,7 @@ import pygltflib as gltf
 import pytest
 
 from engine.errors import InputError
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.files.gltf_file import MAX_JSON_BYTES

@@ -11,7 +11,7 @@ import pytest
 from humanoids import build_skeleton, told_by
 
 from engine.errors import InputError
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.check import check_motion
 from engine.motion.clip import Clip

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from humanoids import build_skeleton, on_feet, treadmill_walk
 
-from engine.geometry.skeleton import Skeleton
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place, loop_travel, repeat_loop

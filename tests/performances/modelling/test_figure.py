@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from engine.geometry.surface import triangulate
+from engine.geometry.mesh.surface import triangulate
 from engine.performances.modelling.eyes import (
     CORNEA_RADIUS,
     EYEBALL_RADIUS_METRES,

@@ -11,8 +11,8 @@ from engine.avatar.registration.face.face_parts import head_change
 from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import FACE_UNITS, Template
 from engine.geometry.deformation.deformation_transfer import DeformationTransfer
+from engine.geometry.mesh.surface import triangle_areas
 from engine.geometry.registration.rigid import fit_similarity
-from engine.geometry.surface import triangle_areas
 
 RIGID_PARTS = (
     *("left_eye", "right_eye", "upper_teeth", "lower_teeth", "tongue"),

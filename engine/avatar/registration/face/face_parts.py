@@ -10,10 +10,10 @@ from scipy.spatial import cKDTree
 
 from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import Template
-from engine.geometry.closest_points import closest_points
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.mesh.winding_number import winding_numbers
 from engine.geometry.registration.rigid import Similarity, fit_similarity
-from engine.geometry.surface import triangulate
-from engine.geometry.winding_number import winding_numbers
 from engine.render.rasteriser import depth_map
 
 MOUTH_PARTS = ("upper_teeth", "lower_teeth", "tongue")

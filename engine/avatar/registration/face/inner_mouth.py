@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from engine.avatar.registration.template_skin.skin import Skin
 from engine.avatar.registration.template_skin.smooth_field import smooth_field
-from engine.geometry.closest_points import closest_points
-from engine.geometry.winding_number import winding_numbers
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.winding_number import winding_numbers
 
 LINING_DEPTH_METRES = 0.006
 """Metres below the visible skin down to which what is not seen goes with it, and keeps its depth; what is deeper goes along

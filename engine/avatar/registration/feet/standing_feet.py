@@ -19,12 +19,12 @@ from engine.avatar.registration.footwear import in_shoes
 from engine.avatar.registration.hand_pose import CoarseBody
 from engine.avatar.registration.models import HumanModels
 from engine.body.fitting.least_squares import levenberg_marquardt
-from engine.geometry.closest_points import closest_points
 from engine.geometry.deformation.handles import handles
 from engine.geometry.deformation.laplacian_deformation import LaplacianDeformation
-from engine.geometry.joint_names import SIDE_NAMES
-from engine.geometry.point_cloud import PointCloud
-from engine.geometry.surface import face_normals
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.surface import face_normals
+from engine.geometry.point_clouds.point_cloud import PointCloud
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 
 BENT_KNEE_HEIGHT_SHARE = 0.6
 """Of the height of the knee, up to which a leg is bent towards its foot."""

@@ -9,8 +9,8 @@ from scipy.spatial import cKDTree
 from engine.body.body_space import BodySpace
 from engine.body.face.face_points import lay_canonical_face
 from engine.body.template import Template, vertex_mask
-from engine.geometry.adjacency import neighbours
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.adjacency import neighbours
+from engine.geometry.mesh.surface import vertex_normals
 from engine.perception.landmarks import fiducials
 
 FRONT_COSINE = 0.1

@@ -11,7 +11,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
 from engine.body.template import Template
-from engine.geometry.adjacency import edge_table
+from engine.geometry.mesh.adjacency import edge_table
 
 UPPER_LID_MIN_HEIGHT_RADII = 0.25
 """Radii of the eyeball above its middle beyond which what is near to it is of the upper lid."""

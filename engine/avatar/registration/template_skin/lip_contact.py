@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
 from engine.avatar.registration.template_skin.smooth_field import bending_of
-from engine.geometry.closest_points import closest_points
 from engine.geometry.deformation.handles import surface_points
-from engine.geometry.surface import face_normals, vertex_normals
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.surface import face_normals, vertex_normals
 
 MAX_LIP_GAP_METRES = 0.001
 """Metres between the lips of the mean body, within which they touch: along one line on each, where the template leaves a slit."""

@@ -19,10 +19,10 @@ from engine.body.body_space import BodySpace
 from engine.body.cache import cached_arrays
 from engine.body.rig import Rig
 from engine.body.template import Template, vertex_mask
-from engine.geometry.adjacency import edge_table, neighbours
 from engine.geometry.camera import Camera
-from engine.geometry.joint_names import SIDE_NAMES
-from engine.geometry.surface import triangulate
+from engine.geometry.mesh.adjacency import edge_table, neighbours
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.render.rasteriser import rasterise
 
 FACE_RADII = np.array([0.085, 0.106, 0.106])

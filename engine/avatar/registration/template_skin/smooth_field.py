@@ -7,7 +7,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
-from engine.geometry.adjacency import neighbours
+from engine.geometry.mesh.adjacency import neighbours
 
 
 def smooth_field(

@@ -19,7 +19,7 @@ from engine.avatar.texture.template_texture.hand_colours import like_skin, skin_
 from engine.avatar.texture.template_texture.hands import HandBones
 from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.geometry.deformation.cotangent_laplacian import cotangent_laplacian
-from engine.geometry.surface import triangle_areas
+from engine.geometry.mesh.surface import triangle_areas
 from engine.imaging.histogram_matching import to_lab
 
 FINGER_WIDTH_METRES = 0.016

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.body.hands import bending_axes, finger_landmarks
 from engine.body.rig import Rig
-from engine.geometry.joint_names import FINGER_NAMES, Side
+from engine.geometry.rigging.joint_names import FINGER_NAMES, Side
 from engine.media.tone_mapping import srgb_code
 from engine.perception.hands import HAND_JOINTS
 from engine.performances.modelling.skin import BASE_REFLECTANCE, BLOOD_ABSORBANCE, MELANIN_ABSORBANCE

@@ -20,8 +20,8 @@ from engine.avatar.texture.template_texture.mouth import painted_lining, painted
 from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.avatar.texture.views import FrameView
 from engine.body.rig import Rig
-from engine.geometry.joint_names import SIDE_NAMES
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.imaging.histogram_matching import to_lab
 from engine.performances.modelling.eyes import IRIS_RADIUS
 from engine.render.rasteriser import Raster

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from engine.character.fit.template_fit import load_human
 from engine.character.shell.template_mesh import template_mesh
-from engine.geometry.adjacency import neighbours
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.adjacency import neighbours
+from engine.geometry.mesh.surface import vertex_normals
 
 EAR_SMOOTHING_ROUNDS = 12
 """Times that the surface is averaged with what is around: what lies below that is a fold."""

@@ -19,7 +19,7 @@ from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS
 from engine.character.shell.shell import Shell
 from engine.compiled import njit
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.surface import vertex_normals
 from engine.imaging.filling.nearest import nearest_colours, nearest_values
 from engine.imaging.masks.mask_distance import distance_inside, distance_to
 from engine.render.rasteriser import depth_map

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from engine.body.parts import BODY_PARTS
 from engine.character.fit.template_fit import load_human
 from engine.character.shell.template_mesh import TemplateMesh, template_mesh
-from engine.geometry.joint_names import SIDE_NAMES
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.imaging.filling.nearest import nearest_in
 from engine.render.rasteriser import Raster, rasterise
 

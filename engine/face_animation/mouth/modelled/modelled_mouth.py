@@ -23,8 +23,8 @@ from engine.face_animation.mouth.modelled.mouth_parts import (
 )
 from engine.face_animation.mouth.modelled.resting_mouth import RestingMouth
 from engine.face_animation.mouth.modelled.skull import skull_camera
-from engine.geometry.adjacency import edge_table
-from engine.geometry.surface import vertex_normals
+from engine.geometry.mesh.adjacency import edge_table
+from engine.geometry.mesh.surface import vertex_normals
 from engine.perception.landmarks import (
     INNER_LOWER_LIP_VERTEX,
     INNER_MOUTH_CORNER_VERTICES,

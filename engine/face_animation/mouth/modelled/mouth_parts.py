@@ -15,7 +15,7 @@ from engine.body.face.face_points import PICTURE_TO_TEMPLATE
 from engine.body.subdivision import Subdivision, catmull_clark
 from engine.body.template import Template, load_template
 from engine.face_animation.mouth.modelled.resting_mouth import RestingMouth
-from engine.geometry.surface import triangulate
+from engine.geometry.mesh.surface import triangulate
 from engine.perception.landmarks import LIPS_INNER
 from engine.performances.modelling.teeth import LOWER_CROWNS, UPPER_CROWNS, Arch, build_dentition
 

@@ -16,9 +16,9 @@ from engine.avatar.registration.face.face_parts import (
 )
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.models import HumanModels
-from engine.geometry.closest_points import closest_points
-from engine.geometry.surface import triangulate
-from engine.geometry.winding_number import winding_numbers
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.mesh.winding_number import winding_numbers
 from engine.render.rasteriser import depth_map
 
 

@@ -7,7 +7,7 @@ from known_person import KnownPerson
 
 from engine.avatar.registration.face.inner_mouth import inner_skin
 from engine.avatar.registration.models import HumanModels
-from engine.geometry.winding_number import winding_numbers
+from engine.geometry.mesh.winding_number import winding_numbers
 
 
 def test_what_is_not_seen_goes_with_what_is(models: HumanModels, person: KnownPerson) -> None:

@@ -16,7 +16,7 @@ from engine.avatar.registration.feet.standing_feet import with_feet
 from engine.avatar.registration.hand_pose import CoarseBody, with_hands
 from engine.avatar.registration.models import HumanModels
 from engine.geometry.camera import Camera
-from engine.geometry.point_cloud import PointCloud
+from engine.geometry.point_clouds.point_cloud import PointCloud
 from engine.render.rasteriser import rasterise
 
 NOBODY = SpatialLandmarks({})

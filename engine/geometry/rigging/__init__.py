@@ -1,0 +1,1 @@
+"""Joints, what hangs on them, and what moves vertices."""

@@ -1,0 +1,1 @@
+"""A surface laid flat, and its pieces packed into a texture."""
