@@ -13,9 +13,9 @@ from engine.avatar.avatar import Avatar, assemble
 from engine.avatar.capture.cameras import ClipCameras
 from engine.avatar.capture.chosen_frames import ChosenFrames, choose_frames
 from engine.avatar.capture.coverage import coverage
-from engine.avatar.early_looks import write_fitted_shape, write_small_texture
 from engine.avatar.frame_sheet import write_frame_sheets
 from engine.avatar.further_clips import onto_body, with_further
+from engine.avatar.interim_previews import write_fitted_shape, write_small_texture
 from engine.avatar.landmarks.given import GivenLandmark, given_landmarks
 from engine.avatar.options import AvatarOptions
 from engine.avatar.registration.fitted_template import FittedTemplate

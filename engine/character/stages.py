@@ -21,7 +21,7 @@ from engine.character.figure.silhouette import OPAQUE_ALPHA, Silhouette
 from engine.character.figure.strokes import read_labels, relabel
 from engine.character.fit.hands import turn_hands
 from engine.character.fit.head import turn_head
-from engine.character.fit.second_look import look_again
+from engine.character.fit.repeated_detection import detect_again
 from engine.character.fit.template_fit import FittedBody, fit_best, load_human, pose_template
 from engine.character.hybrid.behind_limbs import mirrored_behind
 from engine.character.hybrid.headed import HeadedRelief, make_headed_relief
@@ -44,8 +44,8 @@ from engine.character.rig.turned_over import without_backs_in_view
 from engine.character.shell.colours.paint import paint_shell
 from engine.character.shell.shell import Shell
 from engine.character.surface.face_warp import seen_face
+from engine.character.surface.front_and_back import ClosedMesh, stitch_front_and_back
 from engine.character.surface.layers import build_layers
-from engine.character.surface.sheets import ClosedMesh, close
 from engine.character.texture.limb_texture import LimbSurfaces
 from engine.character.texture.rings import limb_heights
 from engine.character.texture.round_sides import with_round_sides
@@ -175,7 +175,7 @@ def hand_labels(
 
 def fit_template(figure: Figure, silhouette: Silhouette) -> FittedBody:
     """The template fitted to figure and silhouette, its head to the face (sections 3 and 5), its hands to the hands."""
-    looks = look_again(figure, silhouette.alpha)
+    looks = detect_again(figure, silhouette.alpha)
     fitted = turn_head(fit_best(looks, silhouette.alpha > 0.5), figure)
     return turn_hands(fitted, without_hidden_hand(figure, fitted.crossed))
 
@@ -186,7 +186,7 @@ def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, label
     human = load_human()
     posed = pose_template(fitted, silhouette.camera(fitted.picture_camera()), human)
     face = seen_face(figure, silhouette, posed, human.face, labels)
-    return close(
+    return stitch_front_and_back(
         build_layers(labels, posed, human.rig, face), silhouette.soft, limb_borders(figure, silhouette, labels)
     )
 

@@ -17,8 +17,8 @@ from engine.perception.expression.features import frontalise
 from engine.perception.identity.backend import descriptor_distances, descriptor_name, face_descriptor
 from engine.perception.identity.descriptor import IdentityDistances
 from engine.perception.solutions import kept_networks
+from engine.persona.collection.appearance_clusters import appearance_clusters
 from engine.persona.collection.coverage import rare, shown_expressions, shown_sides
-from engine.persona.collection.looks import looks
 from engine.persona.collection.person import Belonging, belonging
 from engine.persona.collection.photo_face import PhotoFace, faces_of
 from engine.persona.collection.photos import Photos, read_photos
@@ -134,7 +134,9 @@ def sort_faces(found: PhotoFaces, distances: IdentityDistances, choice: Choice, 
     whose = belonging(found.faces, distances, example)
     reasons = list(reasons_against(found.faces, whose, choice))
     kept = [number for number, reason in enumerate(reasons) if reason is None]
-    told = dict(zip(kept, looks([found.faces[number].descriptor for number in kept], distances.same), strict=True))
+    told = dict(
+        zip(kept, appearance_clusters([found.faces[number].descriptor for number in kept], distances.same), strict=True)
+    )
     if choice.look is not None:
         if choice.look not in told.values():
             shown = len(set(told.values()))

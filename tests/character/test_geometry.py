@@ -23,8 +23,8 @@ from engine.character.parts.labels import (
 )
 from engine.character.parts.occlusion import completed
 from engine.character.rig.rigging import MIN_VOLUME_RATIO, TARGET_VOLUME_RATIO, at_rest, bind
+from engine.character.surface.front_and_back import Layer, stitch_front_and_back
 from engine.character.surface.part_surface import Surface, part_surface, warp_part
-from engine.character.surface.sheets import Layer, close
 from engine.geometry.camera import Camera
 from engine.geometry.mesh.welding import is_closed
 from engine.geometry.rigging.skinning import skin
@@ -113,7 +113,7 @@ def layer(mask: np.ndarray, depth: float = 8.0) -> Layer:
 def test_sheets_are_closed_and_end_at_the_masks_edge(count: int) -> None:
     soft = np.clip(20.3 - np.hypot(*(np.mgrid[:64, :64] - 31.5)) + 0.5, 0, 1).astype(np.float32)
     layers = [layer(soft > 0.5), layer(disk(64, 9, 40, 32))][:count]
-    mesh = close(layers, soft)
+    mesh = stitch_front_and_back(layers, soft)
     _, point = np.unique(np.round(mesh.vertices, 6), axis=0, return_inverse=True)
     assert is_closed(point.ravel()[mesh.triangles])
     body = mesh.vertices[mesh.layer == 0]
@@ -129,7 +129,7 @@ def test_sheets_are_closed_and_end_at_the_masks_edge(count: int) -> None:
 def test_a_waist_of_one_pixel_is_no_pinch() -> None:
     mask = disk(40, 8, 12, 20) | disk(40, 8, 28, 20)
     mask[20, 19:22] = True
-    mesh = close([layer(mask)], mask.astype(np.float32))
+    mesh = stitch_front_and_back([layer(mask)], mask.astype(np.float32))
     _, point = np.unique(np.round(mesh.vertices, 6), axis=0, return_inverse=True)
     assert is_closed(point.ravel()[mesh.triangles])
 
@@ -146,7 +146,7 @@ def test_posed_as_pictured_the_vertices_are_where_they_were(held: tuple[str, ...
         0.0,
         np.zeros(1),
     )
-    mesh = close([layer(disk(64, 20, 32, 32))], disk(64, 20, 32, 32).astype(np.float32))
+    mesh = stitch_front_and_back([layer(disk(64, 20, 32, 32))], disk(64, 20, 32, 32).astype(np.float32))
     weights = random.uniform(0, 1, (len(mesh.vertices), 4)).astype(np.float32)
     weights = -np.sort(-weights, 1) / weights.sum(1, keepdims=True)
     bones = random.integers(0, 22, (len(mesh.vertices), 4)).astype(np.uint8)

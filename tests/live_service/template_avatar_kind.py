@@ -21,8 +21,8 @@ from engine.avatar.acting import Scene
 from engine.avatar.animating import animate_avatar
 from engine.avatar.avatar import assemble
 from engine.avatar.capture.chosen_frames import choose_frames
-from engine.avatar.early_looks import write_fitted_shape, write_small_texture
 from engine.avatar.frame_sheet import write_frame_sheets
+from engine.avatar.interim_previews import write_fitted_shape, write_small_texture
 from engine.avatar.turntable import turntable
 from engine.avatar.worn import no_attachments
 from engine.avatar.writing import WrittenCameras, write_avatar, write_cameras

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from engine.avatar.landmarks.in_frames import FrameLandmarks
+from engine.avatar.landmarks.landmark_views import FRONT_VIEW_LANDMARKS, chosen_views, most_frontal
 from engine.avatar.landmarks.spatial import FACE_LANDMARKS, SpatialLandmarks
-from engine.avatar.landmarks.view_choice import FRONT_VIEW_LANDMARKS, chosen_views, most_frontal
 from engine.geometry.camera import Camera
 
 SIGHT_RADIUS_METRES = 0.005

@@ -17,8 +17,8 @@ from engine.character.figure.silhouette import OPAQUE_ALPHA, Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human
 from engine.character.parts.label_map import Labels
 from engine.character.rig.rigging import Character, at_rest
+from engine.character.surface.front_and_back import ClosedMesh, Layer, stitch_front_and_back
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheets import ClosedMesh, Layer, close
 from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.geometry.rigging.skeleton import Skeleton
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
@@ -74,7 +74,7 @@ def close_drawing(figure: Figure, silhouette: Silhouette, labels: Labels) -> Clo
     half = np.where(mask, thickness(mask, HALF_THICKNESS_SHARE * tall, ROUNDED_EDGE_SHARE * tall), np.nan).astype(
         np.float32
     )
-    return close([Layer(mask, Surface(half, weights), Surface(-half, weights))], silhouette.soft)
+    return stitch_front_and_back([Layer(mask, Surface(half, weights), Surface(-half, weights))], silhouette.soft)
 
 
 def bind_drawing(figure: Figure, silhouette: Silhouette, fitted: FittedBody, mesh: ClosedMesh) -> Character:

@@ -157,7 +157,7 @@ def fit_figure(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
 
 
 def fit_best(figures: Sequence[Figure], mask: NDArray[np.bool_]) -> FittedBody:
-    """Fit to each of several looks at one person (`engine.character.fit.second_look`); the fit that agrees best with its
+    """Fit to each of several looks at one person (`engine.character.fit.repeated_detection`); the fit that agrees best with its
     landmarks and covers the mask (H, W) best."""
     fits = [fit_figure(figure, mask) for figure in figures]
     if len(fits) == 1:

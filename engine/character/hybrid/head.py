@@ -21,7 +21,7 @@ from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import HEAD_LABEL, TRUNK_LABEL
 from engine.character.shell.template_mesh import TemplateMesh
 from engine.character.surface.depth_order import INSET_PIXELS
-from engine.character.surface.sheets import ClosedMesh
+from engine.character.surface.front_and_back import ClosedMesh
 from engine.geometry.mesh.adjacency import neighbours
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import largest_piece

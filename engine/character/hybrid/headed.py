@@ -19,7 +19,7 @@ from engine.character.hybrid.limbs import Limbs
 from engine.character.parts.label_map import Labels
 from engine.character.shell.shell import Shell, as_fitted, shaped_head, shell_of
 from engine.character.shell.template_mesh import template_mesh
-from engine.character.surface.sheets import ClosedMesh
+from engine.character.surface.front_and_back import ClosedMesh
 
 
 @dataclass(frozen=True)

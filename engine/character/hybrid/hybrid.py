@@ -24,7 +24,7 @@ from engine.character.shell.props import props_of
 from engine.character.shell.shell import Shell, shaped, shell_of
 from engine.character.shell.template_mesh import template_mesh
 from engine.character.surface.face_warp import seen_face
-from engine.character.surface.sheets import ClosedMesh, close
+from engine.character.surface.front_and_back import ClosedMesh, stitch_front_and_back
 from engine.render.rasteriser import rasterise
 
 
@@ -70,7 +70,7 @@ def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
     within = np.asarray(((places > -1) & (places < [width, height])).all(1), np.bool_)
     limbs = limbs_of(mesh, shape.pictured, own, fitted, within)
     pictured, layer = joined_in_depth(mesh, shape.pictured, limbs, layer, own)
-    trunk = close([layer], silhouette.soft)
+    trunk = stitch_front_and_back([layer], silhouette.soft)
     if with_its_head:
         limbs = with_head(limbs, mesh, fitted)
         pictured, trunk = joined_at_the_neck(mesh, pictured, limbs, trunk, seen)

@@ -20,10 +20,10 @@ from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
 from engine.character.shell.template_mesh import TemplateMesh
 from engine.character.surface.depth_order import INSET_PIXELS, MAX_FORWARD_PIXELS, body_behind, limb_before
+from engine.character.surface.front_and_back import Layer
 from engine.character.surface.legs_beneath import LEG_UNDER_CLOTH_SHARE
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheet_border import open_edges
-from engine.character.surface.sheets import Layer
+from engine.character.surface.rim import open_edges
 from engine.geometry.mesh.adjacency import neighbours
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import rows_apart

@@ -20,8 +20,8 @@ from engine.character.parts.occlusion import completed
 from engine.character.parts.regions import Region
 from engine.character.surface.drape import drape
 from engine.character.surface.face_warp import Face
+from engine.character.surface.front_and_back import Layer
 from engine.character.surface.layers import layer_of
-from engine.character.surface.sheets import Layer
 from engine.character.surface.skirt_weights import moved_by_both
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import largest_piece

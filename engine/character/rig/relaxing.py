@@ -15,7 +15,7 @@ from scipy.sparse.linalg import splu
 
 from engine.character.rig.measures import pose
 from engine.character.rig.rigging import Character, at_rest
-from engine.character.surface.sheets import strongest
+from engine.character.surface.front_and_back import strongest
 from engine.compiled import njit
 from engine.geometry.mesh.welding import weld
 from engine.geometry.rigging.skinning import skin

@@ -12,7 +12,7 @@ from engine.body.body_space import BodySpace
 from engine.character.figure.picture_space import PictureCamera
 from engine.character.fit.rest_skeleton import PicturedJoints, pictured_joints
 from engine.character.fit.template_fit import FittedBody
-from engine.character.surface.sheets import ClosedMesh
+from engine.character.surface.front_and_back import ClosedMesh
 from engine.character.surface.soles import with_soles
 from engine.geometry.mesh.welding import same_rows
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh

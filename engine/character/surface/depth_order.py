@@ -12,8 +12,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.character.surface.front_and_back import MIN_HALF_DEPTH_PIXELS, Layer
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheets import MIN_HALF_DEPTH_PIXELS, Layer
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.imaging.masks.mask_pieces import largest_piece
 

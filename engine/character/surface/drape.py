@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from engine.character.parts.free_cloth import FreeCloth
+from engine.character.surface.front_and_back import Layer
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheets import Layer
 from engine.imaging.masks.mask_distance import dilate_mask
 
 MAX_DEPTH_SLOPE = 0.7

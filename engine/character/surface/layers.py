@@ -32,10 +32,10 @@ from engine.character.surface.depth_order import (
 )
 from engine.character.surface.drape import drape
 from engine.character.surface.face_warp import Face, with_face
+from engine.character.surface.front_and_back import Layer
 from engine.character.surface.legs import cut_along, each_by_its_own
 from engine.character.surface.legs_beneath import going_with, legs_beneath
 from engine.character.surface.part_surface import Surface, Warp, part_surface, warp_part
-from engine.character.surface.sheets import Layer
 from engine.character.surface.skirt_weights import moved_by_both
 from engine.character.surface.solid_limb import SolidLimb, solid_arms, solid_limb
 from engine.imaging.masks.mask_pieces import largest_piece

@@ -13,8 +13,8 @@ from scipy.ndimage import distance_transform_edt
 
 from engine.body.parts import BODY_PARTS
 from engine.body.rig import Rig
+from engine.character.surface.front_and_back import Layer
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheets import Layer
 from engine.imaging.masks.mask_distance import dilate_mask
 
 MIN_OWN_LEG_WEIGHT = 0.5

@@ -16,8 +16,8 @@ from engine.character.fit.posed_template import PosedTemplate
 from engine.character.parts.label_map import Labels
 from engine.character.parts.overlapping_legs import hidden_leg
 from engine.character.parts.regions import LimbRegion
+from engine.character.surface.front_and_back import Layer
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheets import Layer
 from engine.imaging.masks.mask_pieces import largest_piece, rows_apart
 
 LEG_UNDER_CLOTH_SHARE = 0.06

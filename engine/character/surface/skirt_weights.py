@@ -13,8 +13,8 @@ from scipy.ndimage import gaussian_filter1d
 
 from engine.body.rig import MIN_SKIN_WEIGHT, Rig
 from engine.character.parts.free_cloth import FADE_LENGTH_FACTOR, FreeCloth
+from engine.character.surface.front_and_back import Layer
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheets import Layer
 
 LEG_BLEND_SHARE = 0.8
 """Share of the width over which cloth goes over from one leg to the other: with all of it, it stretches least; with less,

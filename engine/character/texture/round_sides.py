@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
-from engine.character.surface.sheets import ClosedMesh
+from engine.character.surface.front_and_back import ClosedMesh
 from engine.imaging.masks.mask_distance import dilate_mask
 
 MIN_ROUND_HALF_WIDTH_PIXELS = 4.0

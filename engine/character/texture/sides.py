@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 from scipy.spatial import cKDTree
 
-from engine.character.surface.sheets import ClosedMesh
+from engine.character.surface.front_and_back import ClosedMesh
 
 MAX_FOLD_PIXELS = 8.0
 """Pixels inward at which a fold ends, at most."""

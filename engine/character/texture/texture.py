@@ -20,7 +20,7 @@ from engine.character.figure.silhouette import OPAQUE_ALPHA
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import LEG_LABELS, complete_labels
 from engine.character.parts.limb_edges import soft_limbs
-from engine.character.surface.sheets import ClosedMesh
+from engine.character.surface.front_and_back import ClosedMesh
 from engine.character.texture.head_texture import back_of_the_head
 from engine.character.texture.limb_texture import LimbSurfaces, behind_another, filled, own_of_limbs, paint_limbs
 from engine.character.texture.rings import rings

@@ -12,8 +12,8 @@ from engine.face_animation.skin_colour import is_grey
 from engine.perception.landmarks import FACE_OVAL
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.collection.photo_face import PhotoFace
-from engine.persona.composite.portrait_choice import portrait_photo
-from engine.persona.mouth.teeth_choice import teeth_photo
+from engine.persona.composite.portrait_selection import portrait_photo
+from engine.persona.mouth.teeth_selection import teeth_photo
 from engine.persona.persona import Persona
 
 PORTRAIT_REACH = ((2.2, 1.8), (2.2, 2.6))

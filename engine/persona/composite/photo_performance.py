@@ -20,7 +20,7 @@ from engine.perception.face_track.track import FaceTrack
 from engine.persona.composite.acting_mouth import acting_mouth
 from engine.persona.composite.framing import framed
 from engine.persona.composite.photo_film import act, photo_frames
-from engine.persona.composite.portrait_choice import WHOLE_HEAD_SHARE, head_share
+from engine.persona.composite.portrait_selection import WHOLE_HEAD_SHARE, head_share
 from engine.persona.composite.retouching import retouching_of
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona

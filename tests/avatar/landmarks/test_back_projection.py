@@ -7,8 +7,8 @@ import pytest
 
 from engine.avatar.landmarks.back_projection import MAX_LANDMARK_DISTANCE_METRES, back_projected, completed, onto_cloud
 from engine.avatar.landmarks.in_frames import FrameLandmarks
+from engine.avatar.landmarks.landmark_views import chosen_views, frontality, most_frontal
 from engine.avatar.landmarks.spatial import SpatialLandmarks
-from engine.avatar.landmarks.view_choice import chosen_views, frontality, most_frontal
 from engine.geometry.camera import Camera
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import fiducials

@@ -13,8 +13,8 @@ from engine.character.figure.figure import Figure
 from engine.character.fit.head import turn_head
 from engine.character.fit.template_fit import FittedBody, load_human
 from engine.character.surface.face_warp import Face, with_face
+from engine.character.surface.front_and_back import Layer, stitch_front_and_back
 from engine.character.surface.part_surface import Surface, warp_part
-from engine.character.surface.sheets import Layer, close
 from engine.geometry.camera import Camera
 from engine.geometry.mesh.welding import is_closed
 from engine.perception.head_pose import mesh_from_fiducials
@@ -89,7 +89,9 @@ def test_legs_that_touch_are_two() -> None:
     cut[20:, 17:20], cut[20:, 20:23] = 1, 2
     cut[~mask] = 0
     flat = [np.where(mask, depth, np.nan).astype(np.float32) for depth in (4.0, -4.0)]
-    mesh = close([Layer(mask, Surface(flat[0], weights), Surface(flat[1], weights), cut)], mask.astype(np.float32))
+    mesh = stitch_front_and_back(
+        [Layer(mask, Surface(flat[0], weights), Surface(flat[1], weights), cut)], mask.astype(np.float32)
+    )
     _, point = np.unique(np.round(mesh.vertices, 6), axis=0, return_inverse=True)
     assert is_closed(point.ravel()[mesh.triangles])
     moved_by = mesh.bones[:, 0][mesh.triangles]

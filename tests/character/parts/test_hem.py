@@ -16,10 +16,10 @@ from engine.character.parts.hem import legs_below, with_cloth
 from engine.character.parts.label_map import LabelHints, Labels, label_parts
 from engine.character.parts.unseen_limbs import not_seen
 from engine.character.surface.drape import drape
+from engine.character.surface.front_and_back import Layer, stitch_front_and_back
 from engine.character.surface.layers import build_layers
 from engine.character.surface.legs_beneath import leg_under_cloth
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheets import Layer, close
 from engine.geometry.mesh.welding import is_closed
 from tests.character.parts.test_overlapping_legs import AT_THE_SHINS, SIZE, standing
 
@@ -124,7 +124,7 @@ def test_legs_go_on_under_a_skirt(dressed: tuple[PosedTemplate, Labels, np.ndarr
 def test_a_hem_is_open_from_beneath(dressed: tuple[PosedTemplate, Labels, np.ndarray, int]) -> None:
     template, labels, mask, hem = dressed
     layers = build_layers(labels.layered, template, load_human().rig)
-    mesh = close(layers, mask.astype(np.float32))
+    mesh = stitch_front_and_back(layers, mask.astype(np.float32))
     _, point = np.unique(np.round(mesh.vertices, 6), axis=0, return_inverse=True)
     assert is_closed(point.ravel()[mesh.triangles])
     x, y = SIZE[1] // 2, hem - 1

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from engine.character.parts.limb_edges import border, soft_limbs
+from engine.character.surface.front_and_back import Layer, stitch_front_and_back
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheets import Layer, close
 
 FINER, EDGE = 4, 50.875
 
@@ -38,7 +38,7 @@ def test_the_border_of_a_limb_s_surface_goes_there_and_the_body_s_does_not() -> 
     sides = Surface(flat + 2, weights), Surface(flat - 2, weights)
     whole = np.ones(labels.shape, np.float32)
     for limb, at in ((3, EDGE), (-1, 51.0)):
-        mesh = close([Layer(labels, *sides, limb=limb)], whole, {3: soft})
+        mesh = stitch_front_and_back([Layer(labels, *sides, limb=limb)], whole, {3: soft})
         edge = mesh.rim & (mesh.vertices[:, 0] > 40) & (np.abs(mesh.vertices[:, 1] - 200) < 80)
         np.testing.assert_allclose(mesh.vertices[edge, 0], at, atol=0.1)
 

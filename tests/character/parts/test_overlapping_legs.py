@@ -17,8 +17,8 @@ from engine.character.fit.template_fit import FittedBody, load_human, pose_templ
 from engine.character.fit.template_maps import side_maps
 from engine.character.parts.label_map import label_parts
 from engine.character.parts.overlapping_legs import as_the_template, leg_before
+from engine.character.surface.front_and_back import stitch_front_and_back
 from engine.character.surface.layers import build_layers
-from engine.character.surface.sheets import close
 from engine.geometry.camera import Camera
 from engine.geometry.mesh.welding import is_closed
 from engine.imaging.masks.mask_distance import distance_to
@@ -94,7 +94,7 @@ def test_the_leg_behind_goes_on_where_it_is_hidden(
     assert (body.front.depth > body.back.depth)[shared].all(), "it has a front and a back"
     assert np.mean((leg.front.depth > body.front.depth)[shared]) > 0.99, "behind the other"
 
-    mesh = close(layers, mask.astype(np.float32))
+    mesh = stitch_front_and_back(layers, mask.astype(np.float32))
     _, point = np.unique(np.round(mesh.vertices, 6), axis=0, return_inverse=True)
     assert is_closed(point.ravel()[mesh.triangles])
     y, x = np.nonzero(hidden)

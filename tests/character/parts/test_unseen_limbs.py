@@ -15,8 +15,8 @@ from engine.character.fit.template_fit import load_human, pose_template
 from engine.character.parts.label_map import LabelHints, Labels, label_parts
 from engine.character.parts.regions import find_regions
 from engine.character.parts.unseen_limbs import unseen_limbs, with_limbs_hidden
+from engine.character.surface.front_and_back import Layer, stitch_front_and_back
 from engine.character.surface.layers import build_layers
-from engine.character.surface.sheets import Layer, close
 from engine.character.surface.solid_limb import places_on_the_picture
 from engine.geometry.mesh.welding import is_closed
 from tests.character.parts.test_overlapping_legs import SIZE, fitted_as, standing
@@ -63,7 +63,7 @@ def test_an_arm_behind_the_trunk_is_made_apart_from_it(
     assert not (body.triangles & triangles_of(template, LEFT)).any()
     arm = next(layer for layer in layers if layer.limb == LEFT)
     assert arm.solid is not None
-    mesh = close(layers, clothed(template).astype(np.float32))
+    mesh = stitch_front_and_back(layers, clothed(template).astype(np.float32))
     _, point = np.unique(np.round(mesh.vertices, 6), axis=0, return_inverse=True)
     assert is_closed(point.ravel()[mesh.triangles])
     long = np.ptp(arm.solid.vertices[:, 1]) / template.pixels_per_metre
@@ -76,7 +76,7 @@ def test_nothing_of_it_is_seen(labels: Labels, template: PosedTemplate) -> None:
     arm = vertex_parts(rig) == LEFT
     wrong = replace(template, vertices=template.vertices + np.outer(arm, [0, 0, 60]))
     layers = build_layers(labels, wrong, rig)
-    shown = close(layers, mask.astype(np.float32)).seen_layer(SIZE)
+    shown = stitch_front_and_back(layers, mask.astype(np.float32)).seen_layer(SIZE)
     number = next(k for k, layer in enumerate(layers) if layer.limb == LEFT)
     assert not (shown == number).any()
     assert (shown >= 0).sum() > 0.98 * mask.sum()
@@ -154,7 +154,7 @@ def test_a_leg_that_nobody_sees_stands_beside_the_other() -> None:
     labels = label_parts(np.zeros((*SIZE, 3), np.uint8), mask, template, rig, LabelHints(given))
     assert {one.limb for one in unseen_limbs(labels, template, rig)} == {LEFT, left}
     layers = build_layers(labels, template, rig)
-    shown = close(layers, mask.astype(np.float32)).seen_layer(SIZE)
+    shown = stitch_front_and_back(layers, mask.astype(np.float32)).seen_layer(SIZE)
     leg = next(layer for layer in layers if layer.limb == left).solid
     assert leg is not None
     assert [layers[k].limb for k in np.unique(shown[shown >= 0])] == [-1, RIGHT]

@@ -17,8 +17,8 @@ from engine.character.surface.depth_order import (
     limb_behind,
     overlap_beneath,
 )
+from engine.character.surface.front_and_back import Layer
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheets import Layer
 
 SHAPE = (60, 120)
 

@@ -13,8 +13,8 @@ from engine.body.parts import BODY_PARTS
 from engine.character.fit.template_fit import load_human
 from engine.character.parts.free_cloth import CLOTH_DEPTH_RATIO, FreeCloth, free_cloth
 from engine.character.surface.drape import drape
+from engine.character.surface.front_and_back import Layer
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheets import Layer
 from engine.character.surface.skirt_weights import MIN_LEG_BLEND_SHARE, moved_by_both
 from engine.character.surface.soles import with_soles
 

@@ -11,8 +11,8 @@ from engine.character.figure.figure import Choice, find_figure
 from engine.character.figure.silhouette import cut_out
 from engine.character.fit.template_fit import load_human, pose_template
 from engine.character.stages import fit_template, label
+from engine.character.surface.front_and_back import Layer
 from engine.character.surface.layers import build_layers
-from engine.character.surface.sheets import Layer
 from engine.media.limits import Limits
 
 

@@ -13,9 +13,9 @@ from engine.character.fit.posed_template import PosedTemplate
 from engine.character.fit.template_fit import load_human, pose_template
 from engine.character.parts.crossed_labels import Behind
 from engine.character.parts.label_map import Labels
+from engine.character.surface.front_and_back import Layer, stitch_front_and_back
 from engine.character.surface.layers import arm_behind_the_other
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheets import Layer, close
 from engine.character.surface.solid_limb import SolidLimb, places_on_the_picture, solid_arms, solid_limb
 from engine.geometry.mesh.welding import is_closed
 from tests.character.fit.test_head_and_legs import standing
@@ -67,7 +67,9 @@ def test_it_has_the_outline_of_the_arm_in_the_picture(limb: SolidLimb, sleeve: N
 
 def test_it_is_closed_and_keeps_the_length_of_the_forearm(limb: SolidLimb, template: PosedTemplate) -> None:
     assert is_closed(limb.triangles)
-    mesh = close([body(), Layer(np.isfinite(limb.front), *nothing(limb), solid=limb)], np.ones(SHAPE, np.float32))
+    mesh = stitch_front_and_back(
+        [body(), Layer(np.isfinite(limb.front), *nothing(limb), solid=limb)], np.ones(SHAPE, np.float32)
+    )
     before = len(mesh.vertices) - len(limb.vertices)
     np.testing.assert_array_equal(mesh.triangles[-len(limb.triangles) :] - before, limb.triangles)
     long = np.ptp(limb.vertices[~limb.upper, 2]) / template.pixels_per_metre

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from engine.character.figure.face_region import face_turn
+from engine.character.surface.front_and_back import ClosedMesh, Layer, stitch_front_and_back
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheets import ClosedMesh, Layer, close
 from engine.character.texture.head_area import measure_head
 from engine.character.texture.head_texture import back_of_the_head, find_hair, nape_height
 from engine.character.texture.round_sides import with_round_sides
@@ -110,7 +110,7 @@ def ball(radius: int = 26) -> tuple[ClosedMesh, np.ndarray]:
     deep = np.sqrt(np.maximum(deep, 0))
     weights = np.ones((size, size, 1), np.float32)
     sides = [Surface(np.where(mask, sign * deep, np.nan).astype(np.float32), weights) for sign in (1, -1)]
-    return close([Layer(mask, sides[0], sides[1])], mask.astype(np.float32)), mask
+    return stitch_front_and_back([Layer(mask, sides[0], sides[1])], mask.astype(np.float32)), mask
 
 
 def test_the_back_s_colours_begin_within_the_outline_and_lie_at_the_pace_of_the_surface() -> None:

@@ -8,8 +8,8 @@ import numpy as np
 from engine.body.parts import BODY_PARTS
 from engine.character.figure.face_region import face_within
 from engine.character.parts.label_map import Labels
+from engine.character.surface.front_and_back import Layer, stitch_front_and_back
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheets import Layer, close
 from engine.character.texture.limb_texture import LimbSurfaces, of_the_limbs, paint_limbs
 from engine.character.texture.sides import FOLD_SHARE, MAX_FOLD_PIXELS, places_on_the_picture
 from engine.character.texture.texture import PictureOnGrid, joined_at_the_outline, paint_tiles
@@ -162,7 +162,7 @@ def cylinder(radius: int = 20) -> tuple[Layer, np.ndarray]:
 
 def test_the_side_of_a_cylinder_takes_colours_nearly_at_the_pace_of_its_surface() -> None:
     layer, mask = cylinder()
-    mesh = close([layer], mask.astype(np.float32))
+    mesh = stitch_front_and_back([layer], mask.astype(np.float32))
     places = places_on_the_picture(mesh, np.zeros(mask.shape, np.bool_), 0)
     np.testing.assert_array_equal(places[~mesh.rim], mesh.vertices[~mesh.rim, :2])
     middle = mesh.rim & (np.abs(mesh.vertices[:, 1] - 31.5) < 10)
@@ -180,7 +180,7 @@ def test_the_side_of_a_cylinder_takes_colours_nearly_at_the_pace_of_its_surface(
 
 def test_front_and_back_take_one_place_on_the_border_and_none_that_is_barred() -> None:
     layer, mask = cylinder()
-    mesh = close([layer], mask.astype(np.float32))
+    mesh = stitch_front_and_back([layer], mask.astype(np.float32))
     places = places_on_the_picture(mesh, np.zeros(mask.shape, np.bool_), 0)
     at = {}
     for vertex in np.flatnonzero(mesh.rim):

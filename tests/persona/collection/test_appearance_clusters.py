@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.persona.collection.looks import looks
+from engine.persona.collection.appearance_clusters import appearance_clusters
 
 SAME = 0.6
 
@@ -18,13 +18,13 @@ def descriptors(mean: float, count: int, seed: int) -> np.ndarray:
 
 def test_two_decades_are_two_looks_the_one_with_more_photos_first() -> None:
     young, old = descriptors(0, 25, 1), descriptors(0.4, 60, 2)
-    assert looks([*young, *old], SAME) == (1,) * 25 + (0,) * 60
+    assert appearance_clusters([*young, *old], SAME) == (1,) * 25 + (0,) * 60
 
 
 def test_what_differs_little_is_one_look() -> None:
-    assert set(looks([*descriptors(0, 40, 1), *descriptors(0.1, 40, 2)], SAME)) == {0}
+    assert set(appearance_clusters([*descriptors(0, 40, 1), *descriptors(0.1, 40, 2)], SAME)) == {0}
 
 
 def test_a_look_of_few_photos_is_none() -> None:
-    assert set(looks([*descriptors(0, 60, 1), *descriptors(0.4, 10, 2)], SAME)) == {0}
-    assert looks([], SAME) == ()
+    assert set(appearance_clusters([*descriptors(0, 60, 1), *descriptors(0.4, 10, 2)], SAME)) == {0}
+    assert appearance_clusters([], SAME) == ()

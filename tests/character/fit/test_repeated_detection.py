@@ -11,11 +11,11 @@ import pytest
 from engine.body.fitting.observation import DIRECTED_LIMBS
 from engine.character.figure.figure import Choice, Figure, find_figure
 from engine.character.figure.silhouette import Silhouette, cut_out
-from engine.character.fit.second_look import (
+from engine.character.fit.repeated_detection import (
     COMPARED_LANDMARKS,
     MAX_JOINT_DISAGREEMENT_SHARE,
     MIRRORED_LANDMARKS,
-    look_again,
+    detect_again,
 )
 from engine.character.fit.template_fit import FOREARM_DEPTH_BIAS, fit_best, forearms_back
 from engine.character.sample import sample_picture
@@ -45,7 +45,7 @@ def test_a_mirror_seen_in_a_mirror_is_what_it_was() -> None:
 
 def test_one_who_is_seen_well_is_seen_alike_without_surroundings(seen: Seen) -> None:
     figure, silhouette = seen
-    looks = look_again(figure, silhouette.alpha)
+    looks = detect_again(figure, silhouette.alpha)
     assert len(looks) == 1
     away = np.linalg.norm(looks[0].points - figure.points, axis=1)[list(COMPARED_LANDMARKS)]
     assert (away < MAX_JOINT_DISAGREEMENT_SHARE * height(silhouette)).all()
@@ -55,7 +55,7 @@ def test_one_who_was_seen_wrongly_is_fitted_as_they_are_seen_cut_out(seen: Seen)
     """The first look has the arms at the hips' height and everything to the side."""
     figure, silhouette = seen
     wrong = figure.points + np.array([0.3 * height(silhouette), 0], np.float32)
-    looks = look_again(replace(figure, points=wrong), silhouette.alpha)
+    looks = detect_again(replace(figure, points=wrong), silhouette.alpha)
     assert len(looks) > 1
     fitted = fit_best(looks, silhouette.alpha > 0.5)
     hips = fitted.camera.project(fitted.fit.root_translation[None])[0, 0]
@@ -69,7 +69,7 @@ def test_joints_placed_by_hand_stay_in_every_look(seen: Seen) -> None:
     points, confidence = figure.points.copy(), figure.confidence.copy()
     points[at] += 0.2 * height(silhouette)
     confidence[at] = 1
-    for look in look_again(
+    for look in detect_again(
         replace(figure, points=points, confidence=confidence, placed=("LeftWrist",)), silhouette.alpha
     ):
         np.testing.assert_allclose(look.points[at], points[at])

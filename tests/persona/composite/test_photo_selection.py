@@ -10,8 +10,8 @@ import pytest
 
 from engine.perception.landmarks import eye_distance, mouth_opening
 from engine.persona.collection.photo_face import PhotoFace
-from engine.persona.composite.portrait_choice import head_share, portrait_photo
-from engine.persona.mouth.teeth_choice import teeth_photo
+from engine.persona.composite.portrait_selection import head_share, portrait_photo
+from engine.persona.mouth.teeth_selection import teeth_photo
 
 Collection = tuple[np.ndarray, list[np.ndarray]]
 NO_DESCRIPTOR, NO_CHIP = np.zeros(128, np.float32), np.zeros((8, 8), np.uint8)

@@ -10,7 +10,7 @@ import trimesh
 from PIL import Image
 from template_avatar import fitted_template
 
-from engine.avatar.early_looks import write_fitted_shape, write_small_texture
+from engine.avatar.interim_previews import write_fitted_shape, write_small_texture
 from engine.avatar.options import MAX_TEMPLATE_TRIANGLES
 from engine.body.template import load_template
 

@@ -1,4 +1,4 @@
-"""Looked at once more: the person alone, cut out of the picture, and the same in a mirror.
+"""A person detected again, cut out of the picture and mirrored: test-time augmentation.
 
 Perception looks at pictures with all that is in them, and takes a bench for a leg, or somebody in a helmet for somebody seen from
 behind. The mask takes its surroundings away. What looks that agree say is averaged: their errors are not the same. Those that do not
@@ -40,7 +40,7 @@ MIRRORED_LANDMARKS = np.array([
 """The landmarks of the other side."""
 
 
-def look_again(figure: Figure, alpha: NDArray[np.floating]) -> list[Figure]:
+def detect_again(figure: Figure, alpha: NDArray[np.floating]) -> list[Figure]:
     """The figure as it was seen, then as it is seen cut out by its mask, `alpha` (H, W): fewer where looks agree, and are one,
     or where nobody is seen. Joints that were placed by hand stay. Whom the picture's border cuts is not cut out: in grey they
     would end there, and legs would be found above."""
@@ -49,14 +49,14 @@ def look_again(figure: Figure, alpha: NDArray[np.floating]) -> list[Figure]:
         return [figure]
     looks = [figure]
     for mirror in (False, True):
-        body = _look(figure.rgb, alpha, mirror)
+        body = _detect(figure.rgb, alpha, mirror)
         if body is not None:
             looks.append(_as_seen(figure, body))
     rows = bounding_box(alpha > 0.5)[0]
     return _in_agreement(looks, float(rows.stop - rows.start))
 
 
-def _look(rgb: NDArray[np.uint8], alpha: NDArray[np.floating], mirror: bool) -> Body | None:
+def _detect(rgb: NDArray[np.uint8], alpha: NDArray[np.floating], mirror: bool) -> Body | None:
     """The body in what `alpha` (H, W) leaves of a picture, in the picture's pixels."""
     rows, columns = bounding_box(alpha > 0.5)
     shown = alpha[rows, columns, None]

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.sheet_border import joining_strip, open_edges, smoothed_border, to_the_edge
+from engine.character.surface.rim import joining_strip, open_edges, smoothed_border, to_the_edge
 from engine.character.surface.solid_limb import SolidLimb, places_on_the_picture
 from engine.geometry.rigging.skinning import MAX_VERTEX_INFLUENCES
 from engine.render.rasteriser import rasterise
@@ -80,7 +80,7 @@ class ClosedMesh:
         return np.where(raster.triangle >= 0, layer[raster.triangle], -1)
 
 
-def close(
+def stitch_front_and_back(
     layers: Sequence[Layer], soft: NDArray[np.float32], limbs: Mapping[int, NDArray[np.float32]] = MappingProxyType({})
 ) -> ClosedMesh:
     """Join front and back of each part into a mesh without open borders.

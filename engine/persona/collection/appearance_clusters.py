@@ -18,7 +18,7 @@ KMEANS_SEEDS = 8
 """Beginnings of k-means, of which the one is taken that leaves least."""
 
 
-def looks(descriptors: Sequence[NDArray[np.floating]], same: float) -> tuple[int, ...]:
+def appearance_clusters(descriptors: Sequence[NDArray[np.floating]], same: float) -> tuple[int, ...]:
     """For each of N descriptors of one person's faces which look it is of, numbered by how many have it, the most first: as many looks, four
     at most, as k-means finds apart, with `MIN_PHOTOS_OF_LOOK` photographs each; else all are of one. `same` is the distance of descriptors
     below which faces are one person's."""
