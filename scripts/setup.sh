@@ -69,7 +69,6 @@ check_node() {
 
 build_web() {
   local packages sources
-  check_node
   packages=$(fingerprint web/package.json web/package-lock.json web/.npmrc)
   if ! unchanged web/node_modules/.installed "$packages"; then
     say "Installing web packages"
@@ -123,9 +122,11 @@ install_s3_server() {
 locks=(requirements.lock)
 # What is installed for tests is kept up to date by whoever runs the demo next: one environment serves both.
 if [ "${1:-}" = --for-tests ] || [ -x .venv/bin/pytest ]; then locks+=(requirements-dev.lock); fi
+# Each computes on one core for most of its time: both together take as long as the longer one.
+check_node
+(build_web; build_player) & page=$!
 install_python "${locks[@]}"
 .venv/bin/python -m scripts.model_files
-build_web
-build_player
+wait "$page"
 if [ "${1:-}" = --for-tests ]; then install_test_tools; fi
 if [ "${1:-}" = --for-s3-trial ]; then install_s3_server; fi
