@@ -104,9 +104,30 @@ def s3() -> Iterator[S3Server]:
     server.remove()
 
 
+@pytest.fixture(scope="session")
+def newest_on_postgres(postgres: PostgresServer) -> str:
+    """The name of a database on the server that has the newest tables, to be copied."""
+    from newest_tables import make_tables
+
+    make_tables(url := postgres.new_database())
+    return url.rpartition("/")[2]
+
+
 @pytest.fixture(params=["sqlite", "postgresql"])
 def database_url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
-    """The address of a fresh database, of either kind."""
+    """The address of a database of either kind, with the newest tables and nothing in them."""
+    if request.param == "sqlite":
+        from newest_tables import write_newest_tables
+
+        write_newest_tables(tmp_path / "galatea.db")
+        return f"sqlite:///{tmp_path / 'galatea.db'}"
+    server: PostgresServer = request.getfixturevalue("postgres")
+    return server.new_database(like=request.getfixturevalue("newest_on_postgres"))
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def bare_database_url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
+    """The address of a database of either kind, without any tables."""
     if request.param == "sqlite":
         return f"sqlite:///{tmp_path / 'galatea.db'}"
     server: PostgresServer = request.getfixturevalue("postgres")

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from newest_tables import lay_out_data_folder
 
 from service.context import Context
 from service.settings import Settings
@@ -13,6 +14,7 @@ from service.settings import Settings
 
 @pytest.fixture
 def context(tmp_path: Path) -> Iterator[Context]:
+    lay_out_data_folder(tmp_path / "data")
     yield from _opened(Settings(data_dir=tmp_path / "data", kinds=[], disk_reserve_mb=0))
 
 

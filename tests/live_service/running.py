@@ -14,6 +14,7 @@ from typing import Any, Self
 
 import httpx
 import psutil
+from newest_tables import lay_out_data_folder
 
 HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
@@ -27,11 +28,12 @@ class Running:
         data_dir: Path,
         path: Path = HERE,
         root: Path = ROOT,
-        command: Sequence[str] = (sys.executable, "-m", "shell.main"),
+        command: Sequence[str] | None = None,
         cwd: Path | None = None,
         **settings: Any,
     ):
-        """`path` is where job kinds are imported from, `root` the program; `command` is started in the folder `cwd`."""
+        """`path` is where job kinds are imported from, `root` the program; `command` is started in the folder `cwd`. Without one the
+        service is this program's own, and finds its tables made."""
         self.data_dir = data_dir
         self.path = path
         self.root = root
@@ -39,6 +41,8 @@ class Running:
         self.cwd = cwd or data_dir.parent
         self.settings = settings
         self.output = data_dir.with_name(data_dir.name + ".log")
+        if command is None and "database_url" not in settings:
+            lay_out_data_folder(data_dir)
         self.start()
 
     def start(self) -> None:
@@ -51,19 +55,17 @@ class Running:
             **{f"GALATEA_{name.upper()}": str(value) for name, value in self.settings.items()},
         }
         with self.output.open("wb") as output:
-            self.process = subprocess.Popen(
-                [*self.command, "serve", "--port", "0"],
-                env=self.environment,
-                stdout=output,
-                stderr=output,
-                cwd=self.cwd,
-            )
+            self.process = self._begin(("serve", "--port", "0"), output.fileno())
         try:
             self.client = httpx.Client(base_url=self._address(), timeout=60)
             eventually(lambda: self.client.get("/readyz").status_code == 200, "the service is ready")
         except BaseException:
             self._end()
             raise
+
+    def _begin(self, arguments: Sequence[str], output: int) -> subprocess.Popen[bytes]:
+        command = self.command or (sys.executable, "-m", "shell.main")
+        return subprocess.Popen([*command, *arguments], env=self.environment, stdout=output, stderr=output, cwd=self.cwd)
 
     def _address(self) -> str:
         for _ in range(2400):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 import subprocess
+import sys
 from collections.abc import Iterator
 
 import psutil
@@ -126,7 +127,7 @@ def test_the_service_ends_with_all_its_processes_and_takes_up_its_jobs_again(
 
 
 def test_two_services_do_not_share_a_folder(running: Running) -> None:
-    command = [*running.command, "serve", "--port", "0"]
+    command = [sys.executable, "-m", "shell.main", "serve", "--port", "0"]
     done = subprocess.run(command, env=running.environment, cwd=running.cwd, capture_output=True, text=True)
     assert done.returncode == 2 and "Another `galatea serve` uses" in done.stderr
     assert running.client.get("/readyz").status_code == 200

@@ -22,7 +22,6 @@ from service.tables.jobs import Job, JobFile
 @pytest.fixture
 def database(database_url: str) -> Iterator[Database]:
     opened = Database(database_url)
-    opened.upgrade()
     yield opened
     opened.close()
 

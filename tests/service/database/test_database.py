@@ -19,7 +19,6 @@ from service.tables.kept import Driver
 @pytest.fixture
 def database(database_url: str) -> Iterator[Database]:
     opened = Database(database_url)
-    opened.upgrade()
     yield opened
     opened.close()
 
@@ -31,8 +30,8 @@ def file(created_at: datetime | None = None) -> File:
     )
 
 
-def test_many_may_bring_it_up_to_date_at_once(database_url: str) -> None:
-    databases = [Database(database_url) for _ in range(4)]
+def test_many_may_bring_it_up_to_date_at_once(bare_database_url: str) -> None:
+    databases = [Database(bare_database_url) for _ in range(4)]
     with ThreadPoolExecutor(4) as pool:
         list(pool.map(Database.upgrade, databases))
     with databases[0].read() as session:

@@ -14,7 +14,6 @@ from service.figures import counters
 @pytest.fixture
 def database(database_url: str) -> Iterator[Database]:
     opened = Database(database_url)
-    opened.upgrade()
     yield opened
     opened.close()
 

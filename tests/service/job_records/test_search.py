@@ -24,7 +24,6 @@ def test_case_and_ways_of_writing_a_letter_make_no_difference() -> None:
 @pytest.fixture
 def database(database_url: str) -> Iterator[Database]:
     opened = Database(database_url)
-    opened.upgrade()
     yield opened
     opened.close()
 

@@ -43,8 +43,8 @@ OLD: dict[str, dict[str, Any]] = {
 
 
 @pytest.fixture
-def database(database_url: str) -> Iterator[Database]:
-    opened = Database(database_url)
+def database(bare_database_url: str) -> Iterator[Database]:
+    opened = Database(bare_database_url)
     yield opened
     opened.close()
 

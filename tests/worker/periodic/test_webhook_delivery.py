@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -17,13 +16,13 @@ from typing import Any
 
 import pytest
 import standardwebhooks
+from newest_tables import lay_out_data_folder
 from receiver import OK, Receiver, status
 from servers import PostgresServer
 from sqlalchemy import func, select
 
 from service.clock import now
 from service.context import Context
-from service.database.sessions import Database
 from service.events import repository as events
 from service.ids import new_id
 from service.job_records import jobs as repository
@@ -50,37 +49,15 @@ SECOND, HOUR, DAY = timedelta(seconds=1), timedelta(hours=1), timedelta(days=1)
 ON_ANY = pytest.mark.parametrize("context", ["sqlite", "postgresql"], indirect=True)
 
 
-@pytest.fixture(scope="module")
-def empty_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A SQLite database of the newest version, which begins each of its tests as a copy."""
-    path = tmp_path_factory.mktemp("empty") / "galatea.db"
-    _make_tables(f"sqlite:///{path}")
-    return path
-
-
-@pytest.fixture(scope="module")
-def empty_database(postgres: PostgresServer) -> str:
-    """The name of such a database on the PostgreSQL server."""
-    _make_tables(url := postgres.new_database())
-    return url.rpartition("/")[2]
-
-
-def _make_tables(url: str) -> None:
-    database = Database(url)
-    database.upgrade()
-    database.close()
-
-
 @pytest.fixture
 def context(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Context]:
     """A context that may call receivers on loopback, and gives them two seconds."""
     url = None
     if getattr(request, "param", "sqlite") == "postgresql":
         server: PostgresServer = request.getfixturevalue("postgres")
-        url = server.new_database(like=request.getfixturevalue("empty_database"))
+        url = server.new_database(like=request.getfixturevalue("newest_on_postgres"))
     else:
-        (tmp_path / "data").mkdir(mode=0o700)
-        shutil.copy(request.getfixturevalue("empty_file"), tmp_path / "data" / "galatea.db")
+        lay_out_data_folder(tmp_path / "data")
     settings = Settings(
         **{
             "data_dir": tmp_path / "data",
