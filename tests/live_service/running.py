@@ -6,7 +6,6 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -15,6 +14,7 @@ from typing import Any, Self
 import httpx
 import psutil
 from newest_tables import lay_out_data_folder
+from warm_start import WarmProcess, warm_server
 
 HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
@@ -33,7 +33,7 @@ class Running:
         **settings: Any,
     ):
         """`path` is where job kinds are imported from, `root` the program; `command` is started in the folder `cwd`. Without one the
-        service is this program's own, and finds its tables made."""
+        service is forked from what has imported the program, and finds its tables made."""
         self.data_dir = data_dir
         self.path = path
         self.root = root
@@ -63,9 +63,12 @@ class Running:
             self._end()
             raise
 
-    def _begin(self, arguments: Sequence[str], output: int) -> subprocess.Popen[bytes]:
-        command = self.command or (sys.executable, "-m", "shell.main")
-        return subprocess.Popen([*command, *arguments], env=self.environment, stdout=output, stderr=output, cwd=self.cwd)
+    def _begin(self, arguments: Sequence[str], output: int) -> subprocess.Popen[bytes] | WarmProcess:
+        if self.command is None:
+            return WarmProcess(warm_server(), arguments, self.environment, self.cwd, output)
+        return subprocess.Popen(
+            [*self.command, *arguments], env=self.environment, stdout=output, stderr=output, cwd=self.cwd
+        )
 
     def _address(self) -> str:
         for _ in range(2400):
