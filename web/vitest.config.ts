@@ -17,7 +17,7 @@ export default defineConfig({
           name: 'browser',
           root,
           include: ['browser/**/*.test.ts'],
-          globalSetup: ['browser/finished_jobs.ts', 'browser/viewer_build.ts'],
+          globalSetup: ['browser/warm_server.ts', 'browser/finished_jobs.ts', 'browser/viewer_build.ts'],
           testTimeout: 1_000_000,
           expect: { poll: { timeout: 120_000 } },
           hookTimeout: 180_000,

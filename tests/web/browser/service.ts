@@ -1,11 +1,14 @@
-/** Starts a real `galatea serve` on a free port, with a data folder of its own. */
+/** Starts a real `galatea serve` on a free port, with a data folder of its own: forked from what has imported the program. */
 
 import { type ChildProcess, execFileSync, spawn } from 'node:child_process';
 import { mkdtempSync, openSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 
-const root = resolve(import.meta.dirname, '../../..');
+export const root = resolve(import.meta.dirname, '../../..');
+
+/** The variable of the environment that names the socket of `warm_server`, for all processes of the tests. */
+export const SOCKET = 'GALATEA_TESTS_WARM';
 
 export interface Service {
   address: string;
@@ -27,9 +30,10 @@ export async function serve(settings: Record<string, string> = {}, left?: string
   // with the owners of the files, who are others where root tests
   if (left !== undefined) execFileSync('cp', ['--archive', left, data]);
   const output = openSync(log, 'w');
+  const started = ['-P', join(root, 'tests/live_service/warm_start.py'), process.env[SOCKET] ?? ''];
   const service = spawn(
     'setpriv', // it ends with this process, however that ends
-    ['--pdeathsig', 'TERM', join(root, '.venv/bin/python'), '-m', 'shell.main', 'serve', '--port', '0'],
+    ['--pdeathsig', 'TERM', join(root, '.venv/bin/python'), ...started, 'serve', '--port', '0'],
     {
       cwd: root,
       env: { ...process.env, GALATEA_DATA_DIR: data, GALATEA_ALLOWED_NETWORKS: '127.0.0.0/8', ...shared, ...settings },
