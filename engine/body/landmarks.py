@@ -28,6 +28,16 @@ JOINT_LANDMARKS = {
 }
 """Landmarks that are joints, both without their side. The others are points of the surface."""
 
+LIMB_LANDMARKS = {
+    "Arm": "Shoulder",
+    "ForeArm": "Elbow",
+    "Hand": "Wrist",
+    "UpLeg": "Hip",
+    "Leg": "Knee",
+    "Foot": "Ankle",
+}
+"""Landmarks at which limbs begin and end, by the joint."""
+
 LANDMARK_RISE_METRES = {"Shoulder": 0.012, "Hip": 0.017, "Knee": 0.007, "Ankle": 0.032, "Heel": 0.027}
 """Metres by which perception sees a landmark above the template's joint: means over renders of the template itself."""
 

@@ -23,9 +23,9 @@ from engine.perception.landmarks import LEFT_EYE_CORNER_VERTICES, LIPS_OUTER, NO
 COPY_EYE_CORNERS_PIXELS = 160
 """Pixels between the outer corners of the eyes in the copy."""
 MIN_BRIDGE_EYE_PIXELS = 80
-"""Pixels between them in the picture from which a bridge can be seen ..."""
+"""Pixels between the outer corners of the eyes in the picture from which a bridge can be seen."""
 MIN_HAIR_EYE_PIXELS = 40
-"""... and hair."""
+"""The same from which hair above the lip can be seen."""
 MAX_NOSE_OFFSET = 0.5
 """By how much of half their distance the tip of the nose may stand off their middle: of a face seen from the side nothing is told."""
 OUTER_CORNERS, INNER_CORNERS = zip(RIGHT_EYE_CORNER_VERTICES, LEFT_EYE_CORNER_VERTICES, strict=True)

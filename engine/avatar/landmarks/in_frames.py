@@ -23,9 +23,9 @@ SKELETON_BONES = (
 )  # fmt: skip
 """Bones by their landmarks at both ends."""
 MIN_SKELETON_BONES = 4
-"""Bones with which a skeleton is one ..."""
+"""Bones of which both ends are seen, at least, where a frame shows a skeleton."""
 MIN_BEST_CONFIDENCE = 0.5
-"""... and the confidence of its surest landmark."""
+"""Confidence of a skeleton's surest landmark, at least."""
 MIN_LANDMARK_CONFIDENCE = 0.3
 """Of a landmark that is used."""
 KNUCKLE_LANDMARKS = ("Index", "Pinky")

@@ -32,9 +32,9 @@ MIRRORED_FACE_POINTS = tuple(
         strict=True,
     )
 )
-"""Pairs of them that are each other's mirror images ..."""
+"""Pairs of the 68 points that are each other's mirror images."""
 MIDLINE_LANDMARKS = (27, 28, 29, 30, 33, 51, 57, 8)
-"""... and those in the middle."""
+"""Those of the 68 points that lie in the middle of a face."""
 
 
 def chosen_views(seen: Sequence[FrameLandmarks]) -> Mapping[str, int]:

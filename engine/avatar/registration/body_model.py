@@ -14,9 +14,9 @@ from engine.compiled import njit
 from engine.geometry.rigging.skinning import skin as blend
 
 TURN_STEP = 1e-4
-"""Of a place or a turn, from which the derivatives of the joints' transforms come ..."""
+"""Step of a place or a turn by which the derivatives of the joints' transforms are taken."""
 SHAPE_STEP = 0.5
-"""... and of a coefficient, in which they are linear, and single precision."""
+"""Step of a body's coefficient, by which theirs are taken: transforms are linear in it, and of single precision."""
 
 
 class BodyModel:

@@ -36,10 +36,10 @@ LANDMARK_SIGMAS = {
     **dict.fromkeys(("Knee", "Ankle", "Heel", "FootIndex", "Ear"), 0.04),
     "Hip": 0.06,
 }
-"""Metres by which landmarks are off, usually, by their names without a side: under clothes, in shoes, and where perception sees
-them elsewhere than the template has them ..."""
+"""Metres by which landmarks are off, usually, by their names without a side: under clothes, in shoes, and where
+perception sees them elsewhere than the template has them."""
 USUAL_SIGMA = 0.02
-"""... and all others."""
+"""Metres by which all other landmarks are off, usually."""
 ROUGH_SIGMA = 0.03
 """What is assumed of landmarks at first, at least."""
 COARSE_LANDMARK_CUTOFF_SIGMAS = 6.0
@@ -52,10 +52,9 @@ MIN_LANDMARKS = 8
 SOLE_SIGMA = 0.01
 """Metres that soles reach below the ground, usually: nothing says where feet are that the cloud lacks, except that."""
 CLOTHED_POINT_SIGMA_METRES = 0.006
-"""Metres by which points are off, usually, for clothes ..."""
+"""Metres by which points are off, usually, for clothes."""
 INDEPENDENT_CLOUD_POINTS = 500.0
-"""... and as how many independent measurements all of them count: clothes are off alike, and sleeves slide arms along, against
-what landmarks say of hands."""
+"""As how many independent measurements all points count: clothes are off alike, and sleeves slide arms along, against what landmarks say of hands."""
 TANGENTIAL_SHARE = 0.15
 """What an offset along the surface counts of one across it."""
 HAND_LANDMARK_WEIGHT = 0.4

@@ -27,9 +27,9 @@ INNER_STIFFNESS = 100.0
 BODY_FACE_STIFFNESS = 30.0
 """Of the face while only the body's cloud is there: else lips turn inside out under a moustache."""
 LIP_STIFFNESS = 30.0
-"""Of lips in the head's cloud ..."""
+"""Of lips in the head's cloud."""
 LID_STIFFNESS = 10.0
-"""... and of lids."""
+"""Of lids in the head's cloud."""
 COARSE_FIT_WEIGHT = 0.003
 """What the coarse fit's place of the skin counts beside the points': nothing where there are some, all where there are none."""
 POINT_NOISE_METRES = 0.0015

@@ -29,9 +29,9 @@ NOSE_REACH_METRES = 0.015
 MIN_COLOUR_POINTS = 60
 """Points of feet, and of the face, with which colours are known."""
 MAX_FOOT_HUE_DISTANCE = 9.0
-"""By how much, in the plane of CIELAB's a and b, the skin of feet differs from the face's, at most ..."""
+"""By how much, in the plane of CIELAB's a and b, the skin of feet differs from the face's, at most."""
 MIN_LIGHTNESS_RATIO, MAX_LIGHTNESS_RATIO = 0.6, 1.5
-"""... and how light it is, in the face's lightness."""
+"""How light the skin of feet is, in the face's lightness: at least, and at most."""
 MIN_BARE_SHARE = 0.6
 """Of the points of feet, that have the colour of skin."""
 

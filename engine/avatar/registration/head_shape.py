@@ -23,9 +23,9 @@ GATE_METRES = (*[0.02] * 5, *[0.008] * 7)
 POINTS_PER_ROUND = 5000
 """Points of the cloud that are looked at in each round."""
 HEAD_POINT_SIGMA_METRES = 0.002
-"""Metres by which the head's points are off, usually ..."""
+"""Metres by which the head's points are off, usually."""
 INDEPENDENT_HEAD_POINTS = 1000.0
-"""... and as how many independent measurements all of them count."""
+"""As how many independent measurements all points of the head count."""
 HEAD_LANDMARK_SIGMA_METRES = 0.004
 """Metres by which face landmarks are off, usually."""
 MIN_HEAD_NORMAL_COSINE = 0.5

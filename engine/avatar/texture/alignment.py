@@ -45,9 +45,9 @@ MAX_ALIGNED_DEGREES = 70.0
 MAX_SHIFT_SIDES = 1 / 30
 """The most that a place is shifted, in shares of the longer side: an arm that drifts by 5 cm, seen from two metres."""
 OUTLIER_LEVELS = 20.0
-"""Grey levels from which on a colour is thought to be that of something else (the scale of Cauchy's weights) ..."""
+"""Grey levels from which on a colour is thought to be that of something else: the scale of Cauchy's weights."""
 LATE_OUTLIER_LEVELS = 60.0
-"""... and the same while a frame is still moved: what is a few pixels off looks like something else, too."""
+"""The same while a frame is still moved: what is a few pixels off looks like something else, too."""
 MASK_LEVELS = 60
 """Grey levels that lie between the person and the room, in the channel of the masks."""
 CONSENSUS_ROUNDS = 3

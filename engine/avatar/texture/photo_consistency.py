@@ -17,9 +17,9 @@ from engine.avatar.texture.view_samples import ViewSamples
 MIN_FRAMES_SHOWING_FACE = 4
 """That show a face, for most of them to be right."""
 MAX_MEDIAN_DEVIATIONS = 3.0
-"""Beyond which a frame contradicts the others, in their median distance from what they agree on ..."""
+"""Median distances of frames from what they agree on, beyond which one contradicts the others."""
 MIN_CONTRADICTION_GREY_LEVELS = 28.0
-"""... and grey levels, all three channels together, that are no contradiction: shadows and highlights."""
+"""Grey levels, all three channels together, up to which nothing is a contradiction: shadows and highlights."""
 FACES_AT_ONCE = 4096
 """Faces that are looked at together: they are as many times frames numbers."""
 

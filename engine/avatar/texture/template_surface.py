@@ -24,9 +24,9 @@ from engine.geometry.rigging.joint_names import SIDE_NAMES, Side
 from engine.geometry.texture_charts.texture_atlas import TextureAtlas, atlas_from_uv
 
 HAND_DRIFT_METRES = 0.025
-"""Metres from a hand within which frames may show it in place of what is there ..."""
+"""Metres from a hand within which frames may show it in place of what is there."""
 OWN_HAND_REACH_METRES = 0.12
-"""... and within which, in the template, what is there is the hand itself, or its arm."""
+"""Metres from a hand within which, in the template, what is there is the hand itself, or its arm."""
 ATTACHED_PART = len(AVATAR_PARTS)
 """The part of triangles that stand off the body."""
 

@@ -29,9 +29,9 @@ HEAD_SEED = 30
 FACE_ROOMS = ("nose", "chin", "cheek", "eyes", "forehead", "head", "mouth", "ears", "eyebrows", "neck")
 """The parts of the head of which some are changed in each sample."""
 CHANGES_PER_HEAD = 14
-"""Local changes of a sample ..."""
+"""Local changes of a sample."""
 MAX_HEAD_CHANGE = 0.7
-"""... and how strong they are at most, in [0, 1] of MakeHuman's own range."""
+"""How strong local changes are at most, in [0, 1] of MakeHuman's own range."""
 
 
 @dataclass(frozen=True)

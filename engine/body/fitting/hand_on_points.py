@@ -13,9 +13,9 @@ from engine.geometry.mesh.surface import face_normals
 from engine.geometry.point_clouds.point_cloud import PointCloud
 
 HAND_POINT_SIGMA_METRES = 0.003
-"""Metres by which points are off a hand's skin, usually ..."""
+"""Metres by which points are off a hand's skin, usually."""
 INDEPENDENT_POINTS = 60.0
-"""... and as how many independent measurements all of them count: fingers drift while others are filmed, and drift as one."""
+"""As how many independent measurements all points of a hand count: fingers drift while others are filmed, and drift as one."""
 MIN_HAND_POINTS = 50
 """Points that say something of a hand."""
 MIN_HAND_NORMAL_COSINE = 0.4

@@ -20,11 +20,11 @@ SHOE_LENGTH_RATIO, SHOE_WIDTH_RATIO = 1.09, 1.15
 HEEL_ROOM = 0.3
 """Of what a shoe is longer than the foot, how much is behind the heel."""
 STATION_SHARES = np.array([0.0, 0.15, 0.3, 0.45, 0.6, 0.72, 0.85, 1.0])
-"""Where along a shoe, in its lengths from the heel, the curves of the last are given:"""
+"""Where along a shoe, in its lengths from the heel, the curves of the last are given."""
 HALF_WIDTHS = np.array([0.34, 0.34, 0.34, 0.37, 0.46, 0.5, 0.5, 0.47])
-"""half its width, in its greatest width;"""
+"""Half a shoe's width there, in its greatest width."""
 STATION_HEIGHTS = np.array([0.36, 0.36, 0.34, 0.28, 0.22, 0.2, 0.19, 0.19])
-"""its height, in its length; at the back it reaches higher than the shoe's rim, where the ankle is."""
+"""A shoe's height there, in its length; at the back it reaches higher than the shoe's rim, where the ankle is."""
 HEEL_ROUND, TOE_ROUND = (0.14, 2.4), (0.36, 2.2)
 """How far from its ends, in its length, it is rounded, and the exponents of the superellipses by which it is."""
 TOE_BOX = (0.34, 2.1)
@@ -36,9 +36,9 @@ TOE_SPRING = 0.03
 SHOE_AXIS = np.array([[0.0, 0.12, 0.16], [0.0, 0.055, 0.8]])
 """Both ends of the axis within it: aside, above the ground and along it, in its length."""
 SHOE_COLLAR_FOOT_LENGTHS = (0.16, 0.27)
-"""Above the ground, in lengths of the foot: up to the first all is shoe, from the second on none is ..."""
+"""Heights above the ground, in lengths of the foot: up to the first all is shoe, from the second on none is."""
 SOCK_METRES = 0.004
-"""... but cloth, metres thick."""
+"""Metres of cloth on a foot above its shoe."""
 
 
 def shod(

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from engine.body.fitting.body_fitting import Fit
+from engine.body.landmarks import LIMB_LANDMARKS
 from engine.body.rest_pose import T_POSE_DIRECTIONS
 from engine.character.figure.figure import Figure
 from engine.character.fit.template_fit import FIGURE_FOCAL_LENGTH_SIDES, FittedBody, load_human
@@ -32,15 +33,6 @@ FINGER_JOINTS = (0.45, 0.65, 0.82)
 """Where finger joints are on the way from wrist to fingertip."""
 TOES_FORWARD_METRES = 0.1
 """Metres by which toes are before the ankle: feet roll over them although they are drawn flat."""
-DRAWING_JOINT_LANDMARKS = {
-    "Arm": "Shoulder",
-    "ForeArm": "Elbow",
-    "Hand": "Wrist",
-    "UpLeg": "Hip",
-    "Leg": "Knee",
-    "Foot": "Ankle",
-}
-"""Landmarks at which limbs' joints are."""
 BONE_END_LANDMARKS = {
     "Arm": "Elbow",
     "ForeArm": "Wrist",
@@ -79,7 +71,7 @@ def flat_pose(figure: Figure) -> FlatPose:
             chest + COLLARBONE_JOINT_SHARE * (at[f"{side}Shoulder"] - chest),
             upright,
         )
-        for joint, mark in DRAWING_JOINT_LANDMARKS.items():
+        for joint, mark in LIMB_LANDMARKS.items():
             begin, end = at[f"{side}{mark}"], at[f"{side}{BONE_END_LANDMARKS[joint]}"]
             places[f"{side}{joint}"] = begin
             straight = T_POSE_DIRECTIONS.get(f"{side}{joint}")
@@ -145,5 +137,5 @@ def _turn(way: NDArray[np.float64], straight: tuple[float, ...]) -> float:
 
 
 def _landmarks() -> list[str]:
-    marks = {"Ear", *DRAWING_JOINT_LANDMARKS.values(), *BONE_END_LANDMARKS.values()}
+    marks = {"Ear", *LIMB_LANDMARKS.values(), *BONE_END_LANDMARKS.values()}
     return ["Nose", *(f"{side}{mark}" for side in SIDE_NAMES for mark in sorted(marks))]

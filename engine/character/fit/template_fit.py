@@ -18,7 +18,7 @@ from engine.body.fitting.contour import SkinPoints, skin_points, trace_contour
 from engine.body.fitting.first_guess import facing, first_guess
 from engine.body.fitting.observation import DIRECTED_LIMBS, Observation
 from engine.body.hands import HandModel, hand_model
-from engine.body.landmarks import LandmarkModel, landmark_model
+from engine.body.landmarks import LIMB_LANDMARKS, LandmarkModel, landmark_model
 from engine.body.rig import Rig
 from engine.body.template import load_rig
 from engine.character.figure.crossed_arms import CrossedArms, crossed_arms, without_hidden_hand
@@ -62,15 +62,6 @@ LANDMARK_ERROR_WEIGHT = 2.0
 chosen: front and back have one outline."""
 MASK_COPY_SIZE_PIXELS = 480
 """Pixels of the picture's longer side at which templates are held against a mask."""
-LIMB_LANDMARKS = {
-    "Arm": "Shoulder",
-    "ForeArm": "Elbow",
-    "Hand": "Wrist",
-    "UpLeg": "Hip",
-    "Leg": "Knee",
-    "Foot": "Ankle",
-}
-"""Landmarks at which limbs begin and end, by the joint."""
 
 
 @dataclass(frozen=True)

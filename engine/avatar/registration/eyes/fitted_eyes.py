@@ -32,9 +32,9 @@ HORIZON_RADII = 0.94
 FOLLOWING_LID_RINGS = 7
 """Rings of vertices about a rim that go with it: over fewer lids are crumpled that stand elsewhere than the fit has left them."""
 SOCKET_REACH_RADII = 1.3
-"""Radii of the template's eyeball about its middle within which skin that is not seen is its socket ..."""
+"""Radii of the template's eyeball about its middle within which skin that is not seen is its socket."""
 SOCKET_RADII = 0.93
-"""... and where it is put: in the eyeball, so that it shows neither between this and the lids nor through these."""
+"""Radii of the eyeball at which its socket is put: within it, so that it shows neither between this and the lids nor through these."""
 INNER_CORNER_LANDMARKS = {"left_eye": 42, "right_eye": 39}
 """Face landmarks."""
 OUTWARD_SIGNS = {"left_eye": 1.0, "right_eye": -1.0}

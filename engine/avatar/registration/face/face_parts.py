@@ -27,11 +27,11 @@ INCISOR_DEPTH_METRES = 0.02
 SHOWN_INCISORS_METRES = 0.004
 """Metres by which the edge of the upper incisors lies below where the lips meet: what shows of them as lips part."""
 TEETH_DEPTH_METRES = 0.002
-"""Metres that teeth lie behind the visible skin at rest, at least ..."""
+"""Metres that teeth lie behind the visible skin at rest, at least."""
 EXPRESSION_DEPTH_METRES = 0.0005
-"""... and seen from the front, behind what any face unit of the mouth makes of it."""
+"""Metres that teeth, seen from the front, lie behind what any face unit of the mouth makes of that skin, at least."""
 FRONT_PIXEL_METRES = 0.0005
-"""Metres between the places at which that is looked at."""
+"""Metres between the places at which teeth and skin are compared from the front."""
 MOUTH_UNITS = (
     *("jawForward", "jawLeft", "jawRight", "mouthFunnel", "mouthLeft", "mouthPucker", "mouthRight", "mouthRollLower"),
     *("mouthRollUpper", "mouthShrugLower", "mouthShrugUpper"),

@@ -29,19 +29,19 @@ from engine.geometry.rigging.joint_names import SIDE_NAMES
 BENT_KNEE_HEIGHT_SHARE = 0.6
 """Of the height of the knee, up to which a leg is bent towards its foot."""
 ANKLE_SIGMA = 0.015
-"""Metres on the ground by which the ankle is off where the coarse fit has it, usually ..."""
+"""Metres on the ground by which the ankle is off where the coarse fit has it, usually."""
 FOOT_LANDMARK_SIGMA_METRES = 0.03
-"""... heel and tip from where landmarks have them ..."""
+"""Metres by which heel and tip are off where landmarks have them, usually."""
 GROUND_SIGMA = 0.002
-"""... and soles from the ground."""
+"""Metres by which soles are off the ground, usually."""
 TURN_SIGMA = 0.25
 """Radians by which a foot is turned otherwise than the coarse fit has it, usually."""
 SIZE_SIGMAS = (0.05, 0.04, 0.08)
 """Shares by which a foot is longer, wider and higher than is usual for the body."""
 FOOT_POINT_SIGMA_METRES = 0.004
-"""Metres by which points are off, at least; they are as far as they lie from the foot, root mean square, and all alike: ..."""
+"""Metres by which points are off, at least; they are as far as they lie from the foot, root mean square, and all alike."""
 INDEPENDENT_FOOT_POINTS = 8.0
-"""... they count as so many independent ones, at most."""
+"""As how many independent measurements all points of a foot count, at most."""
 FOOT_GATES_METRES = (0.04, 0.04, 0.03, 0.03, 0.025, 0.02, 0.015, 0.015, 0.012, 0.012)
 """Metres within which points are matched, from round to round."""
 MIN_FOOT_NORMAL_COSINE = 0.4
@@ -49,12 +49,12 @@ MIN_FOOT_NORMAL_COSINE = 0.4
 SOLE_FLOOR_REACH_METRES = 0.008
 """Metres above the sole up to which points may be the floor's."""
 OUTLINE_SIGMA = 0.002
-"""Metres by which outlines are off, at least; ..."""
+"""Metres by which outlines are off, at least."""
 HIDDEN_SHARE, HIDDEN_GATE = 0.5, 0.5
-"""... up to so much of the way from the ankle to the tip trousers may hide them: there, within the person's silhouette, they are
-matched within so much of the gate; ..."""
+"""Share of the way from the ankle to the tip that trousers may hide, and the share of the gate within which outlines are matched there, within the
+person's silhouette."""
 INDEPENDENT_OUTLINE_POINTS = 12.0
-"""... so many points of them count as independent: a few in each of the frames."""
+"""As how many independent measurements all points of outlines count: a few in each of the frames."""
 MAX_MATCHED_POINTS = 1500
 """Of a foot, that are matched in one round."""
 

@@ -16,9 +16,9 @@ from engine.perception.landmarks import fiducials
 FRONT_COSINE = 0.1
 """Of the angle between a normal and straight ahead, beyond which a vertex is seen from the front, as landmarks of faces are."""
 UPPER_LIP_BORDER_POINTS, LOWER_LIP_BORDER_POINTS = (49, 50, 51, 52, 53), (55, 56, 57, 58, 59)
-"""Landmarks on the border of the lips' red, above and below ..."""
+"""Landmarks on the border of the lips' red, above and below."""
 UPPER_LIP_LINE_POINTS, LOWER_LIP_LINE_POINTS = (61, 62, 63), (65, 66, 67)
-"""... and where the lips meet. The canonical face's lips are not as high as the template's."""
+"""Landmarks where the lips meet, above and below. The canonical face's lips are not as high as the template's."""
 LINE_REACH_METRES = 0.002
 """Metres across within which vertices of a line are one place of it: the foremost is seen."""
 

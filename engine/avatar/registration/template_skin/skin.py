@@ -30,13 +30,13 @@ FACE_RADII = np.array([0.085, 0.106, 0.106])
 HEAD_VIEW_COUNT, HEAD_VIEW_DISTANCE_METRES, HEAD_VIEW_PIXELS = 120, 0.6, 700
 """From how many sides, from how far away (metres), and how large (pixels), a head is looked at to find what is seen of it."""
 LIP_UNITS = ("mouthRollLower", "mouthRollUpper", "mouthFunnel", "mouthPucker", "mouthPressLeft", "mouthPressRight")
-"""Face units that move lips and the skin above and below, where a moustache or a beard grows ..."""
+"""Face units that move lips and the skin above and below, where a moustache or a beard grows."""
 LID_UNITS = ("eyeBlinkLeft", "eyeBlinkRight")
 EYE_PARTS = ("left_eye", "right_eye")
 CLOSE_LID_RINGS = 3
 """Rings of vertices about the rims of lids that are close to them."""
 MIN_UNIT_MOTION_METRES = 0.002
-"""... by more than this, in metres."""
+"""Metres by which skin moves, at least, that such a unit moves."""
 JAW_DROP_METRES = 0.008
 """Metres by which what hangs on the jaw goes down as it opens."""
 NIPPLE_BOX_METRES = np.array([[-0.25, 1.0, 0.03], [0.25, 1.6, 1.0]])

@@ -23,17 +23,17 @@ from engine.geometry.mesh.surface import triangle_areas
 from engine.imaging.histogram_matching import to_lab
 
 FINGER_WIDTH_METRES = 0.016
-"""Metres: the width of a finger ..."""
+"""Metres: the width of a finger."""
 FINGER_PIXELS = (5.0, 9.0)
-"""... and the pixels across it of a frame that shows no detail of hands yet, and of one that shows all that a painted hand has."""
+"""Pixels across a finger of a frame that shows no detail of hands yet, and of one that shows all that a painted hand has."""
 TONE_LENGTH_METRES = 0.008
 """Metres over which the difference of filmed and painted colours is a matter of tone, and not of detail."""
 RIM_LENGTH_METRES = 0.004
 """Metres over which details pass from filmed to painted ones."""
 SLEEVE_RING_METRES = 0.005
-"""Metres along the hand in which it is looked whether a sleeve covers it ..."""
+"""Metres along the hand in which it is looked whether a sleeve covers it."""
 CUFF_SLANT_METRES = 0.005
-"""... and by how much a cuff reaches farther on one side."""
+"""Metres by which a cuff reaches farther on one side."""
 UNSEEN_AREA_WEIGHT = 1e-4
 """Of an area that frames do not show, against one that they do: what holds a tone where they show nothing."""
 

@@ -29,9 +29,9 @@ from engine.render.rasteriser import Raster
 SOCKET_LIGHT_SHARE = 0.35
 """Of the light on an eyeball, what its socket has where it shows between this and the lids."""
 LOWER_LID_SKIN_EYE_WIDTHS = 0.5
-"""Widths of an eye from the rim of its lower lid within which the skin below has the lids' colour, in the median ..."""
+"""Widths of an eye from the rim of its lower lid within which the skin below has the lids' colour, in the median."""
 UPPER_LID_SKIN_EYE_WIDTHS = 0.2
-"""... and from the upper's rim to where shut lids have that of the skin above, which is in the shade of the brow."""
+"""Widths of an eye from the rim of its upper lid to where shut lids have the colour of the skin above, which is in the shade of the brow."""
 SHUT_LASH_SHADE_SHARE, SHUT_LASH_WIDTH_METRES = 0.5, 0.0007
 """Of the light, what lashes take along a shut lid's rim, and metres over which that fades."""
 LASH_RIM_STEPS = 8
@@ -39,9 +39,9 @@ LASH_RIM_STEPS = 8
 WRIST_LENGTH_METRES, CUFF_LENGTH_METRES = 0.03, 0.004
 """Metres past the wrist over which what the arm's colours are filled with becomes the hand's: along bare skin, and where a sleeve ends."""
 SLEEVE_WINDOW_METRES = (-0.025, 0.0)
-"""Metres past the wrist between which it is looked what the arm wears ..."""
+"""Metres past the wrist between which it is looked what the arm wears."""
 ARM_RADIUS_METRES = 0.08
-"""... and about it."""
+"""Metres about the arm's axis within which what is there is the arm's, or its sleeve."""
 
 
 def place_mouth(texture: NDArray[np.uint8], surface: TemplateSurface, raster: Raster) -> None:

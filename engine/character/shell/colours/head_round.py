@@ -29,9 +29,9 @@ MIN_HALF_FACE_SHARE = 0.5
 MIN_HAIR_COLOUR_DISTANCE = 14.0
 """CIE Lab distance, lightness counting 0.7 and hues 1.5, from which hair can be told from skin."""
 MIN_NOT_SKIN_COLOUR_DISTANCE = 25.0
-"""The same, from which a colour is no skin of this face ..."""
+"""The same, from which a colour is no skin of this face."""
 MAX_LIGHTER_DISTANCE = 5.0
-"""... where no colour is lighter than its skin by more than this: light may fall on it."""
+"""By how much a colour counts as lighter than the face's skin there, at most: light may fall on skin."""
 MAX_HAIR_COLOUR_DISTANCE = 20.0
 """The same, up to which what is beside the cheeks is of the hair's own colour."""
 MIN_COLOUR_CELLS = 40

@@ -22,13 +22,13 @@ from engine.geometry.multiview.structure_from_motion.mapping import Reconstructi
 from engine.geometry.registration.rigid import Similarity
 
 OBSERVATION_SIGMA_PIXELS = 1.5
-"""Pixels by which a right observation is off at most, of pictures 1000 pixels long ..."""
+"""Pixels by which a right observation is off at most, of pictures 1000 pixels long."""
 MIN_OBSERVATION_SIGMA_PIXELS = 1.0
-"""... and of small ones, in which features are not found more finely."""
+"""Pixels by which one of small pictures is off, in which features are not found more finely."""
 FIRST_ROUND_MEDIANS = 2.0
-"""So many times the median error the first round believes ..."""
+"""Median errors up to which the first round believes an observation."""
 ROUND_SHARPENING_FACTOR = 0.7
-"""... and each round so much of what the last one did."""
+"""By what each round believes less than the one before."""
 LAST_ROUNDS = 5
 """Of Gauss and Newton that believe `OBSERVATION_SIGMA_PIXELS`."""
 BEHIND_CAMERA_PIXELS = 1e9
