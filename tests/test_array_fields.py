@@ -54,10 +54,8 @@ def array_fields(node: ast.ClassDef) -> dict[str, bool]:
 
 
 def records() -> Iterator[tuple[str, ast.ClassDef]]:
-    """The dataclasses and named tuples of the engine and where they are, but for `engine/character`."""
+    """The dataclasses and named tuples of the engine and where they are."""
     for path in sorted(ENGINE.rglob("*.py")):
-        if path.relative_to(ENGINE).parts[0] == "character":
-            continue
         for node in ast.walk(ast.parse(path.read_text())):
             if isinstance(node, ast.ClassDef) and is_record(node):
                 yield f"{path.relative_to(ENGINE.parent)}: {node.name}", node

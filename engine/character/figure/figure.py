@@ -57,15 +57,21 @@ class Choice:
 
 @dataclass(frozen=True)
 class Figure:
-    """`rgb` (H, W, 3) the picture's colours, to be seen only as far as its own `alpha` (H, W) shows them, if it has one.
-    `points` (33, 2) pixels, `confidence` (33,) and `world` (33, 3) as in `engine.perception.body.Body`; `spatial`: whether
-    `world` is known. `original`: width and height of the picture as it was given, of which `rgb` may be a smaller copy.
-    `people` (N, 4) are the boxes of all who were found, of whom this is number `index`; `others` (H, W) is where the rest of
-    them surely are. `face` (478, 3): the mesh of the face, as
-    `engine.perception.faces.find_faces` gives it; None where none is seen. `hands`: the left and the right, each (21, 3) as
-    `engine.perception.hands.Hand` has its points, with their depth; None where it is not seen.
-    `drawn`: nobody whom networks see, but a figure on plain paper, whose joints are its outline's. `placed`: the joints that
-    were placed by hand."""
+    """One person of a picture, and where their joints are.
+
+    rgb : (H, W, 3) the picture's colours, to be seen only as far as its own `alpha` shows them, if it has one.
+    alpha : (H, W) float32 in [0, 1].
+    points : (33, 2) pixels.
+    confidence : (33,) of the points, as in `engine.perception.body.Body`.
+    world : (33, 3) as there; `spatial` says whether it is known.
+    original : width and height of the picture as it was given, of which `rgb` may be a smaller copy.
+    people : (N, 4) the boxes of all who were found, of whom this is number `index`.
+    others : (H, W) bool, where the rest of them surely are.
+    face : (478, 3) the mesh of the face, as `engine.perception.faces.find_faces` gives it; None where none is seen.
+    hands : the left and the right, each (21, 3) as `engine.perception.hands.Hand` has its points, with their depth; None where it is not seen.
+    drawn : nobody whom networks see, but a figure on plain paper, whose joints are its outline's.
+    placed : the joints that were placed by hand.
+    """
 
     rgb: NDArray[np.uint8]
     alpha: NDArray[np.float32] | None

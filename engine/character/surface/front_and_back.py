@@ -49,11 +49,14 @@ class Layer:
 class ClosedMesh:
     """A mesh in picture space.
 
-    `vertices` (V, 3) float64: x, y, z; `triangles` (T, 3) int32, counter-clockwise seen from outside for one who looks at
-    the picture. `front` (V,) bool: of the front sheet; vertices on a border are there twice, where
-    it meets the front's colours and the back's.
-    `rim` (V,) bool: on such a border, where it is no hem. `layer` (V,) int: the part, and `limb` (V,) int8 which limb that is, -1 for the body. `bones` (V, 4) and `weights` (V, 4) float32: the strongest influences, strongest first,
-    summing to one. `places` (V, 2): the pixel whose colour a vertex takes, where that is not its own, x and y; else NaN.
+    vertices : (V, 3) float64, x, y, z.
+    triangles : (T, 3) int32, counter-clockwise seen from outside for one who looks at the picture.
+    front : (V,) of the front sheet; vertices on a border are there twice, where it meets the front's colours and the back's.
+    rim : (V,) on such a border, where it is no hem.
+    layer : (V,) the part.
+    limb : (V,) which limb that is, -1 for the body.
+    bones, weights : (V, 4) the strongest influences, strongest first, summing to one.
+    places : (V, 2) x and y of the pixel whose colour a vertex takes, where that is not its own; else NaN.
     """
 
     vertices: NDArray[np.float64]

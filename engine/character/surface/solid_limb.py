@@ -34,10 +34,19 @@ LIMB_VISIBILITY_TOLERANCE_METRES = 0.02
 
 @dataclass(frozen=True)
 class SolidLimb:
-    """`vertices` (V, 3) in picture space and at `rest` (V, 3), metres; `triangles` (T, 3), closed; `weights` (V, J); `front`,
-    `back` (h, w): its depths, NaN beside it. `seen`, `sure`, `upper`, `hand` (V,) bool: which vertices the picture shows, which of
-    them away from the limb's outline, and which are above the elbow and of the hand. `like`: the limb of the other side, whose
-    colours it has if it is not seen."""
+    """A limb that is more deep than long in the picture, as a closed mesh.
+
+    vertices : (V, 3) in picture space.
+    rest : (V, 3) the same at rest, metres.
+    triangles : (T, 3) closed.
+    weights : (V, J) skinning weights.
+    front, back : (h, w) its depths, NaN beside it.
+    seen : (V,) whether the picture shows a vertex.
+    sure : (V,) whether it does so away from the limb's outline.
+    upper : (V,) whether a vertex is above the elbow.
+    hand : (V,) whether it is of the hand.
+    like : the limb of the other side, whose colours it has if it is not seen.
+    """
 
     vertices: NDArray[np.float64]
     rest: NDArray[np.float64]

@@ -62,10 +62,16 @@ TILE_COUNT = 3
 
 @dataclass(frozen=True)
 class Tiles:
-    """Pictures of one size (h, w, 3) uint8 that cover the grid on which the mesh was made: the `limbs` that are apart, the
-    `body` without them before it, and its `back`. `behind`: a limb that goes on
-    behind another, and which that is, an index of `BODY_PARTS`. `head` (h, w): where its head is. `scale`: their pixels for each of the
-    grid's. `shift`: by how many of them x and y are further, so that pixels fall on pixels of the picture."""
+    """Pictures of one size that cover the grid on which the mesh was made.
+
+    limbs : (h, w, 3) those that are apart.
+    body : (h, w, 3) what is left without them before it.
+    back : (h, w, 3) its back.
+    head : (h, w) where its head is.
+    scale : their pixels for each of the grid's.
+    shift : (2,) by how many of them x and y are further, so that pixels fall on pixels of the picture.
+    behind : a limb that goes on behind another: which that is, an index of `BODY_PARTS`, and its colours (h, w, 3).
+    """
 
     limbs: NDArray[np.uint8]
     body: NDArray[np.uint8]
