@@ -7,7 +7,7 @@ import os
 import signal
 import socket
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
 
 import pytest
@@ -16,6 +16,8 @@ from missing import missing
 from receiver import OK, Answer, Receiver
 from servers import PostgresServer, S3Server, postgres_folder
 from swift import s3_server
+
+from worker.programs.loading import loading
 
 ROOT = Path(__file__).parent.parent
 
@@ -35,6 +37,13 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
     from by_folder import ByFolder  # where there are several processes
 
     return ByFolder(config, log) if config.getvalue("dist") == "loadfile" else None
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """What the tests import stays as long as they run: Python need not look through it for rubbish, again and again."""
+    with loading():
+        return (yield)
 
 
 @pytest.fixture(scope="module", autouse=True)
