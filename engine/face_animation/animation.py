@@ -11,7 +11,7 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.mouth.target_mouth import target_mouth
 from engine.face_animation.rig import Rig
 from engine.face_animation.target_face import TargetFace
+from engine.face_animation.warping.face_before_head import FaceBeforeHead
 from engine.face_animation.warping.layers import Layers, beyond_border
 from engine.face_animation.warping.unfold import unfold
 from engine.imaging.composite import composite_over, upsample_twice, warp_layer
@@ -41,6 +42,8 @@ FRAMES_AHEAD = 2
 
 FREE_RIM_EYE_DISTANCES = 0.3
 """Eye distances inside the contour up to which the face gives way where the picture would fold."""
+LEAST_APART = 0.25
+"""Pixels by which the sheet behind the face differs from what is before it, to be drawn."""
 MIN_FOLD_DISTANCE_PIXELS = 8.0
 """Pixels of the enlarged picture by which neighbours are apart where lips or lids fold over the skin beside them."""
 
@@ -107,6 +110,8 @@ class FaceAnimation:
         )
         self._person = upsample_twice(whole)
         self._plate, self._inner = layers.plate, layers.inner
+        self._before = FaceBeforeHead(face.mesh, face.rgb.shape[:2])
+        self._around_face = self._before.around(target.rig.mesh)
         self._keep_alpha = layers.transparent and keep_alpha
         self._eyes = EyesAndLids(face) if parts.eyes else None
         self._mouth = (mouth or target_mouth(face)) if parts.hidden else None
@@ -157,6 +162,7 @@ class FaceAnimation:
         moved[:, :2] -= corner
         origin = self._rig.mesh.inverse_map(moved[:, :2], moved[:, 2], 2, window.shape)
         layer = warp_layer(self._person, origin + np.float32(2 * self._margin))
+        self._put_before_head(layer, origin, moved[:, :2], self._rig.mesh.offsets(motion.behind))
         frame = composite_over(layer, np.ascontiguousarray(self._plate[window.pixels]))
         smooth_folds(
             frame, origin, MIN_FOLD_DISTANCE_PIXELS, self._rig.mesh.vertices + moved[:, :2], self._rig.mesh.triangles
@@ -173,6 +179,30 @@ class FaceAnimation:
         if self._inner is not None:
             self._put_frame_before(frame, window, self._inner)
         return np.dstack([frame, layer[..., 3]]) if self._keep_alpha else frame
+
+    def _put_before_head(
+        self,
+        layer: NDArray[np.uint8],
+        origin: NDArray[np.float32],
+        moved: NDArray[np.float32],
+        apart: NDArray[np.float32],
+    ) -> None:
+        """Put the face before what it hides of its head, in a `layer` (h, w, 4) with its inverse map `origin`, for offsets (V, 2) of the picture's mesh
+        and how far `apart` (V, 2) from them the sheet behind is."""
+        mesh = self._rig.mesh
+        shown = (np.abs(apart).max(axis=1) > LEAST_APART)[self._around_face].any(axis=1)
+        sheet = replace(mesh, triangles=self._around_face[shown])
+        places = (mesh.vertices + moved)[sheet.triangles].reshape(-1, 2)
+        places = np.concatenate([places, places + apart[sheet.triangles].reshape(-1, 2)])
+        if not len(places):
+            return
+        low, high = (np.clip(end, 0, origin.shape[1::-1]) for end in (places.min(axis=0), places.max(axis=0)))
+        part = Window(*np.floor(low).astype(int).tolist(), *np.ceil(high).astype(int).tolist())
+        if min(part.shape) < 2:
+            return
+        corner = np.array([part.left, part.top], np.float32)
+        behind = sheet.inverse_map(moved + apart - corner, None, 2, part.shape)
+        self._before.draw(layer[part.pixels], self._person, self._margin, origin[part.pixels], behind)
 
     def _put_frame_before(self, frame: NDArray[np.uint8], window: Window, inner: Window) -> None:
         """Whatever moved out of the inner picture is behind what frames it, in a `frame` (h, w, 3) that is a window of the result."""

@@ -179,6 +179,11 @@ def _stretch(ratios: NDArray[np.floating], chosen: NDArray[np.bool_]) -> NDArray
     return np.maximum(ratios[:, chosen].sum(axis=1, keepdims=True) / max(int(chosen.sum()), 1), 1)
 
 
+def outward(ring: NDArray[np.floating]) -> NDArray[np.floating]:
+    """(N, 36, 2) the way out of faces at their contour's vertices (N, 36, 2), of length 1."""
+    return -_inward(ring)
+
+
 def _inward(ring: NDArray[np.floating]) -> NDArray[np.floating]:
     """(N, 36, 2) the way into faces at their contour's vertices (N, 36, 2), of length 1."""
     forward = np.roll(ring, -1, axis=1) - np.roll(ring, 1, axis=1)

@@ -24,8 +24,15 @@ from engine.face_animation.motion_transfer.contour import even_expression, keep_
 from engine.face_animation.motion_transfer.control_points import ControlPoints, carry_fiducials, carry_periphery
 from engine.face_animation.motion_transfer.even_brows import brow_share, even_brows
 from engine.face_animation.motion_transfer.expression_transfer import carry_expression, local_maps
+from engine.face_animation.motion_transfer.far_side import FarSide
 from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_motion, turn_angles
-from engine.face_animation.motion_transfer.head_proxy import HeadProxy, build_head_proxy, chin_length, move_head
+from engine.face_animation.motion_transfer.head_proxy import (
+    HeadProxy,
+    build_head_proxy,
+    chin_length,
+    move_head,
+    roll_head,
+)
 from engine.face_animation.motion_transfer.head_room import hold_back, skull_shift, turned_in_picture
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
 from engine.face_animation.motion_transfer.lids_and_lips import (
@@ -60,12 +67,14 @@ CONTROL_CHUNK_FRAMES = 32
 @dataclass(frozen=True)
 class ControlMotion:
     """One frame: `offsets` (C, 2) of the control points, pixels, and their `depth` (C,), smaller is nearer;
-    `look` (2, 2) of the irises, see `eyes.gaze_offsets`."""
+    `look` (2, 2) of the irises, see `eyes.gaze_offsets`; `behind` (C, 2) how far apart from them the points of the sheet
+    behind the face are, see `far_side`."""
 
     frame: int
     offsets: NDArray[np.float32]
     depth: NDArray[np.float32]
     look: NDArray[np.float32]
+    behind: NDArray[np.float32]
 
 
 @dataclass(frozen=True)
@@ -111,6 +120,7 @@ class MotionTransfer:
         self._unit = float(eye_distance(target[:, :2]))
         self._maps = local_maps(self._phi, self._rest, target, float(eye_distance(self._rest[:, :2])))
         self._follow = part_weights(options.follow) * control.bare.astype(np.float32)
+        self._far_side = FarSide(target, control.points)
         self._even = even_expression(target, control.usable[:MESH_SIZE])
         self._acts = options.strength * self._follow[:, None] * even_brows()
         self._head = options.strength if "head" in options.follow else 0.0
@@ -118,8 +128,8 @@ class MotionTransfer:
         self._mouth = min(options.strength, 1.0) if "mouth" in options.follow else 0.0
         self._correct = min(options.strength, 1.0) * self._follow
 
-    def __call__(self, frames: DriverFrames) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
-        """Of each frame the `offsets` (N, C, 2), the `depth` (N, C) and the `look` (N, 2, 2) of a `ControlMotion`."""
+    def __call__(self, frames: DriverFrames) -> tuple[NDArray[np.float32], ...]:
+        """Of each frame the `offsets` (N, C, 2), the `depth` (N, C), the `look` (N, 2, 2) and `behind` (N, C, 2) of a `ControlMotion`."""
         rest, target, control, proxy, phi = self._rest, self._target, self._control, self._proxy, self._phi
         motion = split_motion(frames.meshes, rest)
         if proxy is not None:
@@ -128,7 +138,7 @@ class MotionTransfer:
         expression, look, ratio = self._acted(motion)
         scaled = scale_motion(motion, self._head)
         offsets = np.zeros((len(frames.meshes), len(control.points), 2), np.float32)
-        depths = np.zeros(offsets.shape[:2], np.float32)
+        depths, behind = np.zeros(offsets.shape[:2], np.float32), np.zeros_like(offsets)
         if proxy is None:
             offsets[:, :MESH_SIZE] = _face_in_plane(phi, scaled, expression, target)
             placed = self._corrected(frames, control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE])
@@ -147,7 +157,11 @@ class MotionTransfer:
             hold_lids(placed, rigid, self._lids)
             offsets[:, MESH_SIZE:] = self._around_face(frames, motion, held, proxy, solid[..., :2], placed)
         offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
-        return offsets, depths, look
+        if proxy is not None:
+            skull = roll_head(proxy, held, target)
+            skull[:, MESH_SIZE:] = control.points[MESH_SIZE:] + self._around_face(frames, motion, held, proxy, skull)
+            behind[:] = self._far_side.withdrawn(control.points + offsets, skull)
+        return offsets, depths, look, behind
 
     def _corrected(self, frames: DriverFrames, placed: NDArray[np.floating]) -> NDArray[np.floating]:
         """Faces (N, 478, 2), pixels, by what the second look found; and kept inside their contour."""
@@ -181,7 +195,7 @@ class MotionTransfer:
 
     def _around_face(
         self, frames: DriverFrames, motion: HeadMotion, held: HeadMotion, proxy: HeadProxy,
-        solid: NDArray[np.floating], faces: NDArray[np.floating],
+        solid: NDArray[np.floating], faces: NDArray[np.floating] | None = None,
     ) -> NDArray[np.float32]:  # fmt: skip
         """(N, C - 478, 2) what the points around the face do: the head's with the skull, the body's with the shoulders, the
         neck's between them; and what the face's contour does beyond the skull.
@@ -196,7 +210,7 @@ class MotionTransfer:
         hair = self._head * phi.offsets(tracked_hair(motion, self._driver, around, trust, phi.inverse()(points)))
         above = solid[:, MESH_SIZE:] - points + hair_share(target, points)[:, None] * hair
         below = body_share(target, points)[:, None] * body[:, None]
-        beyond = proxy.contour @ (faces[:, oval] - solid[:, oval])
+        beyond = 0.0 if faces is None else proxy.contour @ (faces[:, oval] - solid[:, oval])
         moved = np.asarray(share * above + (1 - share) * below + beyond, np.float32)
         keep_on_floor(moved, points, target, self._control.floor)
         return moved
@@ -221,8 +235,8 @@ def carry_motion(
     transfer = MotionTransfer(frames(neutral, neutral + 1), target, control, proxy, options, residuals)
     for start in range(0, len(track), CONTROL_CHUNK_FRAMES):
         carried = transfer(frames(start, min(start + CONTROL_CHUNK_FRAMES, len(track))))
-        for k, (offsets, depth, look) in enumerate(zip(*carried, strict=True)):
-            yield ControlMotion(start + k, offsets, depth, look)
+        for k, one in enumerate(zip(*carried, strict=True)):
+            yield ControlMotion(start + k, *one)
 
 
 def _face_in_plane(phi: Similarity, motion: HeadMotion, expression: NDArray, target: NDArray) -> NDArray[np.float64]:

@@ -179,20 +179,38 @@ def move_head(
     (N, C, 3) positions, pixels; points that do not belong to the head move rigidly too, see `share`. Those of the outline
     go with the skull's middle and turn in the plane alone: a skull that turns shows another outline, as wide as the last.
     """
-    weights = np.full(MESH_SIZE, SOFT_WEIGHT)
-    weights[list(RIGID_VERTICES)] = 1.0
-    size, between, _ = fit_similarities(motion.neutral, target[None].astype(float), weights)
-    rotation = between[0] @ motion.rotation @ between[0].T
-    pivot = skull_centre(target)
-    shift = size[0] * skull_shift(motion) @ between[0].T
-    points = np.repeat(proxy.points[None], len(rotation), axis=0)
+    carry = _HeadCarry(motion, target)
+    points = np.repeat(proxy.points[None], len(carry.rotation), axis=0)
     if expression is not None:
         points[:, :MESH_SIZE] += expression
-    arm = points - pivot
-    turned = np.einsum("nij,ncj->nci", rotation, arm)
-    rolled = np.einsum("nij,ncj->nci", _roll(rotation), arm)
+    arm = points - carry.pivot
+    turned = np.einsum("nij,ncj->nci", carry.rotation, arm)
+    rolled = np.einsum("nij,ncj->nci", _roll(carry.rotation), arm)
     turned[..., :2] += _outline(proxy, turned, rolled)[..., None] * (rolled - turned)[..., :2]
-    return np.asarray(motion.scale[:, None, None] * turned + pivot + shift[:, None], np.float32)
+    return carry.placed(turned)
+
+
+def roll_head(proxy: HeadProxy, motion: HeadMotion, target: NDArray[np.floating]) -> NDArray[np.float32]:
+    """(N, C, 2) where all points of a proxy go if they move as the skull's outline does; parameters as of `move_head`."""
+    carry = _HeadCarry(motion, target)
+    return carry.placed(np.einsum("nij,cj->nci", _roll(carry.rotation), proxy.points - carry.pivot))[..., :2]
+
+
+class _HeadCarry:
+    """A driver's motion carried to a target: `rotation` (N, 3, 3) about the `pivot` (3,)."""
+
+    def __init__(self, motion: HeadMotion, target: NDArray[np.floating]):
+        weights = np.full(MESH_SIZE, SOFT_WEIGHT)
+        weights[list(RIGID_VERTICES)] = 1.0
+        size, between, _ = fit_similarities(motion.neutral, target[None].astype(float), weights)
+        self.rotation = between[0] @ motion.rotation @ between[0].T
+        self.pivot = skull_centre(target)
+        self._scale = motion.scale[:, None, None]
+        self._place = self.pivot + (size[0] * skull_shift(motion) @ between[0].T)[:, None]
+
+    def placed(self, turned: NDArray[np.floating]) -> NDArray[np.float32]:
+        """(N, C, 3) where points go that are `turned` about the pivot."""
+        return np.asarray(self._scale * turned + self._place, np.float32)
 
 
 def followed_outline(

@@ -20,7 +20,7 @@ CURVE_STEPS = 4
 def contour_rings(mesh: NDArray[np.floating], shape: tuple[int, int]) -> NDArray[np.float64]:
     """(R, 2) points around the face of a mesh (478, 2 or 3), pixels, within a picture of `shape` (height, width): three on its contour, which is
     round, between each two of its vertices, and rings around it."""
-    curve = _round_contour(mesh[list(FACE_OVAL), :2].astype(float))
+    curve = round_contour(mesh[list(FACE_OVAL), :2].astype(float))
     between = curve[np.arange(len(curve)) % CURVE_STEPS > 0]
     forward = np.roll(curve, -1, axis=0) - np.roll(curve, 1, axis=0)
     outward = forward[:, ::-1] * (1, -1) / np.linalg.norm(forward, axis=1, keepdims=True)
@@ -30,7 +30,7 @@ def contour_rings(mesh: NDArray[np.floating], shape: tuple[int, int]) -> NDArray
     return points[((points > 1) & (points < (shape[1] - 2, shape[0] - 2))).all(axis=1)]
 
 
-def _round_contour(oval: NDArray[np.float64]) -> NDArray[np.float64]:
+def round_contour(oval: NDArray[np.float64]) -> NDArray[np.float64]:
     """(36 `CURVE_STEPS`, 2) points of the closed Catmull-Rom spline through the contour's vertices (36, 2), beginning with the first."""
     before, after, later = (np.roll(oval, shift, axis=0) for shift in (1, -1, -2))
     t = (np.arange(CURVE_STEPS) / CURVE_STEPS)[:, None, None]

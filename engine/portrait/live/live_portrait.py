@@ -112,8 +112,8 @@ class LivePortrait:
         play = self._playing
         self._frame += 1
         kept = replace(look, mesh=kept_in_frame(look.mesh, play.rest, self._reach))
-        (offsets,), (depth,), (gaze,) = play.transfer(_frames_of(kept))
-        motion = ControlMotion(self._frame, offsets, depth, gaze)
+        (offsets,), (depth,), (gaze,), (behind,) = play.transfer(_frames_of(kept))
+        motion = ControlMotion(self._frame, offsets, depth, gaze, behind)
         return Watched("live" if self._camera.visible else "no_face", 1.0, None, motion, play)
 
     def draw(self, watched: Watched) -> NDArray[np.uint8]:

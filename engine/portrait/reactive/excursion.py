@@ -33,7 +33,8 @@ class Pose:
         """The pose on its way to rest, where `weight` is 0; `rest` (C,) is the control points' depth there."""
         w, motion = np.float32(weight), self.motion
         depth = rest + w * (motion.depth - rest)
-        return Pose(ControlMotion(motion.frame, w * motion.offsets, depth, w * motion.look), weight * self.creases)
+        eased = ControlMotion(motion.frame, w * motion.offsets, depth, w * motion.look, w * motion.behind)
+        return Pose(eased, weight * self.creases)
 
 
 def excursion(motions: Sequence[ControlMotion], rest: NDArray[np.float32], fps: float, loops: bool) -> tuple[Pose, ...]:
