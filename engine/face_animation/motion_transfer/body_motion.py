@@ -116,12 +116,23 @@ def body_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDAr
     )
 
 
-def keep_on_floor(
-    offsets: NDArray[np.floating], points: NDArray[np.floating], mesh: NDArray[np.floating], floor: float
+def keep_at_borders(
+    offsets: NDArray[np.floating],
+    points: NDArray[np.floating],
+    mesh: NDArray[np.floating],
+    borders: NDArray[np.floating],
 ) -> None:
-    """Keep points (P, 2) below the face of a mesh (478, 2 or 3) from rising off the picture's lower border at `floor`, in place: offsets (N, P, 2)
-    upwards become less from the chin on and none at the border, which has nothing to show beneath it.
+    """Keep points (P, 2) around the face of a mesh (478, 2 or 3) from leaving the borders of the picture that cut the body, in place: offsets (N, P, 2).
+
+    `borders` (3,) are those to the left, to the right and below, pixels; one that cuts nobody lies at infinity. None has anything to show beyond
+    itself: inwards, the offsets of the body become less from the face on and none at the border.
     """
+    left, right, floor = borders.tolist()
     chin = float(mesh[152, 1])
     free = np.clip((floor - points[:, 1]) / max(floor - chin, 1.0), 0, 1)
     offsets[..., 1] = np.where(offsets[..., 1] < 0, free * offsets[..., 1], offsets[..., 1])
+    body = 1 - head_share(mesh, points)
+    for border, face, inwards in ((left, mesh[:, 0].min(), 1), (right, mesh[:, 0].max(), -1)):
+        if np.isfinite(border):
+            held = body * (1 - np.clip((points[:, 0] - border) / (inwards * max(abs(float(face) - border), 1.0)), 0, 1))
+            offsets[..., 0] = np.where(inwards * offsets[..., 0] > 0, (1 - held) * offsets[..., 0], offsets[..., 0])

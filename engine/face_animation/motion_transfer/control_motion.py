@@ -16,7 +16,7 @@ from engine.face_animation.motion_transfer.body_motion import (
     body_share,
     body_shift,
     hair_share,
-    keep_on_floor,
+    keep_at_borders,
     tracked_body,
     tracked_hair,
 )
@@ -212,7 +212,7 @@ class MotionTransfer:
         below = body_share(target, points)[:, None] * body[:, None]
         beyond = 0.0 if faces is None else proxy.contour @ (faces[:, oval] - solid[:, oval])
         moved = np.asarray(share * above + (1 - share) * below + beyond, np.float32)
-        keep_on_floor(moved, points, target, self._control.floor)
+        keep_at_borders(moved, points, target, self._control.borders)
         return moved
 
 

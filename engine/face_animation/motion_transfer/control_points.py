@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.contour import beside_contour, rim_distance
 from engine.face_animation.motion_transfer.fringe import fringe_share
-from engine.face_animation.motion_transfer.head_room import head_room
+from engine.face_animation.motion_transfer.head_room import EDGE_SHARE, PERSON_ALPHA, face_room, head_room
 from engine.face_animation.motion_transfer.spectacles import spectacles_share
 from engine.face_animation.warping.contour_rings import contour_rings, rings_end
 from engine.geometry.mesh.surface import area_vectors, summed_at_corners
@@ -46,7 +46,8 @@ class ControlPoints:
         nothing about the pixels there; those beside its contour, which carries them; and the irises, which stay behind the
         lids that move over them.
     room : (2, 2) how far the head may go, pixels, see `head_room`.
-    floor : where the picture ends below, pixels.
+    face_room : (2, 2) how far its face may, pixels, see `face_room`.
+    borders : (3,) where the picture ends to the left, to the right and below, pixels; at infinity where a side cuts nobody, see `body_borders`.
     bare : (478,) how far each point of the face may move by itself, in [0, 1]: not where hair hangs before it, see `fringe`, nor a frame of
         `spectacles`.
     """
@@ -55,7 +56,8 @@ class ControlPoints:
     peripheral: int
     usable: NDArray[np.bool_]
     room: NDArray[np.float64]
-    floor: float
+    face_room: NDArray[np.float64]
+    borders: NDArray[np.float64]
     bare: NDArray[np.float64]
 
     @property
@@ -107,9 +109,22 @@ def place_control_points(
     seen = facing(mesh)
     usable = np.concatenate([seen & ~beside_contour(mesh, seen), np.ones(len(points) - MESH_SIZE, bool)])
     usable[list(RIGHT_IRIS + LEFT_IRIS)] = False
-    room = head_room(mesh[:, :2] - np.array([shown.left, shown.top]), person[shown.pixels])
+    within = mesh[:, :2] - np.array([shown.left, shown.top])
+    room, of_face = (
+        head_room(within, person[shown.pixels]),
+        face_room(within, (shown.right - shown.left, shown.bottom - shown.top)),
+    )
     bare = np.ones(MESH_SIZE) if rgb is None else (1 - fringe_share(rgb, mesh)) * (1 - spectacles_share(rgb, mesh))
-    return ControlPoints(points, len(grid), usable, room, float(shown.bottom - 1), bare)
+    return ControlPoints(points, len(grid), usable, room, of_face, body_borders(mesh, person, shown), bare)
+
+
+def body_borders(mesh: NDArray[np.floating], person: NDArray[np.floating], shown: Window) -> NDArray[np.float64]:
+    """(3,) where the picture that is `shown` ends to the left, to the right and below, pixels; at infinity where a side does not cut the body of a
+    `person` (H, W) below the chin of a mesh (478, 2 or 3)."""
+    edge = max(1, round(EDGE_SHARE * min(shown.shape)))
+    below = person[int(np.clip(mesh[152, 1], shown.top, shown.bottom - 1)) : shown.bottom, shown.left : shown.right]
+    left, right = (float(side.max()) > PERSON_ALPHA for side in (below[:, :edge], below[:, -edge:]))
+    return np.array([shown.left if left else -np.inf, shown.right - 1 if right else np.inf, shown.bottom - 1], float)
 
 
 def facing(mesh: NDArray[np.floating]) -> NDArray[np.bool_]:

@@ -10,7 +10,7 @@ from engine.face_animation.motion_transfer.body_motion import (
     NECK_ROOM_FACE_LENGTHS,
     body_share,
     body_shift,
-    keep_on_floor,
+    keep_at_borders,
     tracked_body,
     tracked_hair,
 )
@@ -89,8 +89,19 @@ def test_a_body_that_the_picture_cuts_does_not_rise_off_its_border() -> None:
     points = np.array([[100.0, chin - 20], [100.0, chin + 50], [100.0, floor], [100.0, floor + 30]])
     offsets = np.tile([[6.0, -10.0]], (1, 4, 1))
     sinking = -offsets
-    keep_on_floor(offsets, points, FACE, floor)
+    keep_at_borders(offsets, points, FACE, np.array([-np.inf, np.inf, floor]))
     np.testing.assert_allclose(offsets[0], [[6, -10], [6, -5], [6, 0], [6, 0]])
     kept = sinking.copy()
-    keep_on_floor(kept, points, FACE, floor)
+    keep_at_borders(kept, points, FACE, np.array([-np.inf, np.inf, floor]))
     np.testing.assert_array_equal(kept, sinking)
+
+
+def test_a_side_that_cuts_the_body_keeps_it() -> None:
+    """What goes inwards from the left border is stretched between it and the face; the head, and what goes outwards, are free."""
+    chest, left, face = float(FACE[152, 1]) + 150, 10.0, float(FACE[:, 0].min())
+    points = np.array([[left, chest], [(left + face) / 2, chest], [face, chest], [left, FACE[10, 1]]])
+    inwards, outwards = np.full((1, 4, 2), (8.0, 0.0)), np.full((1, 4, 2), (-8.0, 0.0))
+    for offsets in (inwards, outwards):
+        keep_at_borders(offsets, points, FACE, np.array([left, np.inf, 600.0]))
+    np.testing.assert_allclose(inwards[0, :, 0], [0, 4, 8, 8], atol=1e-6)
+    np.testing.assert_array_equal(outwards[0, :, 0], -8)
