@@ -42,7 +42,7 @@ FRAMES_AHEAD = 2
 
 FREE_RIM_EYE_DISTANCES = 0.3
 """Eye distances inside the contour up to which the face gives way where the picture would fold."""
-LEAST_APART = 0.25
+MIN_SHEET_GAP_PIXELS = 0.25
 """Pixels by which the sheet behind the face differs from what is before it, to be drawn."""
 MIN_FOLD_DISTANCE_PIXELS = 8.0
 """Pixels of the enlarged picture by which neighbours are apart where lips or lids fold over the skin beside them."""
@@ -190,7 +190,7 @@ class FaceAnimation:
         """Put the face before what it hides of its head, in a `layer` (h, w, 4) with its inverse map `origin`, for offsets (V, 2) of the picture's mesh
         and how far `apart` (V, 2) from them the sheet behind is."""
         mesh = self._rig.mesh
-        shown = (np.abs(apart).max(axis=1) > LEAST_APART)[self._around_face].any(axis=1)
+        shown = (np.abs(apart).max(axis=1) > MIN_SHEET_GAP_PIXELS)[self._around_face].any(axis=1)
         sheet = replace(mesh, triangles=self._around_face[shown])
         places = (mesh.vertices + moved)[sheet.triangles].reshape(-1, 2)
         places = np.concatenate([places, places + apart[sheet.triangles].reshape(-1, 2)])

@@ -21,7 +21,7 @@ from engine.face_animation.motion_transfer.head_proxy import (
 )
 from engine.face_animation.motion_transfer.head_room import soft_limit
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.landmarks import MESH_SIZE
+from engine.perception.landmarks import CHIN_VERTEX, MESH_SIZE
 
 NECK_ROOM_FACE_LENGTHS = (0.35, (0.18, 0.25))
 """How far a head goes from its place on the shoulders, in lengths from eyes to chin: to either side; up and down."""
@@ -128,7 +128,7 @@ def keep_at_borders(
     itself: inwards, the offsets of the body become less from the face on and none at the border.
     """
     left, right, floor = borders.tolist()
-    chin = float(mesh[152, 1])
+    chin = float(mesh[CHIN_VERTEX, 1])
     free = np.clip((floor - points[:, 1]) / max(floor - chin, 1.0), 0, 1)
     offsets[..., 1] = np.where(offsets[..., 1] < 0, free * offsets[..., 1], offsets[..., 1])
     body = 1 - head_share(mesh, points)

@@ -144,7 +144,7 @@ class MotionTransfer:
             placed = self._corrected(frames, control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE])
             offsets[:, control.periphery] = self._carried_around(frames)
         else:
-            held = hold_back(scaled, phi, control.room, self._turned)
+            held = hold_back(scaled, phi, control.room, self._turned, control.face_room)
             solid = move_head(proxy, held, target)
             face = move_head(proxy, held, target, expression)[:, :MESH_SIZE]
             depths = solid[..., 2]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.contour import beside_contour, rim_distance
 from engine.face_animation.motion_transfer.fringe import fringe_share
-from engine.face_animation.motion_transfer.head_room import EDGE_SHARE, PERSON_ALPHA, face_room, head_room
+from engine.face_animation.motion_transfer.head_room import MIN_PERSON_ALPHA, PICTURE_BORDER_SHARE, face_room, head_room
 from engine.face_animation.motion_transfer.spectacles import spectacles_share
 from engine.face_animation.warping.contour_rings import contour_rings, rings_end
 from engine.geometry.mesh.surface import area_vectors, summed_at_corners
@@ -22,7 +22,7 @@ from engine.geometry.registration.rigid import Similarity
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.window import Window
 from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
+from engine.perception.landmarks import CHIN_VERTEX, LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
 
 PERIPHERY_SPACING_EYE_DISTANCES = 0.5
 """Distance of peripheral points, in eye distances."""
@@ -121,9 +121,11 @@ def place_control_points(
 def body_borders(mesh: NDArray[np.floating], person: NDArray[np.floating], shown: Window) -> NDArray[np.float64]:
     """(3,) where the picture that is `shown` ends to the left, to the right and below, pixels; at infinity where a side does not cut the body of a
     `person` (H, W) below the chin of a mesh (478, 2 or 3)."""
-    edge = max(1, round(EDGE_SHARE * min(shown.shape)))
-    below = person[int(np.clip(mesh[152, 1], shown.top, shown.bottom - 1)) : shown.bottom, shown.left : shown.right]
-    left, right = (float(side.max()) > PERSON_ALPHA for side in (below[:, :edge], below[:, -edge:]))
+    edge = max(1, round(PICTURE_BORDER_SHARE * min(shown.shape)))
+    below = person[
+        int(np.clip(mesh[CHIN_VERTEX, 1], shown.top, shown.bottom - 1)) : shown.bottom, shown.left : shown.right
+    ]
+    left, right = (float(side.max()) > MIN_PERSON_ALPHA for side in (below[:, :edge], below[:, -edge:]))
     return np.array([shown.left if left else -np.inf, shown.right - 1 if right else np.inf, shown.bottom - 1], float)
 
 

@@ -21,6 +21,8 @@ from engine.perception.landmarks import FACE_OVAL, NOSE_TIP_VERTEX, RIGID_VERTIC
 
 FREE_ROOM_SHARE = 0.5
 """Share of the room over which nothing is held back."""
+FREE_FACE_ROOM_SHARE = 0.7
+"""The same for the face's contour on its way to the picture's border: as it goes by the skull's shift and by the turn."""
 MIN_ROOM_FACE_LENGTHS = 0.08
 """Room that there always is, in lengths from eyes to chin."""
 CUT_HAIR_SHARE = 0.35
@@ -73,12 +75,22 @@ def head_room(mesh: NDArray[np.floating], person: NDArray[np.floating]) -> NDArr
     return np.asarray(room * [[-1], [1]], float)
 
 
+def face_room(mesh: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np.float64]:
+    """(2, 2) by how much the contour of a face (478, 2 or 3) may move in a picture of `size` (w, h): (left, up), both negative, and (right, down),
+    pixels."""
+    oval = mesh[list(FACE_OVAL), :2].astype(float)
+    eyes, chin = eyes_and_chin(mesh)
+    least = MIN_ROOM_FACE_LENGTHS * float(np.linalg.norm(chin - eyes))
+    free = np.stack([oval.min(axis=0), np.array(size) - 1 - oval.max(axis=0)])
+    return np.asarray(np.maximum(free, least) * [[-1], [1]], float)
+
+
 def soft_limit(
-    values: NDArray[np.floating], low: NDArray[np.floating], high: NDArray[np.floating]
+    values: NDArray[np.floating], low: NDArray[np.floating], high: NDArray[np.floating], free: float = FREE_ROOM_SHARE
 ) -> NDArray[np.float64]:
-    """Values as they are over `FREE_ROOM_SHARE` of the way to `low` < 0 and `high` > 0, then ever less, never reaching them."""
+    """Values as they are over a `free` share of the way to `low` < 0 and `high` > 0, then ever less, never reaching them."""
     end = np.where(values < 0, -np.asarray(low), high)
-    begin = FREE_ROOM_SHARE * end
+    begin = free * end
     beyond = np.maximum(np.abs(values) - begin, 0)
     return np.asarray(
         np.sign(values) * (np.minimum(np.abs(values), begin) + (end - begin) * np.tanh(beyond / (end - begin)))
@@ -135,9 +147,14 @@ def skull_shift(motion: HeadMotion) -> NDArray[np.float64]:
 
 
 def hold_back(
-    motion: HeadMotion, phi: Similarity, room: NDArray[np.floating], turned: tuple[float, float] = (0.0, 0.0)
+    motion: HeadMotion,
+    phi: Similarity,
+    room: NDArray[np.floating],
+    turned: tuple[float, float] = (0.0, 0.0),
+    face: NDArray[np.floating] | None = None,
 ) -> HeadMotion:
-    """A driver's motion as far as the target can follow it: the skull's shift within `room` (2, 2), pixels of the target.
+    """A driver's motion as far as the target can follow it: the skull's shift within `room` (2, 2), and what the `face` (2, 2) has of it, see
+    `face_room`, pixels of the target.
 
     phi : from the driver's neutral frame to the target, in the plane. turned : as `limit_rotation` has it.
     """
@@ -147,5 +164,22 @@ def hold_back(
     end = np.array(MAX_LOG_SIZE_CHANGE)
     scale = np.exp(soft_limit(np.log(motion.scale), -end, end))
     rotation = limit_rotation(motion.rotation, turned)
+    if face is not None:
+        oval = motion.neutral[list(FACE_OVAL)]
+        apart = (
+            scale[:, None, None] * ((oval - centre) @ rotation.transpose(0, 2, 1)) - (oval - centre) + moved[:, None]
+        )
+        apart = phi.offsets(apart[..., :2])
+        ends = phi.offsets(oval[:, :2])
+        moved[:, :2] -= phi.inverse().offsets(_excess(apart + ends, ends, face))
     shift = centre + moved - scale[:, None] * (rotation @ centre)
     return replace(motion, scale=scale, rotation=rotation, shift=shift)
+
+
+def _excess(
+    contours: NDArray[np.floating], rest: NDArray[np.floating], room: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """(N, 2) by how much contours (N, 36, 2) go further from `rest` (36, 2) than their `room` (2, 2), at their ends to each side."""
+    low = np.minimum(contours.min(axis=1) - rest.min(axis=0), 0)
+    high = np.maximum(contours.max(axis=1) - rest.max(axis=0), 0)
+    return np.asarray(sum(end - soft_limit(end, room[0], room[1], FREE_FACE_ROOM_SHARE) for end in (low, high)))

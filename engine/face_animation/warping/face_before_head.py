@@ -9,16 +9,16 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.face_animation.warping.contour_rings import round_contour
 from engine.face_animation.warping.warp_mesh import WarpMesh
-from engine.imaging.warping.mesh_warp import NOWHERE
+from engine.imaging.warping.mesh_warp import UNCOVERED_ORIGIN_PIXELS
 from engine.perception.landmarks import FACE_OVAL, eye_distance
 
-SKIN_BEYOND_EYE_DISTANCES = 0.06
+SKIN_RIM_EYE_DISTANCES = 0.06
 """By which what goes with the face reaches beyond its contour: skin ends a little outside of that, often in a dark line."""
-SAMPLES = 3
+SAMPLES_PER_SIDE = 3
 """Of each pixel along each side, at the edge and where the picture is squeezed before it, which would come as specks."""
-CLOSE = 4
-"""Times `SKIN_BEYOND_EYE_DISTANCES` from the face's edge up to where the picture may be so squeezed."""
-MOST_SQUEEZED = 2.0
+SQUEEZED_RIM_WIDTHS = 4
+"""Times `SKIN_RIM_EYE_DISTANCES` from the face's edge up to where the picture may be so squeezed."""
+MAX_ONE_SAMPLE_SQUEEZE = 2.0
 """Pixels of the picture to one of the result up to which one sample of it is enough."""
 
 
@@ -30,7 +30,7 @@ class FaceBeforeHead:
         inside = np.zeros(shape, np.uint8)
         cv2.fillPoly(inside, [np.rint(contour).astype(np.int32)], (1,))
         within, beyond = (cv2.distanceTransform(one, cv2.DIST_L2, 5) for one in (inside, 1 - inside))
-        self._reach = np.float32(SKIN_BEYOND_EYE_DISTANCES * eye_distance(mesh[:, :2]))
+        self._reach = np.float32(SKIN_RIM_EYE_DISTANCES * eye_distance(mesh[:, :2]))
         self._depth = np.asarray(within - beyond + self._reach, np.float32)
 
     def around(self, mesh: WarpMesh) -> NDArray[np.int32]:
@@ -53,7 +53,7 @@ class FaceBeforeHead:
         ----------
         person : the picture's layer at twice its size, and carried on by a `margin` beyond its border, pixels of the picture.
         face, behind : (h, w, 2) the inverse maps of both sheets, into the picture at twice its size; where the one behind leaves the
-            result to the other it is `NOWHERE`.
+            result to the other it is `UNCOVERED_ORIGIN_PIXELS`.
         """
         _cover(layer, person, np.float32(2 * margin), face, behind, self._depth, self._reach)
 
@@ -65,17 +65,17 @@ def _cover(layer, person, margin, face, behind, depth, reach):  # type: ignore[n
     sums, step, back = np.zeros(4, np.float32), np.zeros((4, 2), np.float32), np.zeros((4, 2), np.float32)
     for y in range(height):
         for x in range(width):
-            one_sheet = behind[y, x, 0] < NOWHERE / 2
+            one_sheet = behind[y, x, 0] < UNCOVERED_ORIGIN_PIXELS / 2
             here = _depth_at(depth, face[y, x, 0], face[y, x, 1])
-            far = abs(here) > CLOSE * reach
+            far = abs(here) > SQUEEZED_RIM_WIDTHS * reach
             if far and (one_sheet or here > 0):
                 continue
             squeezed = np.float32(0)
             if not far and (one_sheet or here > 0):
                 squeezed = _steps(face, y, x, step)
-            if (one_sheet or here > reach + squeezed) and squeezed <= MOST_SQUEEZED:
+            if (one_sheet or here > reach + squeezed) and squeezed <= MAX_ONE_SAMPLE_SQUEEZE:
                 continue
-            count = SAMPLES if squeezed > MOST_SQUEEZED else 1
+            count = SAMPLES_PER_SIDE if squeezed > MAX_ONE_SAMPLE_SQUEEZE else 1
             if count > 1 and not one_sheet:
                 _steps(behind, y, x, back)
             edge = max(reach, squeezed)
@@ -110,7 +110,7 @@ def _steps(origin, y, x, step):  # type: ignore[no-untyped-def]
         row, column = y + (k // 2) * (2 * (k % 2) - 1), x + (1 - k // 2) * (2 * (k % 2) - 1)
         step[k, 0] = step[k, 1] = np.float32(0)
         inside = 0 <= row < origin.shape[0] and 0 <= column < origin.shape[1]
-        if inside and origin[row, column, 0] > NOWHERE / 2:
+        if inside and origin[row, column, 0] > UNCOVERED_ORIGIN_PIXELS / 2:
             along, across = origin[row, column, 0] - origin[y, x, 0], origin[row, column, 1] - origin[y, x, 1]
             step[k, 0], step[k, 1] = along, across
             largest = max(largest, np.sqrt(along * along + across * across) / 2)

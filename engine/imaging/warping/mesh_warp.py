@@ -9,7 +9,7 @@ from engine.compiled import njit
 
 BARYCENTRIC_TOLERANCE = 1e-4
 """By how much a pixel may lie outside a triangle, in barycentric coordinates, and still count as in it."""
-NOWHERE = -1.0e4
+UNCOVERED_ORIGIN_PIXELS = -1.0e4
 """Pixels: where what no triangle covers is said to come from."""
 UNBOUNDED_ROW_PIXELS = 1e9
 """Pixels: a bound that no row reaches."""
@@ -149,7 +149,7 @@ def inverse_map(
     triangles: NDArray[np.int32],
     shape: tuple[int, int],
     depth: NDArray[np.float32] | None = None,
-    outside: float = NOWHERE,
+    outside: float = UNCOVERED_ORIGIN_PIXELS,
 ) -> NDArray[np.float32]:
     """Piecewise-linear inverse map of a mesh (Averbuch-Elor et al. 2017, section 4, "inverse mapping").
 

@@ -16,6 +16,7 @@ from engine.face_animation.motion_transfer.head_room import (
     MAX_STRETCH_RATIO,
     MAX_TURN_RADIANS,
     MIN_TURN_RADIANS,
+    face_room,
     head_room,
     hold_back,
     limit_rotation,
@@ -85,6 +86,19 @@ def test_large_motion_saturates_and_the_expression_stays(face: NDArray) -> None:
     turned = held.rotation[0] @ driver.T
     assert turn_angles(turned.T[None], driver)[0] <= MAX_TURN_RADIANS + 1e-6
     np.testing.assert_array_equal(held.expression, motion.expression)
+
+
+@pytest.mark.parametrize("yaw", [-25.0, 0.0, 25.0])
+def test_a_face_stays_in_the_picture_however_it_is_turned(face: NDArray, yaw: float) -> None:
+    """A turn carries the face on beyond where the skull goes; near rest nothing is held back."""
+    size, oval = (320, 320), list(FACE_OVAL)
+    room, wide = face_room(face, size), np.array([[-900, -900], [900, 900]])
+    for shift in ((90, 40, 0), (-90, -60, 0)):
+        held = hold_back(moved(face, turn(yaw=yaw), shift), align(face, face), wide, face=room)
+        placed_so = held.scale[0] * face[oval] @ held.rotation[0].T + held.shift[0]
+        assert (placed_so[:, :2] >= 0).all() and (placed_so[:, :2] <= np.array(size) - 1).all()
+    little = moved(face, turn(yaw=yaw / 5), (3, -2, 0))
+    np.testing.assert_allclose(hold_back(little, align(face, face), wide, face=room).shift, little.shift, atol=1e-6)
 
 
 @pytest.mark.parametrize("turned", [0.0, 10.0, 20.0, 30.0])
