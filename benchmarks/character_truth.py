@@ -55,7 +55,7 @@ PERSON_TURN_DEGREES = 25.0
 """By which some people are turned from the camera."""
 CHARACTER_TRIANGLES = 60_000
 """Triangles of a character, as it is written unless asked for otherwise."""
-FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
+FINGER_JOINT_NAMES = ("Thumb", "Index", "Middle", "Ring", "Pinky")
 """As the names of their joints have them."""
 
 
@@ -145,7 +145,7 @@ def joint_errors(fitted: FittedBody, truth: NDArray[np.float64]) -> tuple[float,
     heads = human.space.joints(fit.coefficients)
     transforms = bone_transforms(human.rig.parents, heads, fit.rotations, fit.root_translation - heads[0])
     joints = np.einsum("jab,jb->ja", transforms[:, :3, :3], heads) + transforms[:, :3, 3]
-    body = [k for k, name in enumerate(human.rig.names) if not any(finger in name for finger in FINGERS)]
+    body = [k for k, name in enumerate(human.rig.names) if not any(finger in name for finger in FINGER_JOINT_NAMES)]
     off = 100 * np.linalg.norm(fit_similarity(joints[body], truth[body])(joints[body]) - truth[body], axis=1)
     return float(off.mean()), float(off.max())
 

@@ -29,7 +29,7 @@ from benchmarks.shared_media import media, write_clip
 from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.video import read_video
-from engine.performances import STATES, names, performance, video
+from engine.performances import PERFORMANCE_STATES, names, performance, video
 from engine.portrait.driver_segments import find_segments
 from engine.portrait.driver_segments.pipeline import DriverSegment
 
@@ -150,7 +150,7 @@ def labels() -> dict[str, tuple[list[Stretch], list[Stretch]]]:
 def main() -> None:
     head = ("state", "right", "wrong", "found", "missed", "precision", "recall")
     tables: dict[str, dict[str, Tally]] = {
-        title: {state: Tally() for state in STATES} for title in (JOINED_TITLE, *VIDEO_ALTERATIONS)
+        title: {state: Tally() for state in PERFORMANCE_STATES} for title in (JOINED_TITLE, *VIDEO_ALTERATIONS)
     }
     faults, seconds, spent = [], 0.0, 0.0
     with tempfile.TemporaryDirectory() as folder:

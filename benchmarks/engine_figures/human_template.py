@@ -23,7 +23,7 @@ from engine.geometry.rigging.skinning import skin
 from engine.motion.kinematics import pose_transforms
 from engine.motion.library import built_in
 
-FRAMES, REPEATS = 100, 5
+POSED_FRAME_COUNT, REPEAT_COUNT = 100, 5
 GOAL_TIME, GOAL_SIZE = "0.3 s", "40 MB"
 COMPARED_COMPONENT_COUNTS = (1, 5, 10, 20, 30, 40)
 
@@ -34,14 +34,14 @@ def speed() -> None:
     load_shape_space()
     body = template.vertices_of("body")
     clip = built_in("dance", space.skeleton(np.zeros(1)))
-    rotations = np.resize(clip.rotations, (FRAMES, *clip.rotations.shape[1:]))
-    root = np.resize(clip.root, (FRAMES, 3))
+    rotations = np.resize(clip.rotations, (POSED_FRAME_COUNT, *clip.rotations.shape[1:]))
+    root = np.resize(clip.root, (POSED_FRAME_COUNT, 3))
     bound = space.mean[body], rig.bones[body], rig.weights[body]
     transforms = pose_transforms(space.skeleton(np.zeros(1)), rotations, root)
     cases: dict[str, Callable[[], object]] = {
         "load: mesh, rig, space of shapes": lambda: (load_template(), load_rig(HUMAN_RIG), load_body_space()),
         "load: phenotypes and local shapes too": lambda: (load_rig(HUMAN_RIG), load_body_space(), load_shape_space()),
-        f"skin {len(body)} vertices x {FRAMES} frames": lambda: skin(*bound, transforms),
+        f"skin {len(body)} vertices x {POSED_FRAME_COUNT} frames": lambda: skin(*bound, transforms),
     }
     rows = [[name, f"{_least(work):.3f} s", GOAL_TIME] for name, work in cases.items()]
     files = (cache_folder() / "template").glob(f"*-{makehuman.version()}-{CACHE_FORMAT}.npz")
@@ -61,7 +61,7 @@ def variance() -> None:
 def _least(work: Callable[[], object]) -> float:
     """Seconds."""
     taken = []
-    for _ in range(REPEATS + 1):
+    for _ in range(REPEAT_COUNT + 1):
         started = time.perf_counter()
         work()
         taken.append(time.perf_counter() - started)

@@ -27,7 +27,7 @@ from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_E
 from engine.perception.segmentation import person_confidence
 from engine.portrait.options import PortraitOptions
 
-MAX_COMPARED_FRAMES, COMPARED_FRAME_STEP = 240, 8
+MAX_CLIP_FRAMES, COMPARED_FRAME_STEP = 240, 8
 """As the yardsticks were taken: every 8th of the first 240 frames."""
 PICTURE_REGIONS = ("face", "mouth", "eyes", "hair", "background")
 """`hair` is the person outside the face: hair, ears, neck and shoulders."""
@@ -128,7 +128,7 @@ def pair(pictures: Path | None) -> None:
 def _prepared(path: Path, folder: Path, with_self: bool) -> tuple[list[NDArray[np.uint8]], Acting, Acting]:
     """The true frames; the first one with the disguised clip; and with the clip itself where asked for."""
     measures = tool("face_measures")
-    true = measures.frames(path, MAX_COMPARED_FRAMES)
+    true = measures.frames(path, MAX_CLIP_FRAMES)
     height, width = (side - side % 2 for side in true[0].shape[:2])
     true = [np.ascontiguousarray(frame[:height, :width]) for frame in true]
     disguised = tool("disguise").disguise(true, measures.Landmarker()(true[0]))

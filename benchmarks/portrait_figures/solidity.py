@@ -24,7 +24,7 @@ FILMED_YAW_DEGREES = (0.0, -6.0, -12.0, -18.0, -25.0, -18.0, -12.0, -6.0, 0.0, 6
 """Degrees, after the frames at rest: no step is longer than people's turns are."""
 PICTURED_FACE_PIXELS = 256.0
 """Width of the face, pixels, at which distances are given."""
-MIN_WELL_SEEN_COSINE = 0.25
+MIN_COUNTED_COSINE = 0.25
 """Cosine between a surface and the line of sight from which on a vertex is seen well, at rest and turned."""
 
 
@@ -53,7 +53,7 @@ def solidity() -> None:
     for degrees in sorted(set(FILMED_YAW_DEGREES) - {0.0}):
         index = len(angles) - 1 - angles[::-1].index(degrees)
         there, still_seen = project_scan(scan, degrees, TURNED_PICTURE_SIZE, HEAD_ZOOM_FACTOR)
-        chosen = np.flatnonzero(beside & above & (seen > MIN_WELL_SEEN_COSINE) & (still_seen > MIN_WELL_SEEN_COSINE))
+        chosen = np.flatnonzero(beside & above & (seen > MIN_COUNTED_COSINE) & (still_seen > MIN_COUNTED_COSINE))
         made = _carried(animation, motions[index], rig.mesh, rest[chosen])
         apart = np.linalg.norm(made - there[chosen], axis=1) * PICTURED_FACE_PIXELS / width
         still = np.linalg.norm(rest[chosen] - there[chosen], axis=1) * PICTURED_FACE_PIXELS / width

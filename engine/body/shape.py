@@ -17,7 +17,7 @@ from engine.body.template import load_template
 AGE_ANCHORS = {"baby": 0.0, "child": 0.1875, "young": 0.5, "old": 1.0}
 """Anchors of the age axis: about 1, 11, 25 and 90 years."""
 
-RACES = ("african", "asian", "caucasian")
+PHENOTYPE_RACES = ("african", "asian", "caucasian")
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ def phenotype_weights(phenotype: Phenotype) -> dict[str, float]:
     heights = _between(phenotype.height, {"minheight": 0.0, "": 0.5, "maxheight": 1.0})
     proportions = _between(phenotype.proportions, {"uncommonproportions": 0.0, "": 0.5, "idealproportions": 1.0})
     total = phenotype.african + phenotype.asian + phenotype.caucasian
-    races = {race: getattr(phenotype, race) / total for race in RACES}
+    races = {race: getattr(phenotype, race) / total for race in PHENOTYPE_RACES}
     found = _products(races, genders, ages)
     found |= {f"universal-{name}": weight for name, weight in _products(genders, ages, muscles, weights).items()}
     for axis in (heights, proportions):

@@ -6,6 +6,15 @@ project's own, so that nobody's likeness is shipped. Reading order for how: `sco
 `filming` (frame after frame).
 """
 
-from engine.performances.catalogue import STATES, Performance, State, catalogue, names, performance, poster, video
+from engine.performances.catalogue import (
+    PERFORMANCE_STATES,
+    Performance,
+    State,
+    catalogue,
+    names,
+    performance,
+    poster,
+    video,
+)
 
-__all__ = ["STATES", "Performance", "State", "catalogue", "names", "performance", "poster", "video"]
+__all__ = ["PERFORMANCE_STATES", "Performance", "State", "catalogue", "names", "performance", "poster", "video"]

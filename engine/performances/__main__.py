@@ -17,7 +17,15 @@ from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.image import write_image
 from engine.media.video import read_video
-from engine.performances.catalogue import FPS, POSTER_SIDE_PIXELS, VIDEOS, names, performance, scored, video
+from engine.performances.catalogue import (
+    PERFORMANCE_FPS,
+    POSTER_SIDE_PIXELS,
+    VIDEO_FOLDER,
+    names,
+    performance,
+    scored,
+    video,
+)
 from engine.performances.modelling.actor import build_actor
 from engine.performances.rendering.filming import film
 from engine.performances.rendering.lighting import lamps
@@ -35,17 +43,19 @@ def main() -> None:
 
 @main.command()
 @click.argument("chosen", nargs=-1, type=click.Choice([one.name for one in scored()]))
-@click.option("--folder", type=click.Path(path_type=Path), default=VIDEOS, help="Where the videos go.")
+@click.option("--folder", type=click.Path(path_type=Path), default=VIDEO_FOLDER, help="Where the videos go.")
 @click.option("--proof", is_flag=True, help="Rough and quick.")
 def render(chosen: tuple[str, ...], folder: Path, proof: bool) -> None:
     """Render the performances CHOSEN, or all."""
     folder.mkdir(parents=True, exist_ok=True)
     actor = build_actor(lamps(HAIR_LAMPS))
     for name in chosen or [one.name for one in scored()]:
-        poses = [SCORES[name](index / FPS) for index in range(round(performance(name).seconds * FPS))]
+        poses = [
+            SCORES[name](index / PERFORMANCE_FPS) for index in range(round(performance(name).seconds * PERFORMANCE_FPS))
+        ]
         frames = film(actor, poses, 1, 0.35) if proof else film(actor, poses)
         with VideoWriter(
-            VideoTarget(folder / f"{name}.mp4", (FRAME_SIDE_PIXELS, FRAME_SIDE_PIXELS), FPS, crf=VIDEO_CRF)
+            VideoTarget(folder / f"{name}.mp4", (FRAME_SIDE_PIXELS, FRAME_SIDE_PIXELS), PERFORMANCE_FPS, crf=VIDEO_CRF)
         ) as writer:
             for index, frame in enumerate(frames):
                 writer.write(frame)
@@ -55,7 +65,7 @@ def render(chosen: tuple[str, ...], folder: Path, proof: bool) -> None:
 
 @main.command()
 @click.argument("chosen", nargs=-1, type=click.Choice(names()))
-@click.option("--folder", type=click.Path(path_type=Path), default=VIDEOS, help="Where the videos are.")
+@click.option("--folder", type=click.Path(path_type=Path), default=VIDEO_FOLDER, help="Where the videos are.")
 def posters(chosen: tuple[str, ...], folder: Path) -> None:
     """Take the posters of the performances CHOSEN, or all, from their videos."""
     for name in chosen or names():

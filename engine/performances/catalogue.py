@@ -8,16 +8,16 @@ from typing import Literal, get_args
 
 from engine.package_data import package_folder
 
-FPS = 30
+PERFORMANCE_FPS = 30
 POSTER_SIDE_PIXELS = 256
 """Pixels of a poster."""
 
-VIDEOS = package_folder("engine.performances", "videos")
+VIDEO_FOLDER = package_folder("engine.performances", "videos")
 """The rendered performances ship with the package; `python -m engine.performances render` made them."""
 
 
 State = Literal["idle", "happy", "surprise", "anger", "fear", "sadness", "nod", "shake", "wink", "talk"]
-STATES: tuple[State, ...] = get_args(State)
+PERFORMANCE_STATES: tuple[State, ...] = get_args(State)
 
 Strength = Literal["normal", "strong"]
 
@@ -28,7 +28,7 @@ class Performance:
 
     It shows a `state` in a `strength`, starts and ends in the same neutral pose, and `neutral_frame` is the frame
     that shows it best. `loops`: the last frame leads into the first. `poster_frame` is the one that shows what
-    happens; `poster_frame / FPS` lies within `seconds`.
+    happens; `poster_frame / PERFORMANCE_FPS` lies within `seconds`.
     """
 
     name: str
@@ -83,7 +83,7 @@ def scored() -> tuple[Performance, ...]:
 
 def catalogue() -> tuple[Performance, ...]:
     """All built-in performances: those that were filmed."""
-    return tuple(one for one in PERFORMANCES if (VIDEOS / f"{one.name}.mp4").is_file())
+    return tuple(one for one in PERFORMANCES if (VIDEO_FOLDER / f"{one.name}.mp4").is_file())
 
 
 def names() -> tuple[str, ...]:
@@ -116,7 +116,7 @@ def video(name: str, folder: Path | None = None) -> Path:
     KeyError : there is no such performance.
     FileNotFoundError : `folder` does not hold it.
     """
-    path = (folder or VIDEOS) / f"{performance(name).name}.mp4"
+    path = (folder or VIDEO_FOLDER) / f"{performance(name).name}.mp4"
     if not path.is_file():
         raise FileNotFoundError(f"{path} does not exist: make it with python -m engine.performances render {name}")
     return path
@@ -124,7 +124,7 @@ def video(name: str, folder: Path | None = None) -> Path:
 
 def poster(name: str, folder: Path | None = None) -> Path:
     """A small picture (JPEG, 256 x 256) of a performance at its height; raises as `video` does."""
-    path = (folder or VIDEOS) / f"{performance(name).name}.jpg"
+    path = (folder or VIDEO_FOLDER) / f"{performance(name).name}.jpg"
     if not path.is_file():
         raise FileNotFoundError(f"{path} does not exist: make it with python -m engine.performances posters {name}")
     return path

@@ -16,7 +16,7 @@ from engine.face_animation.target_face import TargetFace
 from engine.kind import Candidates
 from engine.package_data import package_data
 from engine.performances import names
-from engine.performances.catalogue import VIDEOS
+from engine.performances.catalogue import VIDEO_FOLDER
 from engine.portrait.appearance import Appearance, appearance_of_driver, appearance_of_face
 from engine.run import Run
 
@@ -115,7 +115,7 @@ def missing_expression(target: Appearance, driver: Appearance) -> NDArray[np.flo
 
 def known_appearance(path: Path) -> Appearance | None:
     """The appearance of a built-in performance; None for any other file."""
-    if path.parent != VIDEOS or path.stem not in names():
+    if path.parent != VIDEO_FOLDER or path.stem not in names():
         return None
     return library_appearances().get(path.stem)
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from engine.media.limits import Limits
 from engine.performances import names, video
-from engine.performances.catalogue import VIDEOS
+from engine.performances.catalogue import VIDEO_FOLDER
 from engine.portrait.appearance import Appearance, appearance_of_driver
 
 FIGURE_PERFORMANCE = "idle"
@@ -37,4 +37,4 @@ def _rounded(values: NDArray[np.float32]) -> Any:
 
 
 if __name__ == "__main__":
-    (VIDEOS / "appearances.json").write_text(json.dumps(measure_library(), separators=(",", ":")) + "\n")
+    (VIDEO_FOLDER / "appearances.json").write_text(json.dumps(measure_library(), separators=(",", ":")) + "\n")

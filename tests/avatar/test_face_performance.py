@@ -14,7 +14,7 @@ from engine.media.excerpt import Excerpt
 from engine.motion import rotation
 from engine.motion.library import built_in
 from engine.performances import video
-from engine.performances.catalogue import FPS
+from engine.performances.catalogue import PERFORMANCE_FPS
 from engine.performances.scores.score import SCORES
 
 
@@ -24,7 +24,7 @@ def happy() -> FacePerformance:
 
 
 def test_a_smile_a_blink_and_a_jaw_are_captured_in_time_and_strength(happy: FacePerformance) -> None:
-    acted = [SCORES["happy"](frame / FPS).units for frame in range(len(happy.head))]
+    acted = [SCORES["happy"](frame / PERFORMANCE_FPS).units for frame in range(len(happy.head))]
     for unit, tolerance in (("mouthSmileLeft", 0.2), ("mouthSmileRight", 0.2), ("eyeBlinkLeft", 0.2), ("jawOpen", 0.1)):
         truth = np.array([units.get(unit, 0.0) for units in acted])
         found = happy.units.of([unit])[:, 0]

@@ -19,7 +19,7 @@ from engine.media.video import probe_video, read_video
 from engine.perception.faces import FaceTracker
 from engine.perception.head_pose import head_pose
 from engine.performances import catalogue, names, performance, poster, video
-from engine.performances.catalogue import FPS, POSTER_SIDE_PIXELS
+from engine.performances.catalogue import PERFORMANCE_FPS, POSTER_SIDE_PIXELS
 from engine.performances.scores.score import SCORES
 
 MEBIBYTE = 2**20
@@ -106,8 +106,8 @@ def watched() -> dict[str, Watched]:
 def test_the_videos_are_what_the_catalogue_says() -> None:
     for entry in catalogue():
         info = probe_video(video(entry.name))
-        assert (info.width, info.height, info.fps) == (512, 512, FPS)
-        assert info.frames == round(entry.seconds * FPS)
+        assert (info.width, info.height, info.fps) == (512, 512, PERFORMANCE_FPS)
+        assert info.frames == round(entry.seconds * PERFORMANCE_FPS)
         assert not info.has_sound
     sizes = [video(name).stat().st_size for name in names()]
     assert max(sizes) < MEBIBYTE and sum(sizes) < 8 * MEBIBYTE
@@ -152,11 +152,11 @@ def test_all_start_and_end_in_the_same_neutral_face(watched: dict[str, Watched],
 def test_blinks_shut_both_eyes(watched: dict[str, Watched], name: str) -> None:
     """Wherever the score shuts both lids the eyes are seen shut, and in every performance they are, but not for long."""
     openings = watched[name].eye_openings
-    lids = [SCORES[name](index / FPS).units for index in range(len(openings))]
+    lids = [SCORES[name](index / PERFORMANCE_FPS).units for index in range(len(openings))]
     scored = np.array([min(units.get("eyeBlinkLeft", 0), units.get("eyeBlinkRight", 0)) > 0.98 for units in lids])
     assert scored.any() and openings[scored].max() < 0.13
     shut = (openings < 0.12).all(1)
-    assert shut.sum() < 0.3 * FPS * (np.diff(scored.astype(int)) == 1).sum() + 0.1 * FPS
+    assert shut.sum() < 0.3 * PERFORMANCE_FPS * (np.diff(scored.astype(int)) == 1).sum() + 0.1 * PERFORMANCE_FPS
 
 
 @pytest.mark.parametrize("name", names())
@@ -204,7 +204,7 @@ def test_heads_shake_sideways_and_nod_up_and_down(watched: dict[str, Watched], n
 @pytest.mark.parametrize("name", ["wink", "wink-strong"])
 def test_a_wink_is_seen_in_one_eye(watched: dict[str, Watched], name: str) -> None:
     left, right = watched[name].eye_openings.T
-    winking = slice(round(0.52 * FPS), round(0.72 * FPS))
+    winking = slice(round(0.52 * PERFORMANCE_FPS), round(0.72 * PERFORMANCE_FPS))
     assert left[winking].max() < 0.13 and right[winking].min() > 0.2
 
 
@@ -240,7 +240,7 @@ def test_strong_is_stronger(watched: dict[str, Watched], state: str, measure: st
 def test_happy_is_as_broad_as_a_real_grin(watched: dict[str, Watched]) -> None:
     """Real: the mouth grows from 0.80 to 1.15 and opens by 0.10 to 0.26; the eyes narrow by a sixth."""
     happy = watched["happy"]
-    apex = slice(round(1.3 * FPS), round(2.2 * FPS))
+    apex = slice(round(1.3 * PERFORMANCE_FPS), round(2.2 * PERFORMANCE_FPS))
     assert np.median(happy.mouth_width[apex]) / happy.mouth_width[0] > 1.28
     assert 0.08 < np.median(happy.mouth_opening[apex]) < 0.30
     assert np.median(happy.eye_openings[apex]) < 0.93 * np.median(happy.eye_openings[:6])
@@ -251,7 +251,7 @@ def test_happy_is_as_broad_as_a_real_grin(watched: dict[str, Watched]) -> None:
 def test_surprise_opens_eyes_and_mouth_and_lifts_the_brows(watched: dict[str, Watched]) -> None:
     """Real: lids from 0.33 to 0.40, mouth 0.28 and more, brows up by 0.06 to 0.10."""
     surprise = watched["surprise"]
-    apex = slice(round(0.9 * FPS), round(1.4 * FPS))
+    apex = slice(round(0.9 * PERFORMANCE_FPS), round(1.4 * PERFORMANCE_FPS))
     assert np.median(surprise.mouth_opening[apex]) > 0.24
     assert np.median(surprise.eye_openings[apex]) > 1.15 * np.median(surprise.eye_openings[:5])
     assert np.median(surprise.brow_height[apex]) > surprise.brow_height[0] + 0.05
@@ -276,7 +276,7 @@ def test_furrows_come_with_the_brows(watched: dict[str, Watched]) -> None:
         profile = patch.astype(float).mean((1, 2))
         return float(np.abs(np.diff(profile, 2)).mean())
 
-    assert rows(round(1.1 * FPS)) > 1.5 * rows(0)
+    assert rows(round(1.1 * PERFORMANCE_FPS)) > 1.5 * rows(0)
 
 
 @pytest.mark.parametrize("name", ["idle", "idle-strong"])

@@ -17,7 +17,7 @@ from scipy.sparse.csgraph import connected_components
 from engine.avatar.texture.view_samples import ViewSamples
 from engine.geometry.graph_cut import PairCost, expansion_moves
 
-MAX_VIEW_DEGREES = 45.0
+MAX_LABEL_VIEW_DEGREES = 45.0
 """Between a face's normal and the way to the camera up to which a frame is taken, as the paper has it."""
 LABEL_SEAM_WEIGHT = 32.0
 """Of the seams against the data: colours are as near to the films as with 4, and steps at seams a third fewer."""
@@ -69,10 +69,10 @@ def stitched(samples: ViewSamples, gains: NDArray[np.floating], areas: NDArray[n
 
 
 def _data_costs(samples: ViewSamples, areas: NDArray[np.floating]) -> NDArray[np.float32]:
-    """(T, N): what each frame costs each face; infinite where it does not show it. Frames beyond `MAX_VIEW_DEGREES` are taken by
+    """(T, N): what each frame costs each face; infinite where it does not show it. Frames beyond `MAX_LABEL_VIEW_DEGREES` are taken by
     faces alone that no other shows."""
     cosine = samples.cosine
-    near = cosine > np.cos(np.radians(MAX_VIEW_DEGREES))
+    near = cosine > np.cos(np.radians(MAX_LABEL_VIEW_DEGREES))
     allowed = np.where(near.any(1, keepdims=True), near, cosine > 0)
     density = np.where(allowed, samples.density, 0)
     finest = np.maximum(density.max(1, keepdims=True), 1e-12)

@@ -27,7 +27,7 @@ from engine.motion.files.source_motion import (
     unique_names,
 )
 
-CHANNELS = {f"{axis}{kind}": (kind, axis) for kind in ("position", "rotation") for axis in "xyz"}
+CHANNEL_MEANINGS = {f"{axis}{kind}": (kind, axis) for kind in ("position", "rotation") for axis in "xyz"}
 """By their names in small letters: programs do not agree on which are large."""
 
 UNIT_METRES = {
@@ -37,8 +37,8 @@ UNIT_METRES = {
     "CMU unit": 0.0254 / 0.45,
     "inch": 0.0254,
     "centimetre": 0.01,
+    "millimetre": 0.001,
 }
-UNIT_METRES["millimetre"] = 0.001
 
 MAX_HIERARCHY_CHARACTERS = 1 << 20
 """Characters: 512 joints need a tenth of it."""
@@ -70,7 +70,9 @@ def read_bvh(source: Path | bytes, name: str = "") -> SourceMotion:
     assert found is not None
     joints = _read_hierarchy(text[: found.start()])
     parents = np.array([joint.parent for joint in joints], np.int32)
-    channels = [(index, *CHANNELS[channel.lower()]) for index, joint in enumerate(joints) for channel in joint.channels]
+    channels = [
+        (index, *CHANNEL_MEANINGS[channel.lower()]) for index, joint in enumerate(joints) for channel in joint.channels
+    ]
     frames, fps = _frame_header(found.group(1), found.group(2))
     _require_few_numbers(frames, len(joints), len(channels))
     offsets = np.array([joint.offset for joint in joints], np.float64)
@@ -171,7 +173,7 @@ def _read_hierarchy(text: str) -> list[_Joint]:
     if heads.count("ROOT") > 1:
         raise InputError("motion_unreadable", "The BVH file holds several skeletons: export each to a file of its own.")
     joints = _list_joints(lines, heads)
-    unknown = sorted({name for joint in joints for name in joint.channels if name.lower() not in CHANNELS})
+    unknown = sorted({name for joint in joints for name in joint.channels if name.lower() not in CHANNEL_MEANINGS})
     if unknown:
         raise InputError(
             "motion_channels", f"The BVH file has channels that BVH does not know, such as {unknown[0][:40]!r}."

@@ -16,7 +16,7 @@ SUBSPACE_RANK = 4
 """A convex face under any light is a mixture of four pictures to within a few hundredths (R. Basri, D. W. Jacobs, PAMI 2003)."""
 MIN_PHOTOS_OF_DIMENSION = 3.0
 """In which a dimension of the subspace has to lie."""
-MIN_PIXEL_BELIEF = 0.01
+MIN_SUBSPACE_BELIEF = 0.01
 """Weight of all pixels as they are, so that a photograph of which next to nothing is believed has a light, too."""
 RESIDUAL_SIGMA = 14.0
 """Grey levels off the subspace, of a face of mean grey, at which a pixel counts half."""
@@ -90,8 +90,8 @@ def _low_rank(
     basis /= np.linalg.norm(basis, axis=1, keepdims=True)
     products = (basis[:, None] * basis[None]).reshape(rank * rank, -1)
     normal = (weights @ products.T).reshape(-1, rank, rank).astype(np.float64)
-    normal += MIN_PIXEL_BELIEF * np.eye(rank)
-    wanted = (weights * seen) @ basis.T + MIN_PIXEL_BELIEF * (filled @ basis.T)
+    normal += MIN_SUBSPACE_BELIEF * np.eye(rank)
+    wanted = (weights * seen) @ basis.T + MIN_SUBSPACE_BELIEF * (filled @ basis.T)
     return np.asarray(np.linalg.solve(normal, wanted[..., None].astype(np.float64))[..., 0], np.float32) @ basis
 
 

@@ -17,8 +17,8 @@ from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 from engine.persona.texture.laplacian_pyramid import collapsed, laplacian_pyramid, levels_of
 
-DATA_WEIGHT, BETA, GAMMA = 1.0, 20.0, 1.0
-"""Section 6."""
+CONFIDENCE_POWER, UNIFORM_WEIGHT_DECAY_PER_LEVEL, COARSEST_UNIFORM_WEIGHT = 1.0, 20.0, 1.0
+"""Section 6's alpha, beta and gamma."""
 CONFIDENCE_SIGMA = 1.5
 """Pixels of a frame 194 wide over which the response of the Laplacian is told."""
 CAP_PERCENTILE = 80
@@ -75,7 +75,9 @@ def texture_synthesis(colours: NDArray[np.uint8], belief: NDArray[np.floating]) 
         believed = np.array([_shrunk(one, shape) for one in belief]) + np.float32(MIN_PIXEL_BELIEF)
         if level < count - 1:
             believed *= _confidence(bands, colours.shape[2] / REFERENCE_WIDTH_PIXELS)
-        levels.append(_level(bands, believed, GAMMA * BETA ** -(count - 1 - level)))
+        levels.append(
+            _level(bands, believed, COARSEST_UNIFORM_WEIGHT * UNIFORM_WEIGHT_DECAY_PER_LEVEL ** -(count - 1 - level))
+        )
     return TextureSynthesis(tuple(levels))
 
 
@@ -105,7 +107,7 @@ def _confidence(bands: NDArray[np.float32], unit: float) -> NDArray[np.float32]:
     told /= sharpness
     most = np.percentile(told, CAP_PERCENTILE, axis=0) + DETAIL_FLOOR_LEVELS
     capped *= np.minimum(1, most / np.maximum(told, DETAIL_FLOOR_LEVELS)) ** CONFIDENCE_REDESCENT_POWER
-    return np.asarray(np.maximum(capped, DETAIL_FLOOR_LEVELS) ** DATA_WEIGHT, np.float32)
+    return np.asarray(np.maximum(capped, DETAIL_FLOOR_LEVELS) ** CONFIDENCE_POWER, np.float32)
 
 
 def _shrunk(weights: NDArray[np.floating], shape: Sequence[int]) -> NDArray[np.float32]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import label, median_filter
 
 from engine.perception.expression.prototypes import show
-from engine.performances import STATES, State
+from engine.performances import PERFORMANCE_STATES, State
 from engine.performances.catalogue import Strength
 from engine.portrait.driver_segments.gestures import gestures
 from engine.portrait.driver_segments.rest import distance_from_rest
@@ -101,7 +101,7 @@ def detect_segments(
     extended = (_extended(core, cores, unresting, fps) for core in _strongest(cores))
     segments = [one for one in extended if one is not None and one.score >= MIN_SCORE]
     segments += _waiting(unresting, cores, fps)
-    return [one for state in STATES for one in _best(one for one in segments if one.state == state)]
+    return [one for state in PERFORMANCE_STATES for one in _best(one for one in segments if one.state == state)]
 
 
 def _cores(moved: NDArray[np.floating], rest: NDArray[np.floating], first: int, last: int, fps: float) -> list[Segment]:

@@ -30,7 +30,7 @@ from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.layers import Layers
 from engine.kind import Given
 from engine.media.video import probe_video
-from engine.performances.catalogue import FPS
+from engine.performances.catalogue import PERFORMANCE_FPS
 from engine.portrait.options import PortraitOptions
 from engine.portrait.pipeline import STAGES, first_impression, write_landmarks
 from engine.portrait.reactive.bridges import HOLD_FRAMES, ExitBridges, PoseDistance, bridge, find_exits, longest_step
@@ -77,7 +77,7 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
         run.warn("options_without_effect", f"A profile like this has no use for {', '.join(without_effect)}.")
     target = first_impression(look_for_face(image, options, run), out, run)
     prepared = prepare_target(target, run)
-    fps = options.fps or float(FPS)
+    fps = options.fps or float(PERFORMANCE_FPS)
     performances = [_analyse(state, target, fps, options, run) for state in states]
     residuals = [one.residuals_on(prepared, options.acting(), run) for one in performances]
     layers, rig = prepared.layers(), prepared.rig()
@@ -141,7 +141,7 @@ def _analyse(state: State, target: TargetFace, fps: float, options: PortraitOpti
 
 def _frame(state: State, fps: float) -> float:
     """The neutral frame of a built-in performance at another frame rate."""
-    return (state.neutral_frame or 0) * fps / FPS
+    return (state.neutral_frame or 0) * fps / PERFORMANCE_FPS
 
 
 def plan_performances(

@@ -14,7 +14,7 @@ from engine.persona.texture.expression_weights import (
     expression_weights,
 )
 from engine.persona.texture.laplacian_pyramid import collapsed, laplacian_pyramid, levels_of
-from engine.persona.texture.synthesis import BETA, texture_synthesis
+from engine.persona.texture.synthesis import UNIFORM_WEIGHT_DECAY_PER_LEVEL, texture_synthesis
 from engine.persona.texture.white_balance import balanced, is_grey
 
 SIZE = (97, 78)
@@ -84,7 +84,7 @@ def test_fine_detail_is_the_expressions_and_tone_is_everybodys() -> None:
     assert np.corrcoef(fine[0], fine[1])[0, 1] > 0.99 > 0.2 > abs(np.corrcoef(fine[0], fine[2])[0, 1])
     # of the coarsest level four photographs have the weight 1 + 1, four have 0 + 1
     assert found.mean() == pytest.approx((2 * dark.mean() + light.mean()) / 3, abs=3)
-    assert BETA**-1 < 0.1, "of the level above it, a twentieth"
+    assert UNIFORM_WEIGHT_DECAY_PER_LEVEL**-1 < 0.1, "of the level above it, a twentieth"
 
 
 def test_what_is_not_believed_is_not_seen() -> None:

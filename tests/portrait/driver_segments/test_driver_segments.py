@@ -18,7 +18,7 @@ from engine.media.image import read_image
 from engine.perception.expression.measures import MEASURES, measure
 from engine.perception.faces import find_faces
 from engine.perception.head_pose import canonical_face, mirror_vertices
-from engine.performances import STATES
+from engine.performances import PERFORMANCE_STATES
 from engine.portrait.driver_segments import find_segments
 from engine.portrait.driver_segments.gestures import swings
 from engine.portrait.driver_segments.pipeline import DriverSegment, named_segments, work
@@ -62,7 +62,7 @@ def found(watched: FaceMeasurements) -> tuple[DriverSegment, ...]:
 def test_everything_that_was_joined_is_found_and_nothing_else(
     joined: tuple[Path, list[Stretch]], found: tuple[DriverSegment, ...]
 ) -> None:
-    assert judge({state: Tally() for state in STATES}, found, joined[1]) == []
+    assert judge({state: Tally() for state in PERFORMANCE_STATES}, found, joined[1]) == []
     assert [segment.name for segment in found if segment.state == "anger"] == ["anger", "anger-2"]
     strong = next(one for one in joined[1][::-1] if one.state == "anger")
     best = next(segment for segment in found if segment.name == "anger")
@@ -81,8 +81,8 @@ def test_segments_begin_and_end_at_rest_and_do_not_overlap(
         others = [one for one in found if one.state == segment.state and one is not segment]
         assert all(one.end <= segment.start or one.start >= segment.end for one in others)
     assert len({segment.name for segment in found}) == len(found)
-    assert [STATES.index(segment.state) for segment in found] == sorted(
-        STATES.index(segment.state) for segment in found
+    assert [PERFORMANCE_STATES.index(segment.state) for segment in found] == sorted(
+        PERFORMANCE_STATES.index(segment.state) for segment in found
     )
 
 
@@ -101,7 +101,7 @@ def test_a_mirrored_clip_has_the_same_segments(tmp_path: Path) -> None:
 def test_real_people_are_understood(media: Callable[[str], Path], clip: str) -> None:
     must, may = labels()[clip]
     segments = find_segments(media(f"driving/{clip}")).segments
-    assert judge({state: Tally() for state in STATES}, segments, must, may) == []
+    assert judge({state: Tally() for state in PERFORMANCE_STATES}, segments, must, may) == []
 
 
 def test_artifacts(
@@ -111,7 +111,7 @@ def test_artifacts(
         work({"driver": joined[0]}, tmp_path, run)
     assert run.reused == ["watch"]
     document = json.loads((tmp_path / "moments.json").read_text())
-    assert {one["state"] for one in document["moments"]} == set(STATES)
+    assert {one["state"] for one in document["moments"]} == set(PERFORMANCE_STATES)
     assert [(one["name"], one["start"]) for one in document["moments"]] == [(one.name, one.start) for one in found]
     for one in document["moments"]:
         assert read_image(tmp_path / one["poster"]).rgb.shape == (256, 256, 3)

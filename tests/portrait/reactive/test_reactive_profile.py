@@ -187,7 +187,7 @@ def test_a_built_in_driver_is_the_state_of_its_name() -> None:
 
 def test_a_performance_without_a_video_is_refused(monkeypatch, tmp_path: Path) -> None:
     options = PortraitOptions(reactive=("happy",))
-    monkeypatch.setattr(sys.modules["engine.performances.catalogue"], "VIDEOS", tmp_path)
+    monkeypatch.setattr(sys.modules["engine.performances.catalogue"], "VIDEO_FOLDER", tmp_path)
     with pytest.raises(InputError) as caught:
         choose_states(options, None)
     assert caught.value.code == "performance_not_installed"

@@ -12,7 +12,7 @@ from PIL import Image
 from running import Running, eventually
 
 from benchmarks.driver_segments import Stretch, Tally, join, judge
-from engine.performances import STATES
+from engine.performances import PERFORMANCE_STATES
 from engine.portrait.driver_segments.pipeline import DriverSegment
 
 KINDS = "tiny_kind:KIND,engine.kinds:KINDS"
@@ -65,7 +65,7 @@ def test_what_a_driver_shows_is_told_and_can_be_looked_at(
     assert mine["moments_status"] == "ready" and mine["seconds"] == pytest.approx(6.2, abs=0.1)
     fields = ("name", "state", "strength", "start", "end", "apex", "score")
     segments = [DriverSegment(**{field: one[field] for field in fields}) for one in mine["moments"]]
-    assert judge({state: Tally() for state in STATES}, segments, clip[1]) == []
+    assert judge({state: Tally() for state in PERFORMANCE_STATES}, segments, clip[1]) == []
     assert mine in searching.client.get("/v1/drivers").json()["items"]
     for one in mine["moments"]:
         assert one["url"] == f"/v1/drivers/me/video#t={one['start']:g},{one['end']:g}"

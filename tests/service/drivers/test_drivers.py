@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from running import Running
 
-from engine.performances import STATES
+from engine.performances import PERFORMANCE_STATES
 from service.catalogue import built_in
 from service.libraries.library import DRIVER_LIBRARY
 
@@ -103,7 +103,7 @@ def test_built_in_performances_are_listed_first_and_can_be_watched(running: Runn
         assert item == running.client.get(f"/v1/drivers/{item['name']}").json()
     assert items[0]["loops"] is True
     assert {(item["state"], item["strength"]) for item in items[: len(names)]} == {
-        (state, strength) for state in STATES for strength in ("normal", "strong")
+        (state, strength) for state in PERFORMANCE_STATES for strength in ("normal", "strong")
     }
     video = running.client.get(items[1]["url"], headers={"Range": "bytes=4-7"})
     assert (video.status_code, video.content) == (206, b"ftyp")
