@@ -44,7 +44,7 @@ from engine.character.stages import (
 from engine.errors import InputError
 from engine.export.animated_gif import MAX_GIF_SIDE_PIXELS
 from engine.export.encoders import VideoTarget
-from engine.export.glb import JPEG_QUALITY, CharacterModel, write_glb
+from engine.export.glb import TEXTURE_JPEG_QUALITY, CharacterModel, write_glb
 from engine.export.still import write_first_impression, write_still
 from engine.export.usdz import write_usdz
 from engine.export.video import VideoWriter
@@ -334,7 +334,7 @@ def write_small_glb(path: Path, mesh: SkinnedMesh, clips: Sequence[Clip], run: R
             "glb_too_large",
             f"{path.name} has {written.size / 1e6:.1f} MB, however its texture is written; fewer triangles help, or a shorter motion.",
         )
-    elif (written.smaller, written.quality) != (1, JPEG_QUALITY):
+    elif (written.smaller, written.quality) != (1, TEXTURE_JPEG_QUALITY):
         size = f"1/{written.smaller} of its width and height" if written.smaller > 1 else "its full size"
         run.warn(
             "texture_reduced",

@@ -34,7 +34,7 @@ from engine.motion.clip import Clip
 DETAIL_COVERAGE_RATIO = 0.5
 """Each level of detail takes over where the character fills this share less of the screen than the one before."""
 
-JPEG_QUALITY = 95
+TEXTURE_JPEG_QUALITY = 95
 """Of a texture's JPEG, 1 to 100: a finely patterned dress loses 0.5 dB by it, 1.2 dB at 90, and files are a tenth smaller there."""
 TEXTURE_REDUCTIONS = ((1, 90), (1, 80), (1, 70), (2, 90), (2, 75), (4, 80))
 """How a texture is written where it makes a file too large, the mildest first: by how much smaller, and the JPEG's quality."""
@@ -90,7 +90,7 @@ def write_glb(
     model: CharacterModel,
     *,
     name: str = "character",
-    quality: int = JPEG_QUALITY,
+    quality: int = TEXTURE_JPEG_QUALITY,
     synthetic: bool = True,
     most: int | None = None,
     compression: Literal["none", "meshopt"] = "none",
@@ -163,7 +163,7 @@ def build_glb(model: CharacterModel, texture: bytes, *, name: str = "character",
     axes = mixamo_axes(skeleton) if model.mixamo else None
     add_skeleton(gltf, buffer, skeleton, axes)
     add_materials(
-        gltf, buffer, texture, model.unlit, model.materials, lambda other: jpeg(other, JPEG_QUALITY, synthetic)
+        gltf, buffer, texture, model.unlit, model.materials, lambda other: jpeg(other, TEXTURE_JPEG_QUALITY, synthetic)
     )
     parts = _parts(mesh, len(model.materials), model.material_of)
     if model.levels and len(model.materials) > 1:

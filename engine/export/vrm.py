@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from engine.export.glb import JPEG_QUALITY, CharacterModel, build_glb, joint_names, jpeg, save_glb
+from engine.export.glb import TEXTURE_JPEG_QUALITY, CharacterModel, build_glb, joint_names, jpeg, save_glb
 from engine.export.vrm_expressions import LOOK_EXPRESSIONS, Expression, expressions_document
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 
@@ -83,7 +83,7 @@ def write_vrm(
     model: CharacterModel,
     meta: VrmMeta,
     *,
-    quality: int = JPEG_QUALITY,
+    quality: int = TEXTURE_JPEG_QUALITY,
     expressions: Mapping[str, Expression] | None = None,
     look_at: Literal["bone", "expression"] = "bone",
     synthetic: bool = True,

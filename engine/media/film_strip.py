@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-JPEG_QUALITY = 92
+STRIP_JPEG_QUALITY = 92
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class FilmStrip:
 class FilmStripWriter:
     """Writes a strip, picture by picture, to a temporary file; use in a `with` statement, which erases it on errors."""
 
-    def __init__(self, quality: int = JPEG_QUALITY):
+    def __init__(self, quality: int = STRIP_JPEG_QUALITY):
         self._file = tempfile.NamedTemporaryFile(prefix="galatea-", suffix=".jpegs", delete=False)  # noqa: SIM115
         self._quality = quality
         self._ends: list[int] = []

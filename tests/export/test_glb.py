@@ -11,7 +11,7 @@ from glb_reader import Glb, validate
 from PIL import Image
 from template_character import still, template_character, walk
 
-from engine.export.glb import JPEG_QUALITY, TEXTURE_REDUCTIONS, CharacterModel, WrittenGlb, jpeg, write_glb
+from engine.export.glb import TEXTURE_JPEG_QUALITY, TEXTURE_REDUCTIONS, CharacterModel, WrittenGlb, jpeg, write_glb
 from engine.geometry.rigging.joint_axes import mixamo_axes
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.geometry.rigging.skinning import skin
@@ -180,7 +180,7 @@ def test_many_vertices_get_wide_indices(mesh: SkinnedMesh, tmp_path: Path) -> No
 def test_noise_is_a_texture_like_any_other() -> None:
     """Of more than a byte to a pixel; and no colour is shared with a neighbour."""
     noise = np.random.default_rng(6).integers(0, 256, (256, 512, 3), np.uint8)
-    packed = jpeg(noise, JPEG_QUALITY, synthetic=True)
+    packed = jpeg(noise, TEXTURE_JPEG_QUALITY, synthetic=True)
     assert len(packed) > noise.size / 3
     with Image.open(io.BytesIO(packed)) as texture:
         assert np.abs(np.asarray(texture).astype(int) - noise).mean() < 12
@@ -193,7 +193,7 @@ def test_a_file_that_would_be_too_large_has_the_mildest_texture_that_fits(mesh: 
     assert (
         free
         == write_glb(file, CharacterModel(noisy), most=free.size)
-        == WrittenGlb(file.stat().st_size, 1, JPEG_QUALITY)
+        == WrittenGlb(file.stat().st_size, 1, TEXTURE_JPEG_QUALITY)
     )
     before = free
     for smaller, quality in TEXTURE_REDUCTIONS:

@@ -20,7 +20,7 @@ from worker.live.camera_frame import UnreadableFrame, read_frame
 from worker.live.newest import Newest
 from worker.live.wire import Wire
 
-JPEG_QUALITY = 85
+STREAM_JPEG_QUALITY = 85
 
 
 class LiveStream:
@@ -78,7 +78,7 @@ class LiveStream:
         while (drawn := self._drawn.take()) is not None:
             number, watched = drawn
             bgr = cv2.cvtColor(self._portrait.draw(watched), cv2.COLOR_RGB2BGR)
-            done, jpeg = cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])
+            done, jpeg = cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, STREAM_JPEG_QUALITY])
             assert done
             data = jpeg.tobytes()
             self._wire.send(FRAME_TAG, number + (marked_jpeg(data) if self._mark else data))

@@ -19,7 +19,7 @@ from engine.persona.collection.photo_face import as_looked_at
 
 MAX_COLLECTION_PHOTOS = 800
 """Of a collection: three hundred are more than enough."""
-JPEG_QUALITY = 95
+PHOTO_JPEG_QUALITY = 95
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ def read_photos(paths: Sequence[Path], limits: Limits, tick: Callable[[float], N
     names: list[str] = []
     years: list[int | None] = []
     skipped: list[SkippedFile] = []
-    with tempfile.TemporaryDirectory(prefix="galatea-") as folder, FilmStripWriter(JPEG_QUALITY) as writer:
+    with tempfile.TemporaryDirectory(prefix="galatea-") as folder, FilmStripWriter(PHOTO_JPEG_QUALITY) as writer:
         files = list(_files(paths, Path(folder)))
         if len(files) > MAX_COLLECTION_PHOTOS:
             raise InputError(
