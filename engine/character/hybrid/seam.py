@@ -33,9 +33,11 @@ MAX_SIDE_COSINE = 0.3
 def with_the_trunks_colours(
     texture: NDArray[np.uint8], hybrid: Hybrid, tiles: Tiles, rgb: NDArray[np.uint8], to_grid: NDArray[np.float64]
 ) -> NDArray[np.uint8]:
-    """A shell's texture (S, S, 3) which goes over to the colours that a trunk's `tiles` have in front and behind; where a limb is what is
-    seen, to those of the picture `rgb` (H, W, 3), which `to_grid` (2, 3) brings to the grid: where a trunk ends and an arm begins is
-    not the same on the template and on a sleeve."""
+    """A shell's texture (S, S, 3) which goes over to the colours that a trunk's `tiles` have in front and behind.
+
+    Where a limb is what is seen, it goes over to those of the picture `rgb` (H, W, 3), which `to_grid` (2, 3) brings to the grid: a trunk
+    does not end, and an arm does not begin, in the same place on the template and on a sleeve.
+    """
     shell, labels, raster = hybrid.shell, hybrid.labels.labels, texels()
     mesh = shell.mesh
     share = np.clip(

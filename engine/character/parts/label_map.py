@@ -40,11 +40,16 @@ MIN_LEG_SEPARATION_METRES = 0.05
 
 @dataclass(frozen=True)
 class Labels:
-    """`labels` (h, w) int8: indices of `engine.body.parts.BODY_PARTS`, -1 outside the person; `occlusion` (h, w): where
-    limbs pass before others; `apart`: those that do, a leg that passes before the other first, then arms; `parting`
-    (h, w): where one leg touches the other and is not joined to it; `hidden` (h, w) int8: the arm whose hand is in a pocket
-    there, or behind other cloth, -1 elsewhere; `behind`: of crossed arms the one that the other hides; `cloth`: what goes round
-    both legs."""
+    """Which part each pixel of the person shows.
+
+    labels : (h, w) int8 indices of `engine.body.parts.BODY_PARTS`, -1 outside the person.
+    occlusion : (h, w) where limbs pass before others.
+    apart : those that do, a leg that passes before the other first, then arms.
+    parting : (h, w) where one leg touches the other and is not joined to it.
+    hidden : (h, w) int8 the arm whose hand is in a pocket there, or behind other cloth, -1 elsewhere.
+    behind : of crossed arms the one that the other hides.
+    cloth : what goes round both legs.
+    """
 
     labels: NDArray[np.int8]
     occlusion: NDArray[np.bool_]

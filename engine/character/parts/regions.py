@@ -88,10 +88,12 @@ def limb_in_one_piece(
     triangles: NDArray[np.bool_],
     joint: NDArray[np.bool_],
 ) -> tuple[NDArray[np.bool_], bool]:
-    """The pixels (h, w) of a limb in one piece: what is seen of it, what it shares with the body around its `joint` (h, w), and what
-    the template has (`triangles` (T,)) where another that is `apart` passes before it, or the body, so that it comes out in
-    two places or does not reach its joint; what of it goes on behind the other arm, and its hidden hand. And whether it passes
-    behind the body."""
+    """The pixels (h, w) of a limb in one piece, and whether it passes behind the body.
+
+    They are what is seen of the limb, what it shares with the body around its `joint` (h, w), what of it goes on behind the other arm, and
+    its hidden hand. Where it comes out in two places or does not reach its joint, since the body or another limb that is `apart` passes
+    before it, they are what the template has there, too: its `triangles` (T,) bool.
+    """
     own, person = labels.labels == limb, labels.labels >= 0
     if labels.behind is not None and labels.behind.limb == limb:
         own = own | labels.behind.area

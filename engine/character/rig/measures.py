@@ -47,10 +47,11 @@ class Measured:
 def measure(figure: Figure, silhouette: Silhouette, fitted: FittedBody, character: Character) -> Measured:
     """Measure a character as it is pictured.
 
-    `silhouette_iou`: how well the posed mesh covers the mask; `landmark_reprojection`: how far landmarks are from where they
-    were seen, as a share of the person's height; `closed`, `holes` (loops of open border) and `non_manifold_edges` of the
-    mesh; `flipped`: the share of the pixels in view that show a triangle from its back; `unseen_texture`: the share of the
-    surface that the picture does not show, whose colours are mirrored or filled.
+    silhouette_iou : how well the posed mesh covers the mask.
+    landmark_reprojection : how far landmarks are from where they were seen, as a share of the person's height.
+    closed, holes, non_manifold_edges : of the mesh; holes are loops of open border.
+    flipped : the share of the pixels in view that show a triangle from its back.
+    unseen_texture : the share of the surface that the picture does not show, whose colours are mirrored or filled.
     """
     height, width = figure.rgb.shape[:2]
     camera = picture_camera(character, fitted, (height, width))

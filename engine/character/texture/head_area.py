@@ -15,9 +15,14 @@ LEVEL_BAND_HALF_AXES = 0.04
 
 @dataclass(frozen=True)
 class Head:
-    """Where a head is, (h, w) each: its pixels; `out`: how far they are from the face's middle, in half axes of its oval;
-    `up`: how far above it, as a share of the way to the top (below 0, to the chin); `depth`: how far from the outline,
-    pixels of the grid, each of which is `scale` pixels; `across`: how far to the right of the face's middle, in half axes."""
+    """Where a head is.
+
+    mask : (h, w) its pixels.
+    out : (h, w) how far they are from the face's middle, in half axes of its oval.
+    up : (h, w) how far above it, as a share of the way to the top; below 0, to the chin.
+    depth : (h, w) how far from the outline, pixels of the grid, each of which is `scale` pixels.
+    across : (h, w) how far to the right of the face's middle, in half axes.
+    """
 
     mask: NDArray[np.bool_]
     out: NDArray[np.float32]

@@ -29,10 +29,11 @@ MIN_AGREEING_NORMAL_COSINE = 0.5
 class Agreement:
     """What makes a point of a view trusted.
 
-    `distance` metres from the median of what views say within which one agrees; `seen_through` metres by which another's depth
-    lies behind a point that it denies, and up to which it has a say in the median; `views` how many must agree, the point's own among them; `cost` the greatest at
-    which a measurement counts at all (`DepthMap.cost`): in plain dark cloth, what correlates less with other views is as wrong as it
-    is much.
+    distance : metres from the median of what views say within which one agrees.
+    seen_through : metres by which another's depth lies behind a point that it denies, and up to which it has a say in the median.
+    views : how many must agree, the point's own among them.
+    cost : the greatest at which a measurement counts at all (`DepthMap.cost`). In plain dark cloth, what correlates less with other views is
+        as wrong as it is much.
     """
 
     distance: float = 0.008
