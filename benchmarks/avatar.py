@@ -24,7 +24,14 @@ from benchmarks.avatar_figures.colours import colour_errors
 from benchmarks.avatar_figures.sheet import avatar_sheet
 from benchmarks.presentation.contact_sheet import write_sheet
 from benchmarks.presentation.tables import machine, table
-from benchmarks.scan_studio.distance import Distances, MeasuredSurface, above, below, between_surfaces, measured_surface
+from benchmarks.scan_studio.comparison.distance import (
+    Distances,
+    MeasuredSurface,
+    above,
+    below,
+    between_surfaces,
+    measured_surface,
+)
 from benchmarks.scan_studio.people.rigged_glb import TexturedPart, read_in_clip
 from benchmarks.scan_studio.truth import Truth, read_truth
 from engine.avatar.mesh import surface_of

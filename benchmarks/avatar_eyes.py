@@ -21,9 +21,9 @@ from numpy.typing import NDArray
 from benchmarks.avatar import cameras_of, onto_truth
 from benchmarks.presentation.contact_sheet import Row, contact_sheet, write_sheet
 from benchmarks.presentation.tables import table
-from benchmarks.scan_studio.distance import measured_surface
-from benchmarks.scan_studio.drawing import TexturedMesh, draw_over, empty_depths, textured_mesh
+from benchmarks.scan_studio.comparison.distance import measured_surface
 from benchmarks.scan_studio.people.rigged_glb import read_in_clip
+from benchmarks.scan_studio.scenery.drawing import TexturedMesh, draw_over, empty_depths, textured_mesh
 from benchmarks.scan_studio.truth import Truth, read_truth
 from engine.avatar.landmarks.in_frames import EYE_MESH_VERTICES
 from engine.avatar.landmarks.spatial import LID_POINT_COUNT

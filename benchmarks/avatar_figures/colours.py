@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.avatar_figures.texture import textured_truth
-from benchmarks.scan_studio.colour import film_colour_error
-from benchmarks.scan_studio.drawing import TexturedMesh, textured_mesh
+from benchmarks.scan_studio.comparison.colour import film_colour_error
 from benchmarks.scan_studio.people.rigged_glb import TexturedPart
+from benchmarks.scan_studio.scenery.drawing import TexturedMesh, textured_mesh
 from benchmarks.scan_studio.truth import Truth
 from engine.geometry.camera import Camera
 from engine.media.video import read_video

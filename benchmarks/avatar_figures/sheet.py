@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from benchmarks.avatar_figures.colours import pictures
 from benchmarks.presentation.contact_sheet import Row, contact_sheet
-from benchmarks.scan_studio.drawing import draw_over, empty_depths, textured_mesh
 from benchmarks.scan_studio.people.rigged_glb import TexturedPart
+from benchmarks.scan_studio.scenery.drawing import draw_over, empty_depths, textured_mesh
 from engine.geometry.camera import Camera
 
 BACKGROUND_GREY_LEVEL = 110

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from benchmarks.scan_studio.film import write_film
 from benchmarks.scan_studio.people.template_people import TEXTURE_SIZE_TEXELS, template_subject
-from benchmarks.scan_studio.room import furnished_room
-from benchmarks.scan_studio.scene import Scene
+from benchmarks.scan_studio.scenery.room import furnished_room
+from benchmarks.scan_studio.scenery.scene import Scene
 from benchmarks.scan_studio.studio import Order, Take
 from benchmarks.scan_studio.truth import Truth
 from engine.avatar.sample import SAMPLE_FRAMES

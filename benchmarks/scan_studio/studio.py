@@ -15,8 +15,8 @@ from benchmarks.scan_studio.conditions import COMPANY_METRES, NAMED_CONDITIONS, 
 from benchmarks.scan_studio.film import FilmFormat, write_film
 from benchmarks.scan_studio.people.subject import Subject
 from benchmarks.scan_studio.people.sway import USUAL_METRES, Stance, Sway
-from benchmarks.scan_studio.room import furnished_room
-from benchmarks.scan_studio.scene import Scene
+from benchmarks.scan_studio.scenery.room import furnished_room
+from benchmarks.scan_studio.scenery.scene import Scene
 from benchmarks.scan_studio.truth import FilmTruth, Truth, write_truth
 
 

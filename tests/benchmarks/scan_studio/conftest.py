@@ -7,7 +7,7 @@ import pytest
 import trimesh
 
 from benchmarks.scan_studio.people.subject import Arm, Subject
-from benchmarks.scan_studio.room import Room, furnished_room
+from benchmarks.scan_studio.scenery.room import Room, furnished_room
 
 
 @pytest.fixture(scope="session")

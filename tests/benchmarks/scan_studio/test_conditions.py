@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from benchmarks.scan_studio.conditions import COMPANY_METRES, NAMED_CONDITIONS
 from benchmarks.scan_studio.people.subject import Subject
-from benchmarks.scan_studio.room import Room
-from benchmarks.scan_studio.scene import Scene
+from benchmarks.scan_studio.scenery.room import Room
+from benchmarks.scan_studio.scenery.scene import Scene
 from benchmarks.scan_studio.studio import Order, Take
 
 SIZE = (72, 128)

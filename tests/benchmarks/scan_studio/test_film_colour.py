@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from benchmarks.scan_studio.colour import cielab, film_colour_error
-from benchmarks.scan_studio.drawing import TexturedMesh, textured_mesh
+from benchmarks.scan_studio.comparison.colour import cielab, film_colour_error
 from benchmarks.scan_studio.people.subject import Subject
-from benchmarks.scan_studio.room import Room
-from benchmarks.scan_studio.scene import Scene
+from benchmarks.scan_studio.scenery.drawing import TexturedMesh, textured_mesh
+from benchmarks.scan_studio.scenery.room import Room
+from benchmarks.scan_studio.scenery.scene import Scene
 from engine.geometry.camera import Camera
 
 CAMERAS = [

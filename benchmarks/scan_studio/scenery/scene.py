@@ -11,9 +11,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.scan_studio.drawing import draw_over, empty_depths, textured_mesh
 from benchmarks.scan_studio.people.subject import Subject
-from benchmarks.scan_studio.room import Room
+from benchmarks.scan_studio.scenery.drawing import draw_over, empty_depths, textured_mesh
+from benchmarks.scan_studio.scenery.room import Room
 from engine.compiled import njit
 from engine.geometry.camera import Camera
 from engine.media.tone_mapping import srgb_light

@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.scan_studio.drawing import TexturedMesh, draw_over, empty_depths
+from benchmarks.scan_studio.scenery.drawing import TexturedMesh, draw_over, empty_depths
 from engine.geometry.camera import Camera
 from engine.media.tone_mapping import srgb_code, srgb_light, xyz_of
 

@@ -9,8 +9,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.scan_studio import room_textures
-from benchmarks.scan_studio.room_textures import Texture
+from benchmarks.scan_studio.scenery import room_textures
+from benchmarks.scan_studio.scenery.room_textures import Texture
 
 ROOM_TEXELS_PER_METRE = 256
 """Of the room's texture: 4 millimetres each."""

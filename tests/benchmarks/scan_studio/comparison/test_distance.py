@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from benchmarks.scan_studio.distance import (
+from benchmarks.scan_studio.comparison.distance import (
     MAX_EDGE_METRES,
     MeasuredSurface,
     above,
