@@ -1,9 +1,10 @@
-"""What the documents and lock files promise."""
+"""What the documents and lock files promise, and Python that stands within other files."""
 
 from __future__ import annotations
 
 import json
 import re
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,8 @@ import pytest
 ROOT = Path(__file__).parent.parent
 LOCKS = (ROOT / "requirements.lock", ROOT / "requirements-dev.lock")
 DOCUMENTS = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
+BROWSER_TESTS = sorted((ROOT / "tests" / "web" / "browser").glob("*.ts"))
+IMPORTED = re.compile(r"\bfrom ((?:engine|service|worker|shell|galatea|galatea_client)\b[\w.]*) import (\w+(?:, \w+)*)")
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
@@ -61,3 +64,10 @@ def test_every_package_and_native_library_has_its_licence() -> None:
         assert licence(name) and f"| {name} | " in listed, f"{name}: make licences"
     for package, library in native():
         assert library in NATIVE_LICENCES, (package, library)
+
+
+@pytest.mark.parametrize("file", [*DOCUMENTS, *BROWSER_TESTS], ids=lambda path: str(path.relative_to(ROOT)))
+def test_what_python_in_them_imports_is_there(file: Path) -> None:
+    """Python within documents and browser tests, where no other check reads it."""
+    names = [(module, name) for module, listed in IMPORTED.findall(file.read_text()) for name in listed.split(", ")]
+    assert [f"{module}.{name}" for module, name in names if not hasattr(import_module(module), name)] == []

@@ -22,9 +22,9 @@ type Joints = Record<string, { place: [number, number] }>;
 /** What the engine lets be placed, what it needs where nobody is found, and the colours of its labels. */
 const NAMES = `
 import json
-from engine.character.figure.placed_joints import PLACEABLE_JOINTS, REQUIRED_JOINTS
+from engine.character.figure.placed_joints import PLACEABLE_JOINTS, REQUIRED_PLACED_JOINTS
 from engine.character.figure.strokes import LABEL_COLOURS
-print(json.dumps([PLACEABLE_JOINTS, REQUIRED_JOINTS, LABEL_COLOURS.tolist()]))
+print(json.dumps([PLACEABLE_JOINTS, REQUIRED_PLACED_JOINTS, LABEL_COLOURS.tolist()]))
 `;
 
 /** A motion of the tests' own. */

@@ -20,10 +20,10 @@ import json, sys
 from pathlib import Path
 sys.path.insert(0, "tests/live_service")
 from made_motion import bvh
-from engine.motion.retargeting.joint_map import REQUIRED_JOINTS
+from engine.motion.retargeting.joint_map import REQUIRED_MOTION_JOINTS
 from engine.motion.retargeting.joint_names import TARGET_NAMES
 Path(sys.argv[1]).write_bytes(bvh())
-print(json.dumps([TARGET_NAMES, REQUIRED_JOINTS]))
+print(json.dumps([TARGET_NAMES, REQUIRED_MOTION_JOINTS]))
 `;
 const WHIP = `HIERARCHY
 ROOT Hips
