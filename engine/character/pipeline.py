@@ -20,7 +20,7 @@ from engine.character.film.lit import lit_picture
 from engine.character.film.motions import motion_in_use
 from engine.character.film.person import Person
 from engine.character.hybrid.hybrid import make_hybrid
-from engine.character.hybrid.passing_legs import legs_pass
+from engine.character.hybrid.suited_surface import suited_surface
 from engine.character.options import CharacterOptions
 from engine.character.parts.unseen_limbs import with_limbs_hidden
 from engine.character.rig.left_out import warn_of_silhouette
@@ -219,7 +219,7 @@ def reconstruct(
     fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.picture_camera()), labels, run.warn)
     painted = (options.triangles, options.back_texture)
     surface = options.surface
-    if surface == "auto" and legs_pass(silhouette, fitted, labels):
+    if surface == "auto" and suited_surface(silhouette, fitted, labels) == "hybrid":
         surface = "hybrid"
     if surface in ("hybrid", "shell"):
         fitted = with_relaxed_hands(fitted)

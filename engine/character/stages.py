@@ -28,6 +28,7 @@ from engine.character.hybrid.headed import HeadedRelief, make_headed_relief
 from engine.character.hybrid.hybrid import Hybrid, limbs_alone
 from engine.character.hybrid.limbs import cut_off
 from engine.character.hybrid.seam import with_the_trunks_colours
+from engine.character.hybrid.trunk import TRUNK_LABEL
 from engine.character.hybrid.two_surfaces import together
 from engine.character.options import LabelStroke
 from engine.character.parts.crossed_labels import label_crossed
@@ -52,8 +53,7 @@ from engine.character.texture.round_sides import with_round_sides
 from engine.character.texture.texture import BackTexture, PictureOnGrid, Tiles, atlas, paint_tiles
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.geometry.simplification.decimation import decimate, joint_importance
-from engine.imaging.filling.nearest import nearest_colours
-from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
+from engine.imaging.masks.mask_distance import dilate_mask
 from engine.media.limits import Limits
 
 FACE_OVAL_FACTORS = np.array([1, 1, 1.1, 1.1, 1])
@@ -66,8 +66,8 @@ MIN_MOVED_BY_HAND_WEIGHT = 0.3
 """Share in what moves an arm from which on it is moved by the hand."""
 HEAD_TRIANGLE_WEIGHT = 6.0
 """How much more a triangle of the head counts where triangles are saved."""
-LIMB_COLOUR_MARGIN_PIXELS = 2.5
-"""Pixels of the grid within the outline in which the colours of a limb's edge are not its own."""
+MIXED_BORDER_PIXELS = 2
+"""Pixels of the trunk beside a limb in which colours of both are mixed."""
 TRUNK_MARGIN_PIXELS = 6
 """Pixels around the trunk within which it is painted behind limbs."""
 
@@ -326,9 +326,10 @@ def make_hybrid_character(
     own, trunk = hybrid.labels, hybrid.trunk
     limbs = np.isin(own.labels, own.apart)
     around = dilate_mask(trunk.pixels(np.arange(len(trunk.vertices)), limbs.shape), TRUNK_MARGIN_PIXELS)
-    gone, behind = (
-        _in_the_picture(one, silhouette) for one in (limbs & ~around, limbs & around & ~hybrid.trunk_seen())
-    )
+    below = np.isin(own.labels, LEG_LABELS) & dilate_mask(own.labels == TRUNK_LABEL, TRUNK_MARGIN_PIXELS)
+    hidden = limbs & around & ~below & ~hybrid.at_joints()  # at the waist nothing is behind legs
+    hidden |= (own.labels == TRUNK_LABEL) & (hybrid.strange | dilate_mask(hidden, MIXED_BORDER_PIXELS))
+    gone, behind = (_in_the_picture(one, silhouette) for one in (limbs & ~around, hidden))
     alone = replace(silhouette, alpha=silhouette.alpha * (1 - gone))
     seen = mirrored_behind(figure.rgb, behind > 0, (silhouette.alpha > OPAQUE_ALPHA) & (gone == 0))
     nothing = LimbSurfaces(np.zeros_like(limbs), np.zeros_like(limbs))
@@ -336,12 +337,8 @@ def make_hybrid_character(
     shown = limbs_alone(hybrid)
     relief = _made_of(figure, alone, fitted, own, trunk, tiles, _left_for_a_relief(triangles, shown))
     filled: BackTexture = "inpaint" if back == "inpaint" else "mirror"
-    texture = paint_shell(figure.rgb, silhouette, labels, hybrid.shell, filled, shown.mesh.triangles)
-    clean = nearest_colours(
-        figure.rgb,
-        distance_inside(silhouette.alpha > OPAQUE_ALPHA) > LIMB_COLOUR_MARGIN_PIXELS / silhouette.to_grid[0, 0],
-    )
-    texture = with_the_trunks_colours(texture, hybrid, tiles, clean, silhouette.to_grid)
+    texture = paint_shell(figure.rgb, silhouette, labels, hybrid.shell, filled, shown.mesh.triangles, hybrid.strange)
+    texture = with_the_trunks_colours(texture, hybrid, tiles, figure, silhouette)
     shell = bind_shell(shown, figure, silhouette, fitted, texture)
     character = together(shell, relief)
     return replace(character, mesh=fewer_triangles(character, triangles))

@@ -7,15 +7,22 @@ and hems at their height.
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.imaging.filling.harmonic_fill import harmonic_fill
 from engine.imaging.filling.nearest import nearest_in
-from engine.imaging.masks.mask_distance import dilate_mask
+from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 
-MIXED_COLOUR_BAND_SHARE = 0.004
+SHADOW_BAND_SHARE = 0.008
 """Beside limbs, as a share of the picture's longer side, colours are mixed with theirs, or in their shadow, and are not mirrored."""
-
+SEAM_PIXELS, LIGHT_SMOOTHING_PIXELS, SEAM_FADE_SHARE = 2, 3.0, 0.02
+"""Pixels beside what is hidden by whose light it begins, and over which that is smoothed; and how far that goes, as a share of the longer side."""
+MAX_LIGHT_STEP = 30.0
+"""Grey levels by which what is hidden may begin lighter or darker than it is further in: more is another colour, and no light."""
+BORDER_SMOOTHING_SHARE = 0.006
+"""Over how much the border is smoothed, as a share of the longer side."""
 MAX_MIRROR_DISTANCE_SHARE = 0.025
 """How far from the border colours come from at most, as a share of the longer side; beyond twice as much they begin anew."""
 
@@ -23,17 +30,22 @@ MAX_MIRROR_DISTANCE_SHARE = 0.025
 def mirrored_behind(rgb: NDArray[np.uint8], hidden: NDArray[np.bool_], shown: NDArray[np.bool_]) -> NDArray[np.uint8]:
     """A picture (H, W, 3) in which what is `hidden` (H, W) has the colours of what is `shown` (H, W) as far on the other side of
     the nearest border, to and fro within `MAX_MIRROR_DISTANCE_SHARE`; where nothing is shown so far away, those of the
-    border."""
-    near = dilate_mask(hidden, max(2, round(MIXED_COLOUR_BAND_SHARE * max(hidden.shape))))
-    source: NDArray[np.bool_] = np.logical_and.reduce([shown, ~hidden, ~near])
+    border. Where it meets what is shown it is as light as that, and goes over from there."""
+    longest = max(hidden.shape)
+    shadow = dilate_mask(hidden, max(2, round(SHADOW_BAND_SHARE * longest)))
+    source = shown & ~shadow
+    source &= (
+        cv2.GaussianBlur(source.astype(np.float32), (0, 0), BORDER_SMOOTHING_SHARE * longest) > 0.5
+    )  # else no mirror
     if not hidden.any() or not source.any():
         return rgb
+    seam = shown & ~hidden & dilate_mask(hidden, SEAM_PIXELS)
     rows, columns = nearest_in(source)
-    y, x = np.nonzero(hidden)
+    y, x = np.nonzero(hidden | seam)
     border = np.stack([rows[y, x], columns[y, x]], 1)
     away = border - np.stack([y, x], 1)
     far = np.linalg.norm(away, axis=1)
-    deep = MAX_MIRROR_DISTANCE_SHARE * max(hidden.shape)
+    deep = MAX_MIRROR_DISTANCE_SHARE * longest
     across = border + np.rint(away * ((deep - abs(far % (2 * deep) - deep)) / np.maximum(far, 1e-6))[:, None]).astype(
         int
     )
@@ -41,6 +53,16 @@ def mirrored_behind(rgb: NDArray[np.uint8], hidden: NDArray[np.bool_], shown: ND
     across[~inside] = border[~inside]
     known = source[across[:, 0], across[:, 1]]
     across[~known] = border[~known]
+    mirrored = rgb.astype(np.float32)
+    mirrored[y, x] = rgb[across[:, 0], across[:, 1]]
+    weight = seam.astype(np.float32)[..., None]
+    step = np.clip(rgb - mirrored, -MAX_LIGHT_STEP, MAX_LIGHT_STEP) * weight
+    told, count = (cv2.GaussianBlur(one, (0, 0), LIGHT_SMOOTHING_PIXELS) for one in (step, weight[..., 0]))
+    lighter = told * weight / np.maximum(count, 1e-6)[..., None]
+    lighter = (
+        harmonic_fill(seam, hidden)(lighter.astype(np.float32))
+        * np.exp(-distance_to(seam) / (SEAM_FADE_SHARE * longest))[..., None]
+    )
     out = rgb.copy()
-    out[y, x] = rgb[across[:, 0], across[:, 1]]
+    out[hidden] = np.clip(mirrored + lighter + 0.5, 0, 255)[hidden].astype(np.uint8)
     return out

@@ -17,7 +17,8 @@ from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
 from engine.character.hybrid.head import hair_keeps_to_the_head, joined_at_the_neck, with_head, without_head
 from engine.character.hybrid.limbs import Limbs, cut_off, joined_in_depth, limbs_of
-from engine.character.hybrid.trunk import trunk_labels, trunk_layer
+from engine.character.hybrid.trunk import soft_beside_limbs, trunk_labels, trunk_layer
+from engine.character.parts.colour_ownership import strange_colours
 from engine.character.parts.label_map import Labels
 from engine.character.shell.piece import Piece
 from engine.character.shell.props import props_of
@@ -26,6 +27,9 @@ from engine.character.shell.template_mesh import template_mesh
 from engine.character.surface.face_warp import seen_face
 from engine.character.surface.front_and_back import ClosedMesh, stitch_front_and_back
 from engine.render.rasteriser import rasterise
+
+JOINT_NEARNESS = 0.3
+"""How near to a joint, from 0 to 1 there, a limb and the trunk are one surface."""
 
 
 @dataclass(frozen=True)
@@ -36,20 +40,23 @@ class Hybrid:
     limbs : which of it is shown.
     trunk : the relief.
     labels : what each pixel shows, as the trunk is made of them.
+    strange : (h, w) bool, pixels that have not the colours of what they are labelled as.
     """
 
     shell: Shell
     limbs: Limbs
     trunk: ClosedMesh
     labels: Labels
+    strange: NDArray[np.bool_]
 
-    def trunk_seen(self) -> NDArray[np.bool_]:
-        """The pixels (h, w) of the grid at which the trunk is nearest to the viewer."""
-        limbs = limbs_alone(self).mesh.triangles
-        vertices = np.concatenate([self.shell.pictured, self.trunk.vertices]) * [1, 1, -1]
-        triangles = np.concatenate([limbs, self.trunk.triangles + len(self.shell.pictured)])
+    def at_joints(self) -> NDArray[np.bool_]:
+        """The pixels (h, w) of the grid at which shoulders and hips are, whose surface is the limb's and the trunk's alike."""
+        mesh = self.shell.mesh
+        joint = (self.limbs.near > JOINT_NEARNESS)[mesh.triangles].all(1)
         height, width = self.labels.labels.shape
-        return np.asarray(rasterise(vertices, triangles, (height, width)).triangle >= len(limbs))
+        return np.asarray(
+            rasterise(self.shell.pictured * [1, 1, -1], mesh.triangles[joint], (height, width)).triangle >= 0
+        )
 
 
 def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Hybrid:
@@ -57,6 +64,7 @@ def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
     mesh, human = template_mesh(), load_human()
     camera = silhouette.camera(fitted.picture_camera())
     own = trunk_labels(labels)
+    strange = strange_colours(silhouette.rgb, own.labels)
     template = pose_template(fitted, camera, human)
     shape = shaped(figure, silhouette, fitted, labels)
     with_its_head = hair_keeps_to_the_head(figure, silhouette, labels, mesh, shape.template)
@@ -70,14 +78,14 @@ def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
     within = np.asarray(((places > -1) & (places < [width, height])).all(1), np.bool_)
     limbs = limbs_of(mesh, shape.pictured, own, fitted, within)
     pictured, layer = joined_in_depth(mesh, shape.pictured, limbs, layer, own)
-    trunk = stitch_front_and_back([layer], silhouette.soft)
+    trunk = stitch_front_and_back([layer], silhouette.soft, {layer.limb: soft_beside_limbs(layer, own)})
     if with_its_head:
         limbs = with_head(limbs, mesh, fitted)
         pictured, trunk = joined_at_the_neck(mesh, pictured, limbs, trunk, seen)
     covering = Piece("trunk", trunk.vertices, trunk.triangles, trunk.bones.astype(np.intp), trunk.weights)
     pieces = props_of(mesh, pictured, silhouette, [covering])
     shell = shell_of(mesh, replace(shape, pictured=pictured), silhouette, fitted, pieces)
-    return Hybrid(shell, limbs, trunk, own)
+    return Hybrid(shell, limbs, trunk, own, strange)
 
 
 def limbs_alone(hybrid: Hybrid) -> Shell:

@@ -11,7 +11,9 @@ from itertools import pairwise
 
 import cv2
 import numpy as np
+import scipy.sparse as sp
 from numpy.typing import NDArray
+from scipy.sparse.csgraph import connected_components
 
 from engine.body.parts import BODY_PARTS
 from engine.character.fit.template_fit import FittedBody, load_human
@@ -25,7 +27,8 @@ from engine.character.surface.legs_beneath import LEG_UNDER_CLOTH_SHARE
 from engine.character.surface.part_surface import Surface
 from engine.character.surface.rim import open_edges
 from engine.geometry.mesh.adjacency import neighbours
-from engine.imaging.masks.mask_distance import dilate_mask
+from engine.geometry.mesh.surface import area_vectors
+from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
 from engine.imaging.masks.mask_pieces import rows_apart
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import rasterise
@@ -36,6 +39,16 @@ MIN_LIMB_DEPTH_SHARE = 0.2
 """Share of the trunk's depth that a limb within it keeps about its middle, at least."""
 LIMB_EDGE_TOLERANCE_PIXELS = 3
 """Pixels from limbs that are seen within which nothing is taken to be hidden by the trunk: outlines do not lie on one another exactly."""
+CUT_CURVATURE = 0.15
+"""How fast the trunk rises from beneath the shell, away from where a limb is cut from it: pixels for each of the grid's, squared."""
+MERGED_DEPTH_PIXELS = 8.0
+"""Pixels by which the trunk may be before the shell where both are one surface; twice as many, and the limb hangs beside it."""
+MOVED_ALIKE_PIXELS = 16.0
+"""Pixels from where a limb is cut from the trunk within which the trunk is moved more and more as the shell is there."""
+END_DRAWN_IN_SHARE = 0.6
+"""How far the border at which a limb ends within the trunk is drawn in, as a share of the way to its middle."""
+TEMPLATE_RIM_PIXELS = 8.0
+"""Pixels within the template's own outline in which its depth, which falls there, says less and less of the trunk's."""
 FULL_DEPTH_NEARNESS, DEPTH_SMOOTHING_PIXELS = 0.4, 4.0
 """How near to a joint, from 0 to 1 there, the trunk is as deep as the shell, and pixels over which that is smoothed."""
 WEIGHT_SMOOTHING_ROUNDS = 4
@@ -106,7 +119,7 @@ def joined_in_depth(
     """The shell's vertices (V, 3) and the trunk, so that limbs that are seen before the trunk are before it, those that it hides are
     behind its front, and what of them goes on in it is within: around joints the trunk is as deep as the shell."""
     moved = pictured.copy()
-    trunk = _as_deep(mesh, moved, limbs, trunk)
+    trunk = _beneath_at_the_cut(mesh, moved, limbs, _as_deep(mesh, moved, limbs, trunk), labels)
     beside = dilate_mask(trunk.mask & ~np.isin(labels.labels, LIMB_LABELS), TRUNK_BEHIND_LIMBS_PIXELS + 1)
     for part in LIMB_LABELS:
         own, chosen = labels.labels == part, (limbs.limb == part) & ~limbs.overlap
@@ -116,7 +129,7 @@ def joined_in_depth(
         trunk = body_behind(trunk, layer, own)
         nearer = limb_before(layer, trunk, own & ~beside).front.depth - layer.front.depth
         moved[chosen, 2] += _at(np.nan_to_num(nearer), moved[chosen])
-    return _within(mesh, moved, limbs, trunk, labels), trunk
+    return _ends_drawn_in(mesh, _within(mesh, moved, limbs, trunk, labels), limbs), trunk
 
 
 def _as_deep(mesh: TemplateMesh, vertices: NDArray[np.float64], limbs: Limbs, trunk: Layer) -> Layer:
@@ -129,11 +142,49 @@ def _as_deep(mesh: TemplateMesh, vertices: NDArray[np.float64], limbs: Limbs, tr
         raster = rasterise(vertices * [1, 1, -towards], triangles, (shape[0], shape[1]))
         there = (raster.triangle >= 0) & trunk.mask
         share = np.clip(interpolate(limbs.near[:, None], triangles, raster)[..., 0] / FULL_DEPTH_NEARNESS, 0, 1)
+        share *= np.clip(distance_inside(there) / TEMPLATE_RIM_PIXELS, 0, 1)
         share = cv2.GaussianBlur(np.where(there, share, 0).astype(np.float32), (0, 0), DEPTH_SMOOTHING_PIXELS)
         goal = np.where(there, towards * (INSET_PIXELS - raster.depth), 0)
         depth = np.where(there, side.depth + share * (goal - side.depth), side.depth)
         sides.append(Surface(depth.astype(np.float32), side.weights))
     return replace(trunk, front=sides[0], back=sides[1])
+
+
+def _beneath_at_the_cut(
+    mesh: TemplateMesh, vertices: NDArray[np.float64], limbs: Limbs, trunk: Layer, labels: Labels
+) -> Layer:
+    """The trunk with front and back bent beneath the shell's where it is cut from a limb: both show the same picture there, and where they
+    cross nothing is to be seen, while a border of the trunk that stood off would be a step."""
+    joint = mesh.triangles[((limbs.near > 0) & (limbs.limb >= 0))[mesh.triangles].all(1)]
+    facing = -area_vectors(vertices, joint)[:, 2]  # y is down, so that the triangles turn the other way
+    from_cut = distance_to(np.isin(labels.labels, LIMB_LABELS))
+    over = CUT_CURVATURE * from_cut**2 - INSET_PIXELS
+    seen = [(labels.labels == limb, _limb_layer(mesh, vertices, limbs, limb, from_cut.shape)) for limb in LIMB_LABELS]
+    alike = np.clip(1 - from_cut / MOVED_ALIKE_PIXELS, 0, 1)
+    sides = []
+    for side, towards in ((trunk.front, 1.0), (trunk.back, -1.0)):
+        shape = side.depth.shape
+        raster = rasterise(vertices * [1, 1, -towards], joint[towards * facing > 0], (shape[0], shape[1]))
+        there = (raster.triangle >= 0) & trunk.mask
+        near = np.where(there, -raster.depth, 0)
+        apart = towards * side.depth - near - MERGED_DEPTH_PIXELS
+        limit = np.where(there, near + over + 2 * np.maximum(apart, 0), np.inf)
+        if towards > 0:  # whatever it is before, what is seen is nearer than the trunk
+            for own, limb in seen:
+                limit = np.where(own & limb.mask & trunk.mask, np.fmin(limit, limb.front.depth - INSET_PIXELS), limit)
+        depth = towards * np.minimum(towards * side.depth, limit)
+        share = cv2.GaussianBlur(np.where(there, alike, 0).astype(np.float32), (0, 0), DEPTH_SMOOTHING_PIXELS) * there
+        moves = interpolate(_dense(mesh, side.weights.shape[-1]), joint[towards * facing > 0], raster)
+        weights = side.weights + share[..., None] * (moves - side.weights)
+        sides.append(Surface(depth.astype(np.float32), np.where(there[..., None], weights, side.weights)))
+    return replace(trunk, front=sides[0], back=sides[1])
+
+
+def _dense(mesh: TemplateMesh, joints: int) -> NDArray[np.float32]:
+    """What moves each vertex, (V, J)."""
+    weights = np.zeros((len(mesh.bones), joints), np.float32)
+    np.add.at(weights, (np.arange(len(weights))[:, None], mesh.bones), mesh.weights)
+    return weights
 
 
 def _limb_layer(
@@ -166,12 +217,14 @@ def _within(
     hidden = (
         covered & ~dilate_mask(np.isin(labels.labels, LIMB_LABELS), LIMB_EDGE_TOLERANCE_PIXELS)[y, x] & ~limbs.overlap
     )
+    cut = (distance_to(np.isin(labels.labels, LIMB_LABELS)) < np.sqrt(INSET_PIXELS / CUT_CURVATURE))[y, x]
     front = (middle + half - beneath)[y, x]
     back = (middle - half + beneath)[y, x]
     z = vertices[:, 2]
     wanted = z.copy()
     over = np.maximum(z - front, 0)[hidden]
     wanted[hidden] -= over * np.clip(2 - over / MAX_FORWARD_PIXELS, 0, 1)
+    covered &= ~(cut & (limbs.near > 0))
     down = covered & limbs.overlap
     wanted[down] = np.minimum(z, front)[down]
     up = covered & limbs.overlap
@@ -186,6 +239,24 @@ def _within(
     moved = vertices.copy()
     moved[limb, 2] += spread[limb]
     return moved
+
+
+def _ends_drawn_in(mesh: TemplateMesh, vertices: NDArray[np.float64], limbs: Limbs) -> NDArray[np.float64]:
+    """Vertices (V, 3) with the borders at which limbs end in the trunk drawn in towards their middle: what closes them is inside, whatever
+    way the surface bends."""
+    shown = (limbs.limb >= 0)[mesh.triangles].all(1)
+    edges = open_edges(mesh.triangles[shown].astype(np.intp), len(vertices))
+    edges = edges[limbs.overlap[edges].all(1)]
+    graph = sp.coo_array((np.ones(len(edges)), edges.T), (len(vertices), len(vertices)))
+    loop = connected_components(graph, directed=False)[1]
+    end = np.unique(edges)
+    count = np.bincount(loop[end], minlength=loop.max() + 1)
+    drawn = vertices.copy()
+    for axis in range(3):
+        total = np.bincount(loop[end], vertices[end, axis], minlength=len(count))
+        middle = (total / np.maximum(count, 1))[loop[end]]
+        drawn[end, axis] += END_DRAWN_IN_SHARE * (middle - vertices[end, axis])
+    return drawn
 
 
 def _at(values: NDArray[np.floating], places: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -5,81 +5,128 @@ What a shell's own trunk would be coloured like is filled from its rows; here a 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import BODY_PARTS
+from engine.character.figure.figure import Figure
+from engine.character.figure.silhouette import OPAQUE_ALPHA, Silhouette
 from engine.character.hybrid.hybrid import Hybrid
-from engine.character.hybrid.trunk import LIMB_LABELS
+from engine.character.hybrid.trunk import LIMB_LABELS, TRUNK_LABEL
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
 from engine.character.shell.colours.paint import texels
 from engine.character.texture.texture import Tiles
 from engine.geometry.mesh.surface import vertex_normals
-from engine.imaging.masks.mask_distance import dilate_mask
+from engine.imaging.filling.nearest import nearest_colours
+from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
 from engine.render.rasteriser import rasterise
 
 TRUNK_WEIGHT_THRESHOLD = 0.5
 """Share of the trunk in what moves a vertex from which on its colours go over to the trunk's."""
 MIN_PICTURED_COSINE, FULLY_PICTURED_COSINE = 0.12, 0.3
 """Cosine to the viewer from which on what is seen of a limb is more and more, and all, the picture's."""
-LIMB_LABEL_TOLERANCE_PIXELS = 5
-"""Pixels of the grid around a limb's label in which its surface may be what is seen: neither's border is exact."""
+FULLY_CONTINUED_PIXELS, CONTINUED_PIXELS = 2.0, 6.0
+"""Pixels of the grid around what is surely a limb's up to which its surface has the colours of that, and from which on it has them no more:
+neither's border is exact."""
+LIMB_MARGIN_PIXELS, ARM_OVER_LEG_MARGIN_PIXELS = 2, 4
+"""Pixels of the grid from another limb, and of a leg from an arm, whose shadow lies on it, within which nothing is surely a limb's."""
+LIMB_COLOUR_MARGIN_PIXELS = 2.5
+"""Pixels of the grid within the outline in which the colours of a limb's edge are not its own."""
 VISIBILITY_TOLERANCE_PIXELS = 3.0
 """Pixels of the grid by which a point may be behind what is nearest at its place and yet be seen."""
 MAX_SIDE_COSINE = 0.3
 """Cosine to the viewer up to which, on both sides, front and back go over into one another."""
 
 
+@dataclass(frozen=True)
+class _Shown:
+    """What a picture shows of one part: its colours (H, W, 3), continued beyond it, and on the grid how far (h, w) they are of use, from 0 to 1."""
+
+    colours: NDArray[np.uint8]
+    certain: NDArray[np.float32]
+
+
 def with_the_trunks_colours(
-    texture: NDArray[np.uint8], hybrid: Hybrid, tiles: Tiles, rgb: NDArray[np.uint8], to_grid: NDArray[np.float64]
+    texture: NDArray[np.uint8], hybrid: Hybrid, tiles: Tiles, figure: Figure, silhouette: Silhouette
 ) -> NDArray[np.uint8]:
     """A shell's texture (S, S, 3) which goes over to the colours that a trunk's `tiles` have in front and behind.
 
-    Where a limb is what is seen, it goes over to those of the picture `rgb` (H, W, 3), which `to_grid` (2, 3) brings to the grid: a trunk
-    does not end, and an arm does not begin, in the same place on the template and on a sleeve.
+    Where a limb is what is seen, it goes over to those that the picture has of it: a trunk does not end, and an arm does not begin, in
+    the same place on the template and on a sleeve.
     """
     shell, labels, raster = hybrid.shell, hybrid.labels.labels, texels()
-    mesh = shell.mesh
-    share = np.clip(
-        (mesh.parts[:, BODY_PARTS.index("torso")] - TRUNK_WEIGHT_THRESHOLD) / (1 - TRUNK_WEIGHT_THRESHOLD), 0, 1
-    )
+    mesh, to_grid = shell.mesh, silhouette.to_grid
+    share = np.clip((mesh.parts[:, TRUNK_LABEL] - TRUNK_WEIGHT_THRESHOLD) / (1 - TRUNK_WEIGHT_THRESHOLD), 0, 1)
     facing = -vertex_normals(shell.pictured, mesh.triangles)[:, 2]
-    values = np.column_stack([shell.pictured, facing, share]).astype(np.float32)
+    joint = (hybrid.limbs.near > 0).astype(np.float64)
+    values = np.column_stack([shell.pictured, facing, share, joint]).astype(np.float32)
     shown = np.asarray((hybrid.limbs.limb >= 0)[mesh.triangles].all(1), np.bool_)
     y, x = np.nonzero((raster.triangle >= 0) & shown[raster.triangle])
     corners = mesh.triangles[raster.triangle[y, x]]
     at = np.einsum("nk,nkc->nc", raster.barycentrics[y, x], values[corners])
     tile = (at[:, :2] + 0.5) * tiles.scale + tiles.shift - 0.5
     front, back = _sampled(tiles.body, tile), _sampled(tiles.back, tile)
-    picture = _sampled(rgb, (at[:, :2] - to_grid[:, 2]) / np.diag(to_grid))
+    pixel = (at[:, :2] - to_grid[:, 2]) / np.diag(to_grid)
     depth = -rasterise(shell.pictured * [1, 1, -1], mesh.triangles[shown], labels.shape).depth
     column, row = np.clip(np.rint(at[:, :2]).astype(int), 0, [labels.shape[1] - 1, labels.shape[0] - 1]).T
     nearest = ~(depth[row, column] - at[:, 2] > VISIBILITY_TOLERANCE_PIXELS)
-    own = _around_limbs(labels)[hybrid.limbs.limb[corners[:, 0]], row, column] & nearest
+    certain, picture = np.zeros(len(at), np.float32), np.zeros((len(at), 3), np.float32)
+    at_joint = np.zeros(len(at), np.float32)
+    for limb in LIMB_LABELS:
+        own = np.flatnonzero(hybrid.limbs.limb[corners[:, 0]] == limb)
+        if (seen := _shown(limb, hybrid, figure.rgb, silhouette)) is not None and len(own):
+            certain[own] = _sampled(seen.certain, at[own, :2])
+            picture[own] = _sampled(seen.colours, pixel[own])
+        shared = np.isin(labels, (TRUNK_LABEL, limb)) & ~(hybrid.strange & (limb in LEG_LABELS))  # no wall between legs
+        at_joint[own] = _sampled(shared.astype(np.float32), at[own, :2])
+    certain *= nearest
+    at_joint *= (
+        at[:, 5] * nearest
+    )  # whatever is seen there, the limb's or the trunk's, is on the surface in which both meet
+    person = nearest_colours(figure.rgb, _within_the_outline(silhouette))
     before = np.clip(0.5 + at[:, 3] / (2 * MAX_SIDE_COSINE), 0, 1)
-    of_front, of_back = at[:, 4] * before * ~own, at[:, 4] * (1 - before)
-    seen = np.clip((at[:, 3] - MIN_PICTURED_COSINE) / (FULLY_PICTURED_COSINE - MIN_PICTURED_COSINE), 0, 1) * own
+    of_front, of_back = at[:, 4] * (1 - certain) * before, at[:, 4] * (1 - before)
+    seen_share = np.clip((at[:, 3] - MIN_PICTURED_COSINE) / (FULLY_PICTURED_COSINE - MIN_PICTURED_COSINE), 0, 1)
     mixed = texture[y, x].astype(np.float32)
-    for weight, colours in ((of_front, front), (of_back, back), (seen, picture)):
+    for weight, colours in (
+        (of_front, front),
+        (of_back, back),
+        (seen_share * certain, picture),
+        (seen_share * at_joint, _sampled(person, pixel)),
+    ):
         mixed += weight[:, None] * (colours - mixed)
     out = texture.copy()
     out[y, x] = np.clip(mixed + 0.5, 0, 255).astype(np.uint8)
     return out
 
 
-def _around_limbs(labels: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """For each part the pixels (P, h, w) that it may show: of limbs what is labelled so, and a little around it that is no other
-    limb's; of other parts none."""
-    around = np.zeros((len(BODY_PARTS), *labels.shape), np.bool_)
-    for limb in LIMB_LABELS:
-        others = np.isin(labels, [other for other in LIMB_LABELS if other != limb])
-        around[limb] = dilate_mask(labels == limb, LIMB_LABEL_TOLERANCE_PIXELS) & ~dilate_mask(others, 2)
-        around[limb] |= labels == limb
-    return around
+def _shown(limb: int, hybrid: Hybrid, rgb: NDArray[np.uint8], silhouette: Silhouette) -> _Shown | None:
+    """What a picture (H, W, 3) shows of a limb, an index of `BODY_PARTS`; None of one that it hides."""
+    labels = hybrid.labels.labels
+    sure = (labels == limb) & ~dilate_mask(hybrid.strange, 1)
+    for other in LIMB_LABELS:
+        if other != limb:
+            over = limb in LEG_LABELS and other in ARM_LABELS
+            sure &= ~dilate_mask(labels == other, ARM_OVER_LEG_MARGIN_PIXELS if over else LIMB_MARGIN_PIXELS)
+    away = distance_to(sure)
+    certain = np.clip((CONTINUED_PIXELS - away) / (CONTINUED_PIXELS - FULLY_CONTINUED_PIXELS), 0, 1)
+    size = (rgb.shape[1], rgb.shape[0])
+    flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+    there = cv2.warpAffine(sure.astype(np.float32), silhouette.to_grid, size, flags=flags) > 0.5
+    own = there & _within_the_outline(silhouette)
+    return _Shown(nearest_colours(rgb, own), certain.astype(np.float32)) if own.any() else None
 
 
-def _sampled(tile: NDArray[np.uint8], places: NDArray[np.floating]) -> NDArray[np.float32]:
-    """Colours (N, 3) of a tile at places (N, 2), pixels."""
+def _within_the_outline(silhouette: Silhouette) -> NDArray[np.bool_]:
+    """The pixels (H, W) of the picture that show the person and nothing of what is behind."""
+    margin = LIMB_COLOUR_MARGIN_PIXELS / silhouette.to_grid[0, 0]
+    return np.asarray(distance_inside(silhouette.alpha > OPAQUE_ALPHA) > margin)
+
+
+def _sampled(tile: NDArray[np.uint8] | NDArray[np.float32], places: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Values (N, ...) of a picture at places (N, 2), pixels."""
     maps = [np.ascontiguousarray(places[:, k].reshape(-1, 1), np.float32) for k in (0, 1)]
     rows = 16_384  # remap takes no more at once
     parts = [

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -26,7 +27,10 @@ from engine.character.surface.skirt_weights import moved_by_both
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import largest_piece
 
+TRUNK_LABEL = BODY_PARTS.index("torso")
 LIMB_LABELS = (*ARM_LABELS, *LEG_LABELS)
+BORDER_SMOOTHING_PIXELS = 5.0
+"""Pixels over which the trunk's border beside and behind limbs is smoothed: nobody sees it until they move away."""
 TRUNK_BEHIND_LIMBS_PIXELS = 3
 """Pixels by which the trunk goes on behind limbs everywhere: what lies between two borders of pixels would gape."""
 
@@ -36,7 +40,7 @@ def trunk_labels(labels: Labels) -> Labels:
     found, cloth = labels.labels, labels.cloth
     if cloth is not None and cloth.hangs:
         legs = np.full(found.shape, -1, np.int8) if cloth.legs is None else cloth.legs
-        clothed = np.where(np.isin(found, LEG_LABELS), BODY_PARTS.index("torso"), found)
+        clothed = np.where(np.isin(found, LEG_LABELS), TRUNK_LABEL, found)
         found = np.where(legs >= 0, legs, clothed).astype(np.int8)
     apart = np.array([limb for limb in LIMB_LABELS if (found == limb).any()], np.int8)
     return replace(labels, labels=found, apart=apart, parting=np.zeros_like(labels.parting), behind=None)
@@ -52,7 +56,17 @@ def trunk_region(labels: Labels, template: PosedTemplate, rig: Rig) -> Region:
     seen = (labels.labels >= 0) & ~limbs
     whole = template.covers(own, seen.shape)
     body = completed(seen, limbs, labels.occlusion, whole)
-    return Region(largest_piece(body | (limbs & dilate_mask(body, TRUNK_BEHIND_LIMBS_PIXELS))), own)
+    even = cv2.GaussianBlur(body.astype(np.float32), (0, 0), BORDER_SMOOTHING_PIXELS) > 0.5
+    beside = limbs | (seen & dilate_mask(np.isin(labels.labels, ARM_LABELS), TRUNK_BEHIND_LIMBS_PIXELS))
+    body = np.where(beside, even, body)
+    return Region(largest_piece(body | (beside & dilate_mask(body, TRUNK_BEHIND_LIMBS_PIXELS))), own)
+
+
+def soft_beside_limbs(layer: Layer, labels: Labels) -> NDArray[np.float32]:
+    """The trunk's mask (h, w) about limbs, smoothed: its border is where that is 0.5, between the pixels; 1 elsewhere."""
+    smooth = cv2.GaussianBlur(layer.mask.astype(np.float32), (0, 0), BORDER_SMOOTHING_PIXELS / 2)
+    beside = dilate_mask(np.isin(labels.labels, LIMB_LABELS), TRUNK_BEHIND_LIMBS_PIXELS)
+    return np.where(beside, smooth, 1).astype(np.float32)
 
 
 def _within_cloth(labels: Labels, template: PosedTemplate, part: NDArray[np.intp]) -> NDArray[np.bool_]:

@@ -15,6 +15,7 @@ from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.fit.template_maps import side_maps
+from engine.character.parts.colour_ownership import owned_by_colour
 from engine.character.parts.crossed_labels import ArmLabels, Behind
 from engine.character.parts.free_cloth import FreeCloth
 from engine.character.parts.hair_behind_arms import hair_behind_arms
@@ -126,7 +127,7 @@ def label_parts(
         rough, plain = labelled_shoulders(rgb, rough, template, rig)
         if (leg := before(rough)) is not None:
             rough = as_the_template(rough, projected, leg)
-        rough = without_specks(rough, known, plain)
+        rough = without_specks(owned_by_colour(rgb, rough.astype(np.int8)), known, plain)
         for hand in hints.unfound:
             own = template_hand(template.vertices, template.triangles, rig, hand.arm, (mask.shape[0], mask.shape[1]))
             if (found := parted(rgb, rough, own, hand)) is not None:

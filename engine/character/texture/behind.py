@@ -22,8 +22,14 @@ LIGHT_WINDOW_METRES = 0.2
 """Metres of rows to each side over which the light is one."""
 MIN_DIFFERENCE_RATIO, MIN_DIFFERENCE_LEVELS = 3.0, 24.0
 """How many times as far as is usual, and how many sRGB levels at least, sides are apart where one has something of its own."""
+ALL_OVER_QUANTILE, MIN_ALL_OVER_SHARE, PATTERN_REPEAT_METRES = 0.2, 0.05, 0.06
+"""A pattern is in a row where, of all columns but the poorest, so much is unlike theirs within its repeat, metres."""
+MIN_PATTERNED_ROWS_SHARE, PATTERN_EXTENT_METRES = 0.45, 0.5
+"""It is all over where it is in so many of the rows around, metres: a word is in fewer."""
 MIN_KNOWN_CELLS_SHARE = 0.5
 """Share of the cells that are usually known in a row, below which it is not told by those that are."""
+SEAM_LIGHT_METRES = 0.03
+"""Metres of rows over which both sides are brought to one level where they meet."""
 SIDE_BLEND_METRES = 0.01
 """Metres over which what is seen of a side goes over into what the other says of it."""
 
@@ -51,7 +57,7 @@ def seen_through(
     inner = slice(int(np.searchsorted(angle, -BACK_SEAM_RADIANS * pace - SIDE_END_RADIANS)), columns)
     light = _light(left[:, inner], right[:, inner], (there[0] & there[1])[:, inner], aside[:, inner], step)[:, None]
     sides = _whole(left, right - light * aside, *there, step), _whole(right, left + light * aside, *there[::-1], step)
-    sides = _agreed(sides[0], sides[1], light * aside, step)
+    sides = _agreed(*_without_prints(sides[0], sides[1], light * aside, step), light * aside, step)
     reach = int(np.searchsorted(angle, BACK_SEAM_RADIANS))
     down = np.ascontiguousarray(np.broadcast_to(np.arange(len(seen), dtype=np.float32)[:, None], (len(seen), reach)))
     across = np.ascontiguousarray(np.broadcast_to(np.arange(reach, dtype=np.float32) * np.float32(pace), down.shape))
@@ -60,7 +66,8 @@ def seen_through(
     for side, sign in zip(sides, (1, -1), strict=True):
         drawn = cv2.remap(side, across, down, cv2.INTER_LINEAR)
         halves.append(drawn + sign * nearer.astype(np.float32)[None, :, None] * light)
-    return sewn(halves[0], halves[1][:, ::-1], 2 * reach - len(angle))
+    join = 2 * reach - len(angle)
+    return sewn(*_levelled(halves[0], halves[1][:, ::-1], join, step), join)
 
 
 def _light(
@@ -121,6 +128,31 @@ def _in_its_row(colours: NDArray[np.float32], known: NDArray[np.bool_]) -> NDArr
     return np.where(known[..., None], colours, between).astype(np.float32)
 
 
+def _without_prints(
+    left: NDArray[np.float32], right: NDArray[np.float32], light: NDArray[np.float32], step: float
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Both sides (A, n, 3) without what is unlike most of its row and more so than is usual far around, as letters that reach there; stripes and
+    checks are all over."""
+    row = np.median(np.concatenate([left, right - light], 1), 1)
+    row = median_filter(row, (2 * round(SIDE_BLEND_METRES / step) + 1, 1), mode="nearest")[:, None]
+    size = 2 * round(LIGHT_WINDOW_METRES / step) + 1
+    off = np.linalg.norm(np.concatenate([left - row, right - light - row], 1), axis=-1).astype(np.float32)
+    usual = median_filter(np.median(off, 1), size, mode="nearest")[:, None]
+    odd = (off > np.maximum(MIN_DIFFERENCE_RATIO * usual, MIN_DIFFERENCE_LEVELS)).astype(np.float32)
+    around = cv2.blur(odd, (1, 2 * round(PATTERN_REPEAT_METRES / 2 / step) + 1), borderType=cv2.BORDER_REPLICATE)
+    patterned = (np.quantile(around, ALL_OVER_QUANTILE, axis=1) > MIN_ALL_OVER_SHARE).astype(np.float32)
+    odd[
+        cv2.blur(patterned[:, None], (1, 2 * round(PATTERN_EXTENT_METRES / 2 / step) + 1))[:, 0]
+        > MIN_PATTERNED_ROWS_SHARE
+    ] = 0
+    found, columns = [], left.shape[1]
+    for one, most, which in ((left, row, odd[:, :columns]), (right, row + light, odd[:, columns:])):
+        soft = cv2.GaussianBlur(which, (0, 0), SIDE_BLEND_METRES / step / 2)
+        share = np.clip(3 * soft, 0, 1)[..., None]
+        found.append(np.asarray((1 - share) * one + share * most, np.float32))
+    return found[0], found[1]
+
+
 def _agreed(
     left: NDArray[np.float32], right: NDArray[np.float32], light: NDArray[np.float32], step: float
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
@@ -145,6 +177,22 @@ def _agreed(
         share = (where * np.clip(more / MIN_DIFFERENCE_LEVELS + 0.5, 0, 1))[..., None]
         found.append(np.asarray((1 - share) * one + share * instead, np.float32))
     return found[0], found[1]
+
+
+def _levelled(
+    left: NDArray[np.float32], right: NDArray[np.float32], join: int, step: float
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Two pictures (A, N, 3) and (A, M, 3) of which the last and the first `join` columns overlap, each going over to what is between both there: what is
+    left of a difference over some rows is no pattern, and would be an edge."""
+    apart = np.median(right[:, :join] - left[:, -join:], 1)
+    apart = cv2.GaussianBlur(
+        apart.astype(np.float32), (1, 0), 1, sigmaY=SEAM_LIGHT_METRES / step, borderType=cv2.BORDER_REPLICATE
+    )
+    found = []
+    for one, sign in ((left, 0.5), (right[:, ::-1], -0.5)):
+        way = np.clip(np.arange(one.shape[1], dtype=np.float32) / (one.shape[1] - join), 0, 1)
+        found.append(one + sign * (way * way * (3 - 2 * way))[None, :, None] * apart[:, None])
+    return found[0], found[1][:, ::-1]
 
 
 def sewn(left: NDArray[np.floating], right: NDArray[np.floating], join: int) -> NDArray[np.float32]:

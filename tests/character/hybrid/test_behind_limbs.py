@@ -24,3 +24,16 @@ def test_of_what_is_hidden_all_over_nothing_is_made_up() -> None:
     rgb = np.full((20, 20, 3), 7, np.uint8)
     everything = np.ones((20, 20), np.bool_)
     assert (mirrored_behind(rgb, everything, everything) == rgb).all()
+
+
+def test_it_begins_as_light_as_what_it_meets() -> None:
+    """A shirt that is darker towards the arm: no step at the border, and lighter further in."""
+    rgb = np.zeros((300, 200, 3), np.uint8)
+    rgb[:] = np.clip(200 - 2 * np.maximum(np.arange(200) - 90, 0), 120, 200)[None, :, None]
+    hidden = np.zeros((300, 200), np.bool_)
+    hidden[50:250, 130:170] = True
+    rgb[hidden] = [220, 170, 140]
+    filled = mirrored_behind(rgb, hidden, np.broadcast_to(np.arange(200) < 170, hidden.shape)).astype(int)
+    across = filled[100:200, 125:135].mean((0, 2))
+    assert np.abs(np.diff(across)).max() < 6, "grey levels from one pixel to the next"
+    assert filled[100:200, 150:168].mean() > across[4] + 10

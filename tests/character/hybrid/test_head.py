@@ -23,7 +23,7 @@ from engine.character.hybrid.head import (
 )
 from engine.character.hybrid.headed import make_headed_relief
 from engine.character.hybrid.limbs import cut_off
-from engine.character.hybrid.passing_legs import legs_pass
+from engine.character.hybrid.suited_surface import arm_raised, legs_pass, suited_surface
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import LEG_LABELS
 from engine.character.shell.shell import ears_laid_back, eyes_in_sockets, shaped_head
@@ -185,6 +185,16 @@ def test_legs_that_pass_are_told_by_the_fit(found: Found) -> None:
         crossed[load_human().rig.index(f"{side}UpLeg")] = turn
     assert legs_pass(silhouette, replace(fitted, fit=replace(fitted.fit, rotations=crossed)), labels)
     assert set(LEG_LABELS) <= set(np.unique(labels.labels))
+
+
+@pytest.mark.parametrize(("degrees", "raised"), [(-70, False), (0, False), (15, True), (80, True)])
+def test_an_arm_is_raised_above_level(found: Found, degrees: float, raised: bool) -> None:
+    _, fitted, silhouette, labels = found
+    turns = fitted.fit.rotations.copy()
+    turns[load_human().rig.index("RightArm")] = Rotation.from_euler("z", -degrees, degrees=True).as_matrix()
+    posed = replace(fitted, fit=replace(fitted.fit, rotations=turns))
+    assert arm_raised(posed) is raised
+    assert suited_surface(silhouette, posed, labels) == ("relief" if raised else "hybrid")
 
 
 def test_ears_that_stand_out_of_the_outline_are_laid_back() -> None:

@@ -131,7 +131,7 @@ def test_limbs_are_the_shells_and_the_trunk_has_none(made: tuple[Hybrid, Charact
     assert shown[part[:, [*ARM_LABELS, *LEG_LABELS]].max(1) > 0.9].all()
     seen = hybrid.trunk.pixels(np.arange(len(hybrid.trunk.vertices)), hybrid.labels.labels.shape)
     far = cv2.distanceTransform((~np.isin(hybrid.labels.labels, [0, 1])).astype(np.uint8), cv2.DIST_L2, 5)
-    assert far[seen].max() < 5, "but for what goes on behind them"
+    assert far[seen].max() < 7, "but for what goes on behind them, and a smooth border"
 
 
 @pytest.mark.parametrize(

@@ -97,7 +97,7 @@ describe('in TalkingHead', () => {
     await call('speak', ['PP', 'aa', 'aa'], 6000); // long enough to be seen by a machine that draws a frame in two seconds
     const { pixels, above } = await call('shaped', 'viseme_aa', 0.3);
     expect(pixels, 'of the mouth').toBeGreaterThan(25);
-    expect(above).toBe(0);
+    expect(above, 'an edge of the hair, at most').toBeLessThan(pixels / 20);
   });
 });
 

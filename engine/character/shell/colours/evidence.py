@@ -34,6 +34,8 @@ MIN_OUTLINE_DISTANCE_PIXELS, SOURCE_OUTLINE_DISTANCE_PIXELS = 1.3, 2.2
 """Pixels of the grid from the outline of the mask."""
 ARM_MARGIN_PIXELS, ARM_SOURCE_MARGIN_PIXELS, ARM_OVER_LEG_MARGIN_PIXELS = 2.0, 4.0, 7.0
 """Pixels of the grid from an arm that passes before; a hand's shadow lies on the thigh."""
+MIXED_EDGE_PIXELS = 2.0
+"""Pixels of the grid within what is opaque in which colours are mixed with the wall's."""
 INNER_RIM_PIXELS, OUTER_WALL_PIXELS = 8.0, 3.0
 """Pixels of the grid from the outline inward in which there may be wall, and outward from which on there surely is."""
 WALL_COLOUR_RATIO, MIN_WALL_COLOUR_DISTANCE = 0.5, 15.0
@@ -63,7 +65,7 @@ class Witness:
 
     attributes : (V, 10) float32 of the shell's vertices: place on the grid (3), cosine to the viewer, and parts (6).
     labels : (2, h, w) uint8 on the grid, which labels there are within one pixel, and within two: a bit for each.
-    inside : (h, w) float32, pixels from the mask's outline.
+    inside : (h, w) float32, pixels from the mask's outline, and from what is no colour of its part.
     wall : (h, w) bool, what looks like the wall beside it and not like the person within.
     from_arms : (2, h, w) float32, pixels from the left and the right arm.
     nearest : (3, 3 h, 3 w) float32, depth towards the viewer: at each place, the largest close around it, and further around.
@@ -106,8 +108,10 @@ def witness(
     labels: Labels,
     shell: Shell,
     hides: NDArray[np.int32] | None = None,
+    strange: NDArray[np.bool_] | None = None,
 ) -> Witness:
-    """The picture (H, W, 3) as a witness of the shell; `hides` (T, 3): the triangles that hide others, all unless they are given."""
+    """The picture (H, W, 3) as a witness of the shell; `hides` (T, 3): the triangles that hide others, all unless they are given;
+    `strange` (h, w): pixels that have not the colours of what they are labelled as."""
     normals = vertex_normals(shell.pictured, shell.mesh.triangles)
     towards = -normals[:, 2:]  # y is down, so that the triangles turn the other way
     height, width = silhouette.mask.shape
@@ -121,11 +125,11 @@ def witness(
     near = np.where(np.isfinite(depth), -depth, -1e4).astype(np.float32)
     around = [np.asarray(cv2.dilate(near, np.ones((size, size), np.uint8)), np.float32) for size in (3, 15)]
     inverse = cv2.invertAffineTransform(silhouette.to_grid)
-    own = silhouette.alpha > OPAQUE_ALPHA
+    own = distance_inside(silhouette.alpha > OPAQUE_ALPHA) > MIXED_EDGE_PIXELS / silhouette.to_grid[0, 0]
     return Witness(
         np.concatenate([shell.pictured, towards, shell.mesh.parts], 1).astype(np.float32),
         np.stack([_labels_around(labels.labels, size) for size in (3, 5)]),
-        distance_inside(silhouette.mask),
+        distance_inside(silhouette.mask if strange is None else silhouette.mask & ~strange),
         _walls(silhouette, labels.labels),
         np.stack([distance_to(labels.labels == arm) for arm in ARM_LABELS]),
         np.stack([near, *around]),

@@ -66,6 +66,7 @@ def paint_shell(
     shell: Shell,
     back: BackTexture = "see_through",
     hides: NDArray[np.int32] | None = None,
+    strange: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.uint8]:
     """The texture (`SHELL_TEXTURE_SIZE_TEXELS`, `SHELL_TEXTURE_SIZE_TEXELS`, 3) of a shell, in the template's own chart.
 
@@ -75,6 +76,7 @@ def paint_shell(
     labels : what each pixel of the grid shows; what hangs over the legs is the trunk's (`Labels.layered`).
     back : what is behind: the front seen through without what only fronts have, all of it, or what the sides of each row say.
     hides : (T, 3), the triangles that are shown and hide others, where that is not all of the shell: what else it has is not painted.
+    strange : (h, w), pixels of the grid that have not the colours of what they are labelled as.
 
     Raises
     ------
@@ -82,7 +84,7 @@ def paint_shell(
     """
     if len(shell.mesh.triangles) != len(template_mesh().triangles):
         raise ValueError("only a whole shell has a chart: what is shown of it is said by `hides`")
-    told = witness(rgb, silhouette, labels, shell, hides)
+    told = witness(rgb, silhouette, labels, shell, hides, strange)
     triangles = shell.mesh.triangles
     of_shown = triangles if hides is None else hides
     parts = [part for part in unrolled_parts() if (part.share[of_shown] > MIN_PART_SHARE).any()]
