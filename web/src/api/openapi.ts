@@ -1796,7 +1796,7 @@ export interface components {
              */
             back_texture?: "see_through" | "mirror" | "inpaint";
             /**
-             * @description What the character is made of: the picture cut into parts that are given their depth (relief, the paper's way); the human template displaced to the outline, a shell that is whole from every side and where parts touch; or both (hybrid): trunk and hanging cloth of the relief, arms, legs and, where hair keeps to it, the head of the shell. auto: the relief with such a head, and the hybrid of who has one leg before the other.
+             * @description What the character is made of: the picture cut into parts that are given their depth (relief, the paper's way); the human template displaced to the outline, a shell that is whole from every side and where parts touch; or both (hybrid): trunk and hanging cloth of the relief, arms, legs and, where hair keeps to it, the head of the shell. auto: the hybrid; of who has an arm raised the relief with such a head, unless their legs pass before one another.
              * @default auto
              * @enum {string}
              */
