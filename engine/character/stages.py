@@ -327,11 +327,12 @@ def make_hybrid_character(
     limbs = np.isin(own.labels, own.apart)
     around = dilate_mask(trunk.pixels(np.arange(len(trunk.vertices)), limbs.shape), TRUNK_MARGIN_PIXELS)
     below = np.isin(own.labels, LEG_LABELS) & dilate_mask(own.labels == TRUNK_LABEL, TRUNK_MARGIN_PIXELS)
-    hidden = limbs & around & ~below & ~hybrid.at_joints()  # at the waist nothing is behind legs
+    hidden = limbs & around & ~below & ~hybrid.at_shoulders()  # at the waist nothing is behind legs
     hidden |= (own.labels == TRUNK_LABEL) & (hybrid.strange | dilate_mask(hidden, MIXED_BORDER_PIXELS))
-    gone, behind = (_in_the_picture(one, silhouette) for one in (limbs & ~around, hidden))
+    arms = np.isin(own.labels, ARM_LABELS)
+    gone, behind, before = (_in_the_picture(one, silhouette) for one in (limbs & ~around, hidden, arms))
     alone = replace(silhouette, alpha=silhouette.alpha * (1 - gone))
-    seen = mirrored_behind(figure.rgb, behind > 0, (silhouette.alpha > OPAQUE_ALPHA) & (gone == 0))
+    seen = mirrored_behind(figure.rgb, behind > 0, (silhouette.alpha > OPAQUE_ALPHA) & (gone == 0) & (before == 0))
     nothing = LimbSurfaces(np.zeros_like(limbs), np.zeros_like(limbs))
     tiles = _painted(replace(figure, rgb=seen), alone, own, nothing, back)
     shown = limbs_alone(hybrid)

@@ -20,6 +20,7 @@ from engine.character.hybrid.limbs import Limbs, cut_off, joined_in_depth, limbs
 from engine.character.hybrid.trunk import soft_beside_limbs, trunk_labels, trunk_layer
 from engine.character.parts.colour_ownership import strange_colours
 from engine.character.parts.label_map import Labels
+from engine.character.parts.labels import ARM_LABELS
 from engine.character.shell.piece import Piece
 from engine.character.shell.props import props_of
 from engine.character.shell.shell import Shell, shaped, shell_of
@@ -28,8 +29,8 @@ from engine.character.surface.face_warp import seen_face
 from engine.character.surface.front_and_back import ClosedMesh, stitch_front_and_back
 from engine.render.rasteriser import rasterise
 
-JOINT_NEARNESS = 0.3
-"""How near to a joint, from 0 to 1 there, a limb and the trunk are one surface."""
+SHOULDER_NEARNESS = 0.3
+"""How near to a shoulder, from 0 to 1 there, the arm and the trunk are one surface."""
 
 
 @dataclass(frozen=True)
@@ -49,10 +50,11 @@ class Hybrid:
     labels: Labels
     strange: NDArray[np.bool_]
 
-    def at_joints(self) -> NDArray[np.bool_]:
-        """The pixels (h, w) of the grid at which shoulders and hips are, whose surface is the limb's and the trunk's alike."""
+    def at_shoulders(self) -> NDArray[np.bool_]:
+        """The pixels (h, w) of the grid at which shoulders are, whose surface is the arm's and the trunk's alike."""
         mesh = self.shell.mesh
-        joint = (self.limbs.near > JOINT_NEARNESS)[mesh.triangles].all(1)
+        shoulder = (self.limbs.near > SHOULDER_NEARNESS) & np.isin(self.limbs.limb, ARM_LABELS)
+        joint = shoulder[mesh.triangles].all(1)
         height, width = self.labels.labels.shape
         return np.asarray(
             rasterise(self.shell.pictured * [1, 1, -1], mesh.triangles[joint], (height, width)).triangle >= 0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from engine.character.texture.behind import seen_through
 from engine.character.texture.trunk_back import with_trunk_back
 
 HIGH, WIDE = 320, 160
@@ -94,3 +95,32 @@ def test_a_neckline_is_the_front_s_alone() -> None:
 def test_of_whom_nothing_is_shown_nothing_changes() -> None:
     rgb = dressed()
     np.testing.assert_array_equal(back(rgb, NOBODY), rgb)
+
+
+def round_trunk() -> tuple[np.ndarray, np.ndarray]:
+    """Two hundred rows of a blue trunk, 1 m high, as it is laid out, and the angles of its columns."""
+    angle = ((np.arange(120) + 0.5) / 120 - 0.5) * np.pi
+    return np.broadcast_to(np.array([30, 50, 150], np.float32), (200, 120, 3)).copy(), angle
+
+
+def test_a_word_that_reaches_the_sides_stays_in_front() -> None:
+    seen, angle = round_trunk()
+    seen[60:90, 8:112:2] = 250
+    behind = seen_through(seen, np.ones((200, 120), np.bool_), angle, 0.005)
+    assert np.abs(behind - [30, 50, 150]).max() < 40
+    assert np.abs(behind - [30, 50, 150]).mean() < 4
+
+
+def test_stripes_go_round() -> None:
+    seen, angle = round_trunk()
+    seen[np.arange(200) // 4 % 3 == 0] = 250
+    behind = seen_through(seen, np.ones((200, 120), np.bool_), angle, 0.005)
+    assert np.abs(behind - seen).mean() < 3
+
+
+def test_where_both_sides_meet_there_is_no_edge() -> None:
+    """A fold's shadow, 15 cm high, on one side alone."""
+    seen, angle = round_trunk()
+    seen[80:110, 60:] *= 0.85
+    behind = seen_through(seen, np.ones((200, 120), np.bool_), angle, 0.005)
+    assert np.abs(np.diff(behind[85:105, 40:80], axis=1)).max() < 4, "grey levels from one column to the next"
