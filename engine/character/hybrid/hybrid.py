@@ -17,6 +17,7 @@ from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
 from engine.character.hybrid.head import hair_keeps_to_the_head, joined_at_the_neck, with_head, without_head
 from engine.character.hybrid.limbs import Limbs, cut_off, joined_in_depth, limbs_of
+from engine.character.hybrid.outline_warp import drawn_to_the_outline
 from engine.character.hybrid.trunk import soft_beside_limbs, trunk_labels, trunk_layer
 from engine.character.parts.colour_ownership import strange_colours
 from engine.character.parts.label_map import Labels
@@ -84,6 +85,8 @@ def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
     if with_its_head:
         limbs = with_head(limbs, mesh, fitted)
         pictured, trunk = joined_at_the_neck(mesh, pictured, limbs, trunk, seen)
+    shown = cut_off(mesh, limbs).triangles
+    pictured = drawn_to_the_outline(mesh, pictured, limbs, shown, trunk, silhouette.soft)
     covering = Piece("trunk", trunk.vertices, trunk.triangles, trunk.bones.astype(np.intp), trunk.weights)
     pieces = props_of(mesh, pictured, silhouette, [covering])
     shell = shell_of(mesh, replace(shape, pictured=pictured), silhouette, fitted, pieces)

@@ -15,6 +15,7 @@ from engine.character.figure.silhouette import GRID_HEIGHT_PIXELS, Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
 from engine.character.hybrid.hybrid import Hybrid, limbs_alone, make_hybrid
 from engine.character.hybrid.limbs import cut_off, limbs_of
+from engine.character.hybrid.outline_warp import drawn_to_the_outline
 from engine.character.hybrid.two_surfaces import together
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
@@ -162,3 +163,18 @@ def test_each_surface_keeps_its_colours(made: tuple[Hybrid, Character, Character
     x, y = np.clip(np.rint(mesh.uv * [width, height] - 0.5).astype(int), 0, [width - 1, height - 1]).T
     colours = mesh.texture[y, x]
     assert (colours[:limbs] == [250, 0, 0]).all() and (colours[limbs:] == [0, 0, 250]).all()
+
+
+def test_limbs_are_drawn_to_the_outline(made: tuple[Hybrid, Character, Character]) -> None:
+    """An outline two pixels further to the right: hands and feet go there, and nothing is torn."""
+    hybrid = made[0]
+    mesh, pictured, limbs = hybrid.shell.mesh, hybrid.shell.pictured, hybrid.limbs
+    mask = cv2.GaussianBlur((hybrid.labels.labels >= 0).astype(np.float32), (0, 0), 1)
+    beside = np.roll(mask, 2, 1)
+    triangles = limbs_alone(hybrid).mesh.triangles
+    moved = drawn_to_the_outline(pictured, limbs, triangles, hybrid.trunk, beside) - pictured
+    forearms = (limbs.limb >= 0) & ~limbs.overlap & (np.abs(pictured[:, 0] - SIZE[1] / 2) > 60)
+    np.testing.assert_allclose(moved[forearms].mean(0), [2, 0, 0], atol=0.4)
+    assert (moved[limbs.limb < 0] == 0).all() and (moved[:, 2] == 0).all()
+    edges = mesh.triangles[:, [0, 1]][(limbs.limb >= 0)[mesh.triangles].all(1)]
+    assert np.abs(moved[edges[:, 0]] - moved[edges[:, 1]]).max() < 1.5
