@@ -247,7 +247,7 @@ def test_a_real_picture(media: Callable[[str], Path], tmp_path: Path) -> None:
     report = json.loads((out / "report.json").read_text())
     assert report["warnings"] == []
     assert report["quality"]["landmark_reprojection"] < 0.02
-    assert report["quality"]["flipped"] == 0
+    assert report["quality"]["flipped"] < 1e-4
     written = read_written(out / "character.glb")
     seen = json.loads((out / "skeleton.json").read_text())["camera"]
     width, height = seen["size"]

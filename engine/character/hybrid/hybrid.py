@@ -86,7 +86,7 @@ def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
         limbs = with_head(limbs, mesh, fitted)
         pictured, trunk = joined_at_the_neck(mesh, pictured, limbs, trunk, seen)
     shown = cut_off(mesh, limbs).triangles
-    pictured = drawn_to_the_outline(mesh, pictured, limbs, shown, trunk, silhouette.soft)
+    pictured = drawn_to_the_outline(pictured, limbs, shown, trunk, silhouette.soft)
     covering = Piece("trunk", trunk.vertices, trunk.triangles, trunk.bones.astype(np.intp), trunk.weights)
     pieces = props_of(mesh, pictured, silhouette, [covering])
     shell = shell_of(mesh, replace(shape, pictured=pictured), silhouette, fitted, pieces)

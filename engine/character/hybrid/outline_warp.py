@@ -13,7 +13,6 @@ from scipy.spatial import cKDTree
 
 from engine.character.hybrid.limbs import Limbs
 from engine.character.shell.outlines import border_points
-from engine.character.shell.template_mesh import TemplateMesh
 from engine.character.surface.front_and_back import ClosedMesh
 from engine.render.rasteriser import rasterise
 
@@ -21,14 +20,13 @@ FINE_SCALE = 3
 """Pixels at which silhouettes are compared for each of the grid's."""
 MAX_WARP_PIXELS, MIN_FACING_COSINE = 6.0, 0.6
 """Pixels of the grid that a silhouette is drawn at most, and cosine between its normal and that of the outline there."""
-WARP_SIGMA_PIXELS, FULL_WARP_WEIGHT = 4.0, 0.02
+WARP_SIGMA_PIXELS, FULL_WARP_WEIGHT = 4.0, 0.005
 """Pixels of the grid over which the warp is one; and how much of the silhouette is about a place that goes with it wholly."""
 WARP_ROUNDS = 3
 """Times that silhouettes are compared."""
 
 
 def drawn_to_the_outline(
-    mesh: TemplateMesh,
     pictured: NDArray[np.float64],
     limbs: Limbs,
     triangles: NDArray[np.int32],
@@ -74,6 +72,6 @@ def _spread(points: NDArray[np.float64], ways: NDArray[np.float64], size: tuple[
     field = np.zeros((*size, 3), np.float32)
     x, y = np.rint(points).astype(int).T
     np.add.at(field, (y, x), np.concatenate([ways, np.ones((len(ways), 1))], 1).astype(np.float32))
-    field = cv2.GaussianBlur(field, (0, 0), WARP_SIGMA_PIXELS * FINE_SCALE)
-    weight = field[..., 2:]
-    return np.asarray(field[..., :2] / np.maximum(weight, FULL_WARP_WEIGHT / FINE_SCALE), np.float32)
+    smooth = np.asarray(cv2.GaussianBlur(field, (0, 0), WARP_SIGMA_PIXELS * FINE_SCALE), np.float32)
+    weight = smooth[..., 2:]
+    return np.asarray(smooth[..., :2] / np.maximum(weight, FULL_WARP_WEIGHT / FINE_SCALE), np.float32)
