@@ -20,7 +20,7 @@ FINE_SCALE = 3
 """Pixels at which silhouettes are compared for each of the grid's."""
 MAX_WARP_PIXELS, MIN_FACING_COSINE = 6.0, 0.6
 """Pixels of the grid that a silhouette is drawn at most, and cosine between its normal and that of the outline there."""
-WARP_SIGMA_PIXELS, FULL_WARP_WEIGHT = 4.0, 0.005
+WARP_SIGMA_PIXELS, FULL_WARP_WEIGHT = 4.0, 0.02
 """Pixels of the grid over which the warp is one; and how much of the silhouette is about a place that goes with it wholly."""
 WARP_ROUNDS = 3
 """Times that silhouettes are compared."""
