@@ -28,13 +28,12 @@ from engine.character.hybrid.headed import HeadedRelief, make_headed_relief
 from engine.character.hybrid.hybrid import Hybrid, limbs_alone
 from engine.character.hybrid.limbs import cut_off
 from engine.character.hybrid.seam import with_the_trunks_colours
-from engine.character.hybrid.trunk import TRUNK_LABEL
 from engine.character.hybrid.two_surfaces import together
 from engine.character.options import LabelStroke
 from engine.character.parts.crossed_labels import label_crossed
 from engine.character.parts.hem import with_cloth
 from engine.character.parts.label_map import LabelHints, Labels, label_parts
-from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, TRUNK_LABEL
 from engine.character.parts.limb_edges import border
 from engine.character.parts.unfound_hands import unfound_hands
 from engine.character.rig.measures import picture_camera, pose

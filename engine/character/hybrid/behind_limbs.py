@@ -17,7 +17,7 @@ from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 
 SHADOW_BAND_SHARE = 0.008
 """Beside limbs, as a share of the picture's longer side, colours are mixed with theirs, or in their shadow, and are not mirrored."""
-SEAM_PIXELS, LIGHT_SMOOTHING_PIXELS, SEAM_FADE_SHARE = 2, 3.0, 0.02
+SEAM_PIXELS, SEAM_LIGHT_SMOOTHING_PIXELS, SEAM_FADE_SHARE = 2, 3.0, 0.02
 """Pixels beside what is hidden by whose light it begins, and over which that is smoothed; and how far that goes, as a share of the longer side."""
 MAX_LIGHT_STEP = 30.0
 """Grey levels by which what is hidden may begin lighter or darker than it is further in: more is another colour, and no light."""
@@ -57,7 +57,7 @@ def mirrored_behind(rgb: NDArray[np.uint8], hidden: NDArray[np.bool_], shown: ND
     mirrored[y, x] = rgb[across[:, 0], across[:, 1]]
     weight = seam.astype(np.float32)[..., None]
     step = np.clip(rgb - mirrored, -MAX_LIGHT_STEP, MAX_LIGHT_STEP) * weight
-    told, count = (cv2.GaussianBlur(one, (0, 0), LIGHT_SMOOTHING_PIXELS) for one in (step, weight[..., 0]))
+    told, count = (cv2.GaussianBlur(one, (0, 0), SEAM_LIGHT_SMOOTHING_PIXELS) for one in (step, weight[..., 0]))
     lighter = told * weight / np.maximum(count, 1e-6)[..., None]
     lighter = (
         harmonic_fill(seam, hidden)(lighter.astype(np.float32))

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import OPAQUE_ALPHA, Silhouette
 from engine.character.hybrid.hybrid import Hybrid
-from engine.character.hybrid.trunk import LIMB_LABELS, TRUNK_LABEL
-from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
+from engine.character.hybrid.trunk import LIMB_LABELS
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, TRUNK_LABEL
 from engine.character.shell.colours.paint import texels
 from engine.character.texture.texture import Tiles
 from engine.geometry.mesh.surface import vertex_normals
@@ -30,7 +30,7 @@ MIN_PICTURED_COSINE, FULLY_PICTURED_COSINE = 0.12, 0.3
 FULLY_CONTINUED_PIXELS, CONTINUED_PIXELS = 2.0, 6.0
 """Pixels of the grid around what is surely a limb's up to which its surface has the colours of that, and from which on it has them no more:
 neither's border is exact."""
-LIMB_MARGIN_PIXELS, ARM_OVER_LEG_MARGIN_PIXELS = 2, 4
+LIMB_MARGIN_PIXELS, SURE_ARM_OVER_LEG_MARGIN_PIXELS = 2, 4
 """Pixels of the grid from another limb, and of a leg from an arm, whose shadow lies on it, within which nothing is surely a limb's."""
 LIMB_COLOUR_MARGIN_PIXELS = 2.5
 """Pixels of the grid within the outline in which the colours of a limb's edge are not its own."""
@@ -109,7 +109,7 @@ def _shown(limb: int, hybrid: Hybrid, rgb: NDArray[np.uint8], silhouette: Silhou
     for other in LIMB_LABELS:
         if other != limb:
             over = limb in LEG_LABELS and other in ARM_LABELS
-            sure &= ~dilate_mask(labels == other, ARM_OVER_LEG_MARGIN_PIXELS if over else LIMB_MARGIN_PIXELS)
+            sure &= ~dilate_mask(labels == other, SURE_ARM_OVER_LEG_MARGIN_PIXELS if over else LIMB_MARGIN_PIXELS)
     away = distance_to(sure)
     certain = np.clip((CONTINUED_PIXELS - away) / (CONTINUED_PIXELS - FULLY_CONTINUED_PIXELS), 0, 1)
     size = (rgb.shape[1], rgb.shape[0])

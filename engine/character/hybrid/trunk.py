@@ -12,11 +12,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import BODY_PARTS, vertex_parts
+from engine.body.parts import vertex_parts
 from engine.body.rig import Rig
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, TRUNK_LABEL
 from engine.character.parts.occlusion import completed
 from engine.character.parts.regions import Region
 from engine.character.surface.drape import drape
@@ -27,9 +27,8 @@ from engine.character.surface.skirt_weights import moved_by_both
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import largest_piece
 
-TRUNK_LABEL = BODY_PARTS.index("torso")
 LIMB_LABELS = (*ARM_LABELS, *LEG_LABELS)
-BORDER_SMOOTHING_PIXELS = 5.0
+TRUNK_BORDER_SMOOTHING_PIXELS = 5.0
 """Pixels over which the trunk's border beside and behind limbs is smoothed: nobody sees it until they move away."""
 TRUNK_BEHIND_LIMBS_PIXELS = 3
 """Pixels by which the trunk goes on behind limbs everywhere: what lies between two borders of pixels would gape."""
@@ -56,7 +55,7 @@ def trunk_region(labels: Labels, template: PosedTemplate, rig: Rig) -> Region:
     seen = (labels.labels >= 0) & ~limbs
     whole = template.covers(own, seen.shape)
     body = completed(seen, limbs, labels.occlusion, whole)
-    even = cv2.GaussianBlur(body.astype(np.float32), (0, 0), BORDER_SMOOTHING_PIXELS) > 0.5
+    even = cv2.GaussianBlur(body.astype(np.float32), (0, 0), TRUNK_BORDER_SMOOTHING_PIXELS) > 0.5
     beside = limbs | (seen & dilate_mask(np.isin(labels.labels, ARM_LABELS), TRUNK_BEHIND_LIMBS_PIXELS))
     body = np.where(beside, even, body)
     return Region(largest_piece(body | (beside & dilate_mask(body, TRUNK_BEHIND_LIMBS_PIXELS))), own)
@@ -64,7 +63,7 @@ def trunk_region(labels: Labels, template: PosedTemplate, rig: Rig) -> Region:
 
 def soft_beside_limbs(layer: Layer, labels: Labels) -> NDArray[np.float32]:
     """The trunk's mask (h, w) about limbs, smoothed: its border is where that is 0.5, between the pixels; 1 elsewhere."""
-    smooth = cv2.GaussianBlur(layer.mask.astype(np.float32), (0, 0), BORDER_SMOOTHING_PIXELS / 2)
+    smooth = cv2.GaussianBlur(layer.mask.astype(np.float32), (0, 0), TRUNK_BORDER_SMOOTHING_PIXELS / 2)
     beside = dilate_mask(np.isin(labels.labels, LIMB_LABELS), TRUNK_BEHIND_LIMBS_PIXELS)
     return np.where(beside, smooth, 1).astype(np.float32)
 

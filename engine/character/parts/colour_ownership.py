@@ -12,20 +12,18 @@ import numpy as np
 from numba import prange
 from numpy.typing import NDArray
 
-from engine.body.parts import BODY_PARTS
-from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, TRUNK_LABEL
 from engine.compiled import njit
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
 from engine.imaging.masks.mask_pieces import pieces_touching
 
 OWN, LIKE_THE_OTHER, LIKE_NEITHER = 0, 1, 2
 """What is said of a pixel's colour."""
-TRUNK_LABEL = BODY_PARTS.index("torso")
 BAND_PIXELS, BAND_THICKNESS_SHARE = 8.0, 0.45
 """How far from another part a pixel is looked at: pixels of the grid, and as a share of half of the part's own thickness there, whichever is less."""
 THICKNESS_WINDOW_PIXELS = 21
 """Pixels of the window in which a part's thickness is taken."""
-SEARCH_RADIUS_PIXELS, SEARCH_STEP_PIXELS = 16, 2
+COLOUR_SEARCH_RADIUS_PIXELS, COLOUR_SEARCH_STEP_PIXELS = 16, 2
 """How far around a pixel its part is looked at for a colour like its own, and every how many pixels."""
 MAX_COLOUR_DISTANCE = 12.0
 """CIE Lab distance up to which two colours are alike."""
@@ -33,9 +31,9 @@ MIN_ALIKE_SHARE = 0.05
 """Share of its part's inside around it that has a pixel's colour, at least."""
 MIN_SHADOW_DEPTH, MIN_MIXED_SHARE = 6.0, 0.25
 """CIE lightness by which a shadow is darker than its part's darkest; share of another's colour in a mixture that is no more its part's."""
-MAX_ROUNDS = 6
+MAX_RELABELLING_ROUNDS = 6
 """Times that borders are looked at anew: what is held may reach further than one look."""
-MIXED_PIXELS, EVENED_PIXELS = 2, 3
+MIXED_COLOUR_PIXELS, EVENED_PIXELS = 2, 3
 """Pixels from a border in which colours of both parts are mixed, and around what was relabelled in which the border is smoothed."""
 SMOOTHING_SIGMA_PIXELS = 0.8
 """Pixels over which colours are smoothed before they are compared."""
@@ -45,7 +43,7 @@ def owned_by_colour(rgb: NDArray[np.uint8], labels: NDArray[np.int8]) -> NDArray
     """Labels (h, w) of a picture (h, w, 3) in which pixels beside an arm that are the arm's by their colours are labelled so, and pixels of an arm
     beside trunk or leg that are theirs."""
     lab, found = _smooth_lab(rgb), labels.copy()
-    for _ in range(MAX_ROUNDS):
+    for _ in range(MAX_RELABELLING_ROUNDS):
         before = found.copy()
         for arm in ARM_LABELS:
             for body in (TRUNK_LABEL, *LEG_LABELS):
@@ -61,7 +59,7 @@ def _owned(lab: NDArray[np.float32], labels: NDArray[np.int8], own: int, other: 
     owner, there = labels == own, labels == other
     beside = _beside(owner, there)
     if beside.any():
-        within = there & (distance_to(owner) > MIXED_PIXELS)
+        within = there & (distance_to(owner) > MIXED_COLOUR_PIXELS)
         like = _judged(lab, beside, owner & ~beside, within) == LIKE_THE_OTHER
         moved = pieces_touching(like | there, there) & like
         labels[moved] = other
@@ -121,10 +119,14 @@ def _judged(lab: np.ndarray, asked: np.ndarray, inside: np.ndarray, beyond: np.n
             own, own_alike, own_darker, other, other_alike = 0, 0, 0, 0, 0
             own_mean, other_mean = np.zeros(3, np.float32), np.zeros(3, np.float32)
             for v in range(
-                max(y - SEARCH_RADIUS_PIXELS, 0), min(y + SEARCH_RADIUS_PIXELS + 1, height), SEARCH_STEP_PIXELS
+                max(y - COLOUR_SEARCH_RADIUS_PIXELS, 0),
+                min(y + COLOUR_SEARCH_RADIUS_PIXELS + 1, height),
+                COLOUR_SEARCH_STEP_PIXELS,
             ):
                 for u in range(
-                    max(x - SEARCH_RADIUS_PIXELS, 0), min(x + SEARCH_RADIUS_PIXELS + 1, width), SEARCH_STEP_PIXELS
+                    max(x - COLOUR_SEARCH_RADIUS_PIXELS, 0),
+                    min(x + COLOUR_SEARCH_RADIUS_PIXELS + 1, width),
+                    COLOUR_SEARCH_STEP_PIXELS,
                 ):
                     if not (inside[v, u] or beyond[v, u]):
                         continue

@@ -34,7 +34,7 @@ MIN_OUTLINE_DISTANCE_PIXELS, SOURCE_OUTLINE_DISTANCE_PIXELS = 1.3, 2.2
 """Pixels of the grid from the outline of the mask."""
 ARM_MARGIN_PIXELS, ARM_SOURCE_MARGIN_PIXELS, ARM_OVER_LEG_MARGIN_PIXELS = 2.0, 4.0, 7.0
 """Pixels of the grid from an arm that passes before; a hand's shadow lies on the thigh."""
-MIXED_EDGE_PIXELS = 2.0
+WALL_MIXED_EDGE_PIXELS = 2.0
 """Pixels of the grid within what is opaque in which colours are mixed with the wall's."""
 INNER_RIM_PIXELS, OUTER_WALL_PIXELS = 8.0, 3.0
 """Pixels of the grid from the outline inward in which there may be wall, and outward from which on there surely is."""
@@ -125,7 +125,7 @@ def witness(
     near = np.where(np.isfinite(depth), -depth, -1e4).astype(np.float32)
     around = [np.asarray(cv2.dilate(near, np.ones((size, size), np.uint8)), np.float32) for size in (3, 15)]
     inverse = cv2.invertAffineTransform(silhouette.to_grid)
-    own = distance_inside(silhouette.alpha > OPAQUE_ALPHA) > MIXED_EDGE_PIXELS / silhouette.to_grid[0, 0]
+    own = distance_inside(silhouette.alpha > OPAQUE_ALPHA) > WALL_MIXED_EDGE_PIXELS / silhouette.to_grid[0, 0]
     return Witness(
         np.concatenate([shell.pictured, towards, shell.mesh.parts], 1).astype(np.float32),
         np.stack([_labels_around(labels.labels, size) for size in (3, 5)]),
