@@ -64,14 +64,14 @@ def in_shoes(straight: NDArray[np.floating]) -> NDArray[np.float64]:
     """The mesh in T-pose (V, 3) with both feet in shoes."""
     mesh = template_mesh()
     skin = ~mesh.eye
-    masks, caps = _feet()
+    masks, caps = shoe_shapes()
     shoes = np.array(straight, np.float64)
     shoes[skin] = shod(shoes[skin], _skin_triangles(mesh), masks, caps)
     return shoes
 
 
 @cache
-def _feet() -> tuple[tuple[NDArray[np.bool_], ...], tuple[ToeCap, ...]]:
+def shoe_shapes() -> tuple[tuple[NDArray[np.bool_], ...], tuple[ToeCap, ...]]:
     """Masks of both feet among the vertices of the skin, and the caps in which shoes end; the first time caps are made."""
     mesh, mean = template_mesh(), load_human().space.mean
     places, own = mean[mesh.ids[~mesh.eye]], mesh.foot[~mesh.eye]

@@ -197,6 +197,8 @@ def _side(seen: NDArray[np.floating], weight: NDArray[np.floating]) -> tuple[NDA
     """One side's colour in each row and the square of what it varies by (A, 4), and how many cells say so (A,). What is unlike
     the others counts little."""
     told = weight.any(0)
+    if not told.any():
+        return np.zeros((len(seen), 4), np.float32), np.zeros(len(seen), np.float32)
     seen, weight, aside = seen[:, told], weight[:, told], np.abs(COLUMN_SINES[told])
     trust = np.asarray(weight, np.float64)
     mean = np.zeros((len(seen), 3))

@@ -11,6 +11,7 @@ from engine.character.shell.colours.round import (
     COLUMN_SINES,
     coloured_round,
     reflections,
+    row_model,
     with_the_other,
 )
 from engine.character.shell.colours.unrolled import UNROLLED_COLUMNS
@@ -154,3 +155,9 @@ def test_a_legs_folds_have_no_seam_at_the_border() -> None:
     assert steps.max() < 1.3 * np.abs(np.diff(folds)).max()
     side = (facing[40] < 0.35) & (facing[40] > -0.35)
     assert filled[40, side, 0].std() > 10, "folds go on over the sides"
+
+
+def test_a_side_of_which_nothing_is_seen_is_as_the_other() -> None:
+    seen = np.full((40, UNROLLED_COLUMNS, 3), [10, 100, 50], np.float32)
+    weight = np.broadcast_to(np.maximum(COLUMN_SINES, 0), seen.shape[:2])
+    np.testing.assert_allclose(row_model(seen, weight).colours, seen, atol=0.01)
