@@ -179,3 +179,20 @@ def test_limbs_are_drawn_to_the_outline(made: tuple[Hybrid, Character, Character
     assert (moved[limbs.limb < 0] == 0).all() and (moved[:, 2] == 0).all()
     edges = mesh.triangles[:, [0, 1]][(limbs.limb >= 0)[mesh.triangles].all(1)]
     assert np.abs(moved[edges[:, 0]] - moved[edges[:, 1]]).max() < 2.5, "pixels between neighbours"
+
+
+def test_at_shoulders_the_trunk_ends_beneath_the_shell(made: tuple[Hybrid, Character, Character]) -> None:
+    """Where an arm is cut from it, the trunk's front is behind the arm's, so that its border is no step."""
+    hybrid = made[0]
+    shape = hybrid.labels.labels.shape
+    arms = np.isin(hybrid.labels.labels, ARM_LABELS)
+    shell, trunk = (
+        -rasterise(vertices * [1, 1, -1], triangles, shape).depth
+        for vertices, triangles in (
+            (hybrid.shell.pictured, limbs_alone(hybrid).mesh.triangles),
+            (hybrid.trunk.vertices, hybrid.trunk.triangles),
+        )
+    )
+    beside = cv2.dilate(arms.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+    at = hybrid.at_shoulders() & beside & np.isfinite(shell) & np.isfinite(trunk)
+    assert at.sum() > 20 and (shell > trunk)[at].mean() > 0.9

@@ -111,16 +111,18 @@ def test_a_word_that_reaches_the_sides_stays_in_front() -> None:
     assert np.abs(behind - [30, 50, 150]).mean() < 4
 
 
-def test_stripes_go_round() -> None:
+def test_stripes_that_hang_in_curves_go_round() -> None:
+    """No row of them is of one colour."""
     seen, angle = round_trunk()
-    seen[np.arange(200) // 4 % 3 == 0] = 250
+    striped = (np.arange(200)[:, None] + 10 * np.cos(3 * angle)[None]) % 14 < 3
+    seen[striped] = 250
     behind = seen_through(seen, np.ones((200, 120), np.bool_), angle, 0.005)
-    assert np.abs(behind - seen).mean() < 3
+    assert abs((behind.mean(-1) > 150)[20:180].mean() - striped[20:180].mean()) < 0.05
 
 
 def test_where_both_sides_meet_there_is_no_edge() -> None:
-    """A fold's shadow, 15 cm high, on one side alone."""
+    """A shadow, 30 cm high, on one side alone."""
     seen, angle = round_trunk()
-    seen[80:110, 60:] *= 0.85
+    seen[70:130, 60:] *= 0.7
     behind = seen_through(seen, np.ones((200, 120), np.bool_), angle, 0.005)
-    assert np.abs(np.diff(behind[85:105, 40:80], axis=1)).max() < 4, "grey levels from one column to the next"
+    assert np.abs(np.diff(behind[75:125, 40:80], axis=1)).max() < 6, "grey levels from one column to the next"
