@@ -57,8 +57,14 @@ Stages = tuple[Figure, Silhouette]
 
 @dataclass(frozen=True)
 class Laid:
-    """A fitted template before its picture's camera: `vertices` (V, 3) and `joints` by name, metres; `pixels` (V, 3); the `cover`
-    (H, W) of the picture; `soles`: the lowest row of each foot, left and right."""
+    """A fitted template before its picture's camera.
+
+    vertices : (V, 3) metres.
+    joints : (3,) metres, by name.
+    pixels : (V, 3).
+    cover : (H, W) of the picture.
+    soles : the lowest row of each foot, left and right.
+    """
 
     vertices: NDArray[np.float32]
     joints: Mapping[str, NDArray[np.float64]]

@@ -86,7 +86,8 @@ class Needs:
     """What a kind's work takes at the most. The operator's settings cap all of it, and None leaves it to them.
 
     seconds : of work, on a machine that is slow or has other things to do; longer is a fault, or a hostile input.
-    memory_mb : in millions of bytes. cores : that it can make use of.
+    memory_mb : in millions of bytes.
+    cores : that it can make use of.
     """
 
     seconds: float | None = None

@@ -22,8 +22,12 @@ class MadeSurfaces:
 
 @dataclass(frozen=True)
 class Comparison:
-    """What was found of one picture, against the truth. `distances`: of the character, by warped depth, of the template;
-    `joints`: centimetres, None where the truth has none; `seconds` it took."""
+    """What was found of one picture, against the truth.
+
+    distances : of the character, of the one made by warped depth, and of the template.
+    joints : centimetres, None where the truth has none.
+    seconds : how long it took.
+    """
 
     known: KnownPicture
     place: str

@@ -36,7 +36,11 @@ HIDDEN_DEPTH_SCAN_HEIGHTS = 0.01
 
 @dataclass(frozen=True)
 class HeadScan:
-    """`vertices` (V, 3), y up, facing +z, centred; `triangles` (T, 3); `uv` (V, 2); `texture` (h, w, 3) uint8."""
+    """vertices : (V, 3), y up, facing +z, centred.
+    triangles : (T, 3).
+    uv : (V, 2).
+    texture : (h, w, 3) uint8.
+    """
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.int64]

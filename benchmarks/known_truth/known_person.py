@@ -33,9 +33,12 @@ GROUND_CONTACT_SHADE_SHARE = 0.45
 
 @dataclass(frozen=True)
 class Person:
-    """`vertices` (V, 3) metres, y up, facing +z, standing on y = 0; `triangles` (T, 3), counter-clockwise from outside;
-    `height` in metres when standing upright; `paint` gives a raster of these triangles its colours (H, W, 3), 0 to 255.
-    `joints` (J, 3), where they are known, are those of the template's rig."""
+    """vertices : (V, 3) metres, y up, facing +z, standing on y = 0.
+    triangles : (T, 3), counter-clockwise from outside.
+    height : metres, when standing upright.
+    paint : what gives a raster of these triangles its colours (H, W, 3), 0 to 255.
+    joints : (J, 3) of the template's rig, where they are known.
+    """
 
     name: str
     vertices: NDArray[np.float64]

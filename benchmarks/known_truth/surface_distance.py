@@ -42,8 +42,10 @@ class Sampled:
 
 @dataclass(frozen=True)
 class Distances:
-    """`chamfer`: the mean over both directions; `to_surface`: from the true points to the surface that was made; both in
-    the truth's unit. `normals`: degrees between a true point's normal and that of the nearest place made."""
+    """chamfer : the mean over both directions.
+    to_surface : from the true points to the surface that was made; both in the truth's unit.
+    normals : degrees between a true point's normal and that of the nearest place made.
+    """
 
     chamfer: float
     to_surface: float

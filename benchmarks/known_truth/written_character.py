@@ -31,8 +31,12 @@ FILL_OVERHANG_PIXELS = 0.5 / OUTLINE_SUPERSAMPLING
 
 @dataclass(frozen=True)
 class Written:
-    """What a GLB holds. `pictured` (V, 3): the vertices as its clip `pictured` has them. `unbound`: by how much the joints at
-    rest times the inverse bind matrices differ from the identity, at most; `unweighted`: weights from one, at most."""
+    """What a GLB holds.
+
+    pictured : (V, 3) the vertices as its clip `pictured` has them.
+    unbound : by how much the joints at rest times the inverse bind matrices differ from the identity, at most.
+    unweighted : weights from one, at most.
+    """
 
     mesh: SkinnedMesh
     pictured: NDArray[np.float64]

@@ -26,7 +26,10 @@ HEAD_VERTEX_WEIGHT = 8.0
 
 @dataclass(frozen=True)
 class Avatar:
-    """`mesh` in T-pose; `morphs`: its expressions; `filmed`: the pose in which the person stood, one frame."""
+    """mesh : in T-pose.
+    morphs : its expressions.
+    filmed : the pose in which the person stood, one frame.
+    """
 
     mesh: SkinnedMesh
     morphs: tuple[MorphTarget, ...]

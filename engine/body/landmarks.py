@@ -46,8 +46,10 @@ LANDMARK_RISE_METRES = {"Shoulder": 0.012, "Hip": 0.017, "Knee": 0.007, "Ankle":
 class LandmarkModel:
     """Landmarks at rest, linear in the body's coefficients.
 
-    `names` (L,); `joints` (L,) int: the joint that carries each; `mean` (L, 3) and `basis` (K, L, 3): where they are in
-    T-pose, as `engine.body.body_space.BodySpace` has its vertices.
+    names : (L,).
+    joints : (L,) int, the joint that carries each.
+    mean : (L, 3) where they are in T-pose, as `engine.body.body_space.BodySpace` has its vertices.
+    basis : (K, L, 3) how they move with each coefficient.
     """
 
     names: tuple[str, ...]

@@ -24,8 +24,10 @@ PHENOTYPE_RACES = ("african", "asian", "caucasian")
 class Phenotype:
     """The large features of a person, each in [0, 1]; 0.5 is the average adult.
 
-    `age`: see `AGE_ANCHORS`. `gender`: 0 female, 1 male. `height` and `proportions` have no effect at 0.5.
-    `african`, `asian`, `caucasian`: shares of MakeHuman's three head shapes, normalised to sum to one.
+    age : see `AGE_ANCHORS`.
+    gender : 0 female, 1 male.
+    height, proportions : have no effect at 0.5.
+    african, asian, caucasian : shares of MakeHuman's three head shapes, normalised to sum to one.
     """
 
     age: float = 0.5

@@ -50,10 +50,13 @@ FACE_UNITS = (
 class Template:
     """The base mesh at rest, arms spread, metres, y up, facing +z, its left at +x, its origin near the pelvis.
 
-    `vertices` (V, 3) float32; `quads` (F, 4) int32, counter-clockwise seen from outside;
-    `uv` (U, 2) float32 with its own `uv_quads` (F, 4) int32, (0, 0) the texture's top left (glTF);
-    `parts`: the span of faces [first, last) of each part in `TEMPLATE_PARTS`. Some vertices belong to no face:
-    they carry the joints. `face_units` displace the same vertices.
+    vertices : (V, 3) float32.
+    quads : (F, 4) int32, counter-clockwise seen from outside.
+    uv : (U, 2) float32, (0, 0) the texture's top left (glTF).
+    uv_quads : (F, 4) int32, the faces by places on the texture.
+    parts : the span of faces [first, last) of each part in `TEMPLATE_PARTS`. Some vertices belong to no face: they
+        carry the joints.
+    face_units : what displaces the same vertices.
     """
 
     vertices: NDArray[np.float32]

@@ -31,9 +31,12 @@ class TextureTransform:
 class Material:
     """What a part of a mesh is made of.
 
-    `texture` (H, W, 3) uint8 sRGB, or (H, W, 4) with alpha; by default the mesh's own. `colour`: red, green, blue (linear)
-    and alpha, each 0 to 1, by which it is multiplied. `alpha`: whether alpha says nothing, cuts at a half, or blends.
-    `two_sided`: seen from behind, too. `roughness` 0 to 1, for viewers that light it. `transform` of its places on the texture.
+    texture : (H, W, 3) uint8 sRGB, or (H, W, 4) with alpha; by default the mesh's own.
+    colour : red, green, blue (linear) and alpha, each 0 to 1, by which it is multiplied.
+    alpha : whether alpha says nothing, cuts at a half, or blends.
+    two_sided : seen from behind, too.
+    roughness : 0 to 1, for viewers that light it.
+    transform : of its places on the texture.
     """
 
     name: str

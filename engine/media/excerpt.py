@@ -12,8 +12,10 @@ from engine.media.limits import Limits
 class Excerpt:
     """The frames of a video that are used.
 
-    `path` : the video's file. `fps` : frames a second to take; None takes each. `trim` : (start, end) seconds of the
-    video; None takes all of it. `limits` : how large it may be.
+    path : the video's file.
+    fps : frames a second to take; None takes each.
+    trim : (start, end) seconds of the video; None takes all of it.
+    limits : how large it may be.
     """
 
     path: Path

@@ -49,8 +49,13 @@ Tick = Callable[[float], None]
 
 @dataclass(frozen=True)
 class SelectedFrame:
-    """A frame that was selected: `index` counts the video's frames from 0; `rgb` uint8 (H, W, 3) sRGB, upright; `time`
-    seconds since the first frame; `sharpness` its variance of the Laplacian."""
+    """A frame that was selected.
+
+    index : counts the video's frames from 0.
+    rgb : uint8 (H, W, 3) sRGB, upright.
+    time : seconds since the first frame.
+    sharpness : its variance of the Laplacian.
+    """
 
     index: int
     rgb: NDArray[np.uint8]

@@ -28,8 +28,13 @@ _CUT_OUT = 0.01
 
 @dataclass(frozen=True)
 class Picture:
-    """A decoded picture: `rgb` uint8 (H, W, 3) sRGB, upright; `alpha` float32 (H, W) [0, 1], None where opaque;
-    `format` the media type of the file it came from; `year` in which it was taken, where the file says so (EXIF)."""
+    """A decoded picture.
+
+    rgb : uint8 (H, W, 3) sRGB, upright.
+    alpha : float32 (H, W) [0, 1], None where opaque.
+    format : the media type of the file it came from.
+    year : in which it was taken, where the file says so (EXIF).
+    """
 
     rgb: np.ndarray
     alpha: np.ndarray | None

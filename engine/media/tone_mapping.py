@@ -37,9 +37,14 @@ _TABLE_STEPS = 16384  # of the tables over luminance and light, which are read a
 
 @dataclass(frozen=True)
 class ToneMap:
-    """One conversion to sRGB: `light` float32 (65536,) by code value; `luminance` float32 (3,) weights; `gain`
-    float32 by the luminance's fourth root; `matrix` float32 (3, 3) to linear BT.709, white at 1; `code` uint8,
-    sRGB by the light's square root."""
+    """One conversion to sRGB.
+
+    light : float32 (65536,) by code value.
+    luminance : float32 (3,) weights.
+    gain : float32 by the luminance's fourth root.
+    matrix : float32 (3, 3) to linear BT.709, white at 1.
+    code : uint8, sRGB by the light's square root.
+    """
 
     light: np.ndarray
     luminance: np.ndarray

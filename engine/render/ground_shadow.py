@@ -29,9 +29,10 @@ MAX_CELLS = 700
 class GroundShadow:
     """How the ground is darkened.
 
-    `strength` [0, 1]: how much of the light the core takes away. `softness`: metres over which its edge fades.
-    `reach`: metres above the ground over which casting fades to a third; infinite for the whole shadow of a sun.
-    `light` (3,): the direction towards the light, y > 0.
+    strength : [0, 1]: how much of the light the core takes away.
+    softness : metres over which its edge fades.
+    reach : metres above the ground over which casting fades to a third; infinite for the whole shadow of a sun.
+    light : (3,) the direction towards the light, y > 0.
     """
 
     strength: float = 0.55

@@ -23,8 +23,9 @@ BLOCK_SHIFT = 3
 class PixelSelection(NamedTuple):
     """The pixels of a picture of size (H, W) that are to be looked at.
 
-    `places` (N, 2) int32: rows and columns, block by block; `starts` (B + 1,) int64 where each block's begin, the blocks
-    row by row; `size` (height, width).
+    places : (N, 2) int32, rows and columns, block by block.
+    starts : (B + 1,) int64 where each block's begin, the blocks row by row.
+    size : (height, width).
     """
 
     places: NDArray[np.int32]

@@ -31,8 +31,9 @@ STRIP_TEXELS = 1 << 18
 class View:
     """A `picture` (H, W, 3) uint8 of the surface by a `camera` of its size.
 
-    `trust` (H, W) float32 >= 0: what each of its pixels weighs, all the same by default. `paints` (T,) bool: the triangles to
-    which it gives anything, all by default. `gain`: what its colours are multiplied by, for exposures that differ.
+    trust : (H, W) float32 >= 0: what each of its pixels weighs, all the same by default.
+    paints : (T,) bool, the triangles to which it gives anything, all by default.
+    gain : what its colours are multiplied by, for exposures that differ.
     """
 
     picture: NDArray[np.uint8]
@@ -58,8 +59,10 @@ class ViewWeighting:
 
 @dataclass(frozen=True)
 class BakedTexture:
-    """`colours` (S, S, 3) float32, 0 to 255, zero where no view gave any; `weights` (S, S) float32: what all views gave to
-    each texel; `charts` (S, S) int32: which chart each texel shows, -1 beside them."""
+    """colours : (S, S, 3) float32, 0 to 255, zero where no view gave any.
+    weights : (S, S) float32, what all views gave to each texel.
+    charts : (S, S) int32, which chart each texel shows, -1 beside them.
+    """
 
     colours: NDArray[np.float32]
     weights: NDArray[np.float32]

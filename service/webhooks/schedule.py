@@ -37,7 +37,7 @@ FAILING_DELIVERIES = 3
 def retry_delay(event: str, tries: int, retry_after: timedelta | None, chance: Random) -> timedelta | None:
     """How long to wait after an attempt that was the `tries`-th to fail (from 1); None if it was the last.
 
-    `asked` is what the receiver asked for by `Retry-After`: it may make the pause longer, up to a day.
+    `retry_after` is what the receiver asked for: it may make the pause longer, up to a day.
     """
     retries = RETRY_DELAYS[:PROGRESS_RETRIES] if event == EventType.PROGRESS else RETRY_DELAYS
     if tries > len(retries):

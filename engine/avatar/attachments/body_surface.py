@@ -14,8 +14,13 @@ from engine.geometry.mesh.surface import vertex_normals
 
 @dataclass(frozen=True)
 class BodySurface:
-    """The fitted skin: `vertices` (S, 3) metres and `triangles` (T, 3), closed, counter-clockwise from outside. `own` (S,) bool: the
-    skin that stays by itself, since it has models of its own: hands and feet. `face` (S,) bool: brows and what is below."""
+    """The fitted skin.
+
+    vertices : (S, 3) metres.
+    triangles : (T, 3), closed, counter-clockwise from outside.
+    own : (S,) bool, the skin that stays by itself, since it has models of its own: hands and feet.
+    face : (S,) bool, brows and what is below.
+    """
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.int32]

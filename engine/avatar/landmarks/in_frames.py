@@ -40,9 +40,14 @@ EYE_MESH_VERTICES = np.array([[*LEFT_EYE, *LEFT_IRIS], [*RIGHT_EYE, *RIGHT_IRIS]
 
 @dataclass(frozen=True)
 class FrameLandmarks:
-    """What one frame shows: `body`, pixels (2,) and confidence by name; `face` (68, 2) pixels or None; `hands`, by side, (21, 2)
-    pixels and confidence; `eyes` (2, 21, 2) pixels, the left and the right one's `EYE_MESH_VERTICES`, where there is a face; what it
-    wears, `wear`."""
+    """What one frame shows.
+
+    body : pixels (2,) and confidence by name.
+    face : (68, 2) pixels or None.
+    hands : by side, (21, 2) pixels and confidence.
+    eyes : (2, 21, 2) pixels, the left and the right one's `EYE_MESH_VERTICES`, where there is a face.
+    wear : what the face wears.
+    """
 
     body: Mapping[str, tuple[NDArray[np.float64], float]]
     face: NDArray[np.float64] | None

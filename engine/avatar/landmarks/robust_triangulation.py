@@ -27,7 +27,10 @@ INLIER_SIGMAS = 2.0
 
 @dataclass(frozen=True)
 class Triangulated:
-    """`place` (3,) metres; `agreeing`: how many views do; `residual`: their root mean square distance in pixels."""
+    """place : (3,) metres.
+    agreeing : how many views do.
+    residual : their root mean square distance in pixels.
+    """
 
     place: NDArray[np.float64]
     agreeing: int

@@ -75,8 +75,10 @@ COARSE_ROUNDS = (*[Round(0.06, 0.3, 4000)] * 5, *[Round(0.04, 0.4, 6000)] * 4, *
 
 @dataclass(frozen=True)
 class CoarseFit:
-    """`parameters` (P,) of `engine.avatar.registration.body_model.BodyModel`; `residuals`: metres from each landmark of the
-    body to where the fit to landmarks alone has it; `dropped`: the names of those that were too far off."""
+    """parameters : (P,) of `engine.avatar.registration.body_model.BodyModel`.
+    residuals : metres from each landmark of the body to where the fit to landmarks alone has it.
+    dropped : the names of those that were too far off.
+    """
 
     parameters: NDArray[np.float64]
     residuals: dict[str, float]

@@ -36,8 +36,14 @@ NECK_RINGS = 6
 
 @dataclass(frozen=True)
 class _Head:
-    """A head of the space: `mean` (H, 3) and `basis` (H, 3, K), metres, and where it is: `turn` (3, 3) about the mean's middle,
-    `shift` (3,); `coefficients` (K,)."""
+    """A head of the space.
+
+    mean : (H, 3) metres.
+    basis : (H, 3, K) metres.
+    turn : (3, 3) by which it is turned about the mean's middle.
+    shift : (3,) metres by which it is shifted then.
+    coefficients : (K,).
+    """
 
     mean: NDArray[np.float64]
     basis: NDArray[np.float64]

@@ -21,9 +21,13 @@ from engine.render.texture_bake import charts_of, pad_charts
 
 @dataclass(frozen=True)
 class AvatarTexture:
-    """`texture` (S, S, 3) uint8 sRGB. `gains` (N, 3): what each frame's colours were multiplied by. `seen_share`: of the skin's
-    area, how much a frame shows. `eyes_seen`: whether the eyes have colours that frames show. `labels`: which frame each face
-    took, and `best` by which it is shown best."""
+    """texture : (S, S, 3) uint8 sRGB.
+    gains : (N, 3) what each frame's colours were multiplied by.
+    seen_share : of the skin's area, how much a frame shows.
+    eyes_seen : whether the eyes have colours that frames show.
+    labels : which frame each face took.
+    best : by which frame it is shown best.
+    """
 
     texture: NDArray[np.uint8]
     gains: NDArray[np.float32]

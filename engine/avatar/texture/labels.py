@@ -31,8 +31,10 @@ UNSEEN_LABEL = -1
 
 @dataclass(frozen=True)
 class FaceLabels:
-    """`labels` (T,) int: the frame that each face takes, or `UNSEEN_LABEL`. `data` and `seams`: what the energy is made
-    of, the latter not weighted. `patches`: connected pieces of one label."""
+    """labels : (T,) int, the frame that each face takes, or `UNSEEN_LABEL`.
+    data, seams : what the energy is made of, the latter not weighted.
+    patches : connected pieces of one label.
+    """
 
     labels: NDArray[np.intp]
     data: float

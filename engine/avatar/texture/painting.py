@@ -18,9 +18,10 @@ from engine.render.texture_bake import STRIP_TEXELS
 
 @dataclass(frozen=True)
 class PaintedTexture:
-    """`colours` (S, S, 3) uint8, zero where no frame gave any. `known` (S, S) bool: where one did. `seams` (M, 2) int64: pairs
-    of texels side by side, as numbers in reading order, whose faces take different frames. `jumps` (M, 3) float32: the
-    second's frame minus the first's, the mean of what both show at both texels.
+    """colours : (S, S, 3) uint8, zero where no frame gave any.
+    known : (S, S) bool, where one did.
+    seams : (M, 2) int64, pairs of texels side by side, as numbers in reading order, whose faces take different frames.
+    jumps : (M, 3) float32, the second's frame minus the first's, the mean of what both show at both texels.
     """
 
     colours: NDArray[np.uint8]

@@ -26,9 +26,13 @@ AVATAR_TEXTURE_SIZE_TEXELS = 4096
 
 @dataclass(frozen=True)
 class StitchedTexture:
-    """`texture` (S, S, 3) uint8 sRGB, whole but beside its charts. `resolution` (T,): pixels per metre at which the frame that each
-    face took shows it, 0 where none does. `raster` (S, S): what each texel shows. `gains` (N, 3) of the frames. `labels` of the
-    faces, and `best`, by the frames that show each best, to compare with."""
+    """texture : (S, S, 3) uint8 sRGB, whole but beside its charts.
+    resolution : (T,) pixels per metre at which the frame that each face took shows it, 0 where none does.
+    raster : (S, S) what each texel shows.
+    gains : (N, 3) of the frames.
+    labels : of the faces, the frame that each took.
+    best : the frames that show each best, to compare with.
+    """
 
     texture: NDArray[np.uint8]
     resolution: NDArray[np.float32]

@@ -36,10 +36,12 @@ MAX_TAKEN_DEGREES = 65.0
 class ViewSamples:
     """What N frames show of T faces, and of the E edges between two of them that are stitched.
 
-    `cosine` (T, N) float32: of the angle between each face's normal and the way to the camera; 0 where the face is not wholly
-    seen, or at more than `MAX_TAKEN_DEGREES`. `density` (T, N) float32: pixels per metre, of a face seen from the front.
-    `pairs` (E, 2) intp: the two faces of each edge. `lengths` (E,) metres. `colours` (E, N, `SAMPLES_PER_SEAM_EDGE`, 3) uint8: the
-    frames' pixels along each edge, whether they show it or not.
+    cosine : (T, N) float32, of the angle between each face's normal and the way to the camera; 0 where the face is not
+        wholly seen, or at more than `MAX_TAKEN_DEGREES`.
+    density : (T, N) float32, pixels per metre, of a face seen from the front.
+    pairs : (E, 2) intp, the two faces of each edge.
+    lengths : (E,) metres.
+    colours : (E, N, `SAMPLES_PER_SEAM_EDGE`, 3) uint8, the frames' pixels along each edge, whether they show it or not.
     """
 
     cosine: NDArray[np.float32]

@@ -33,10 +33,13 @@ class ChartedSurface:
 
 @dataclass(frozen=True)
 class FrameView:
-    """A frame by its camera. `read` gives the picture (H, W, 3) uint8, of the camera's size, anew each time it is asked: of a
-    film's frames only one is held at a time. `person`, where it is known, gives (H, W) bool: which pixels show the person. What
-    is more than `farthest` metres away it is not asked about. `shift`, where there is one: by how much it shows places elsewhere
-    than its camera has them.
+    """A frame by its camera.
+
+    read : gives the picture (H, W, 3) uint8, of the camera's size, anew each time it is asked: of a film's frames only
+        one is held at a time.
+    person : gives (H, W) bool, which pixels show the person; None where that is not known.
+    farthest : metres; about what is farther away it is not asked.
+    shift : by how much it shows places elsewhere than its camera has them, if it does.
     """
 
     camera: Camera

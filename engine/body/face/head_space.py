@@ -38,8 +38,10 @@ MAX_HEAD_CHANGE = 0.7
 class HeadSpace:
     """Heads as `mean` + `coefficients` in units of standard deviations.
 
-    `vertices` (H,) int: the template's vertices that are skin of the head. `mean` (H, 3) and `basis` (K, H, 3) float32 metres:
-    where they are, in T-pose. `variance_held` (K,): the share of the samples' variance in the first 1, 2, ... K directions.
+    vertices : (H,) int, the template's vertices that are skin of the head.
+    mean : (H, 3) float32 metres, where they are in T-pose.
+    basis : (K, H, 3) float32 metres.
+    variance_held : (K,) the share of the samples' variance in the first 1, 2, ... K directions.
     """
 
     vertices: NDArray[np.intp]

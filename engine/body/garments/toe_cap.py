@@ -23,8 +23,9 @@ EVENING_ROUNDS, EVENING_EXPONENT = 10, 0.4
 class ToeCap:
     """The toes of one foot on the unit disk.
 
-    `rim` (L,) int: vertices around them, in order. `inside` (M,) int: the toes' own. `disk` (M, 2): where they are in the disk, on
-    whose edge the rim is, by the length along it, from (1, 0) on.
+    rim : (L,) int, vertices around them, in order.
+    inside : (M,) int, the toes' own.
+    disk : (M, 2) where they are in the disk, on whose edge the rim is, by the length along it, from (1, 0) on.
     """
 
     rim: NDArray[np.intp]

@@ -54,8 +54,12 @@ LIMB_WIDTH_SHARE = 0.03
 
 @dataclass(frozen=True)
 class Silhouette:
-    """`alpha` (H, W) float32: the person's mask in the picture. `soft` (h, w): the same on the grid; `mask` (h, w): its
-    largest piece. `rgb` (h, w, 3): the picture on the grid. `to_grid` (2, 3): from the picture's pixels to the grid's."""
+    """alpha : (H, W) float32, the person's mask in the picture.
+    soft : (h, w) the same on the grid.
+    mask : (h, w) its largest piece.
+    rgb : (h, w, 3) the picture on the grid.
+    to_grid : (2, 3) from the picture's pixels to the grid's.
+    """
 
     alpha: NDArray[np.float32]
     soft: NDArray[np.float32]

@@ -30,9 +30,12 @@ MIN_TRAVEL_METRES = 0.1
 
 @dataclass(frozen=True)
 class Played:
-    """The clips of a character: `film`, from the pictured pose into the motion, is what the video shows; `all` are those
-    that are written with it, the chosen motion before the other built-in ones; `joints` says which joint of a file's
-    motion moves which, `{ours: the motion's}`."""
+    """The clips of a character.
+
+    film : what the video shows, from the pictured pose into the motion.
+    all : what is written with it, the chosen motion before the other built-in ones.
+    joints : which joint of a file's motion moves which, `{ours: the motion's}`.
+    """
 
     film: Clip
     all: tuple[Clip, ...]

@@ -24,8 +24,11 @@ class TemplateSides:
 class PosedTemplate:
     """The fitted template on the grid on which a character is made.
 
-    `vertices` (V, 3) in picture space and `rest` (V, 3) in T-pose, metres; `triangles` (T, 3); `joints` (J, 3) in picture
-    space and `rest_joints` (J, 3); `pixels_per_metre`.
+    vertices : (V, 3) metres in picture space.
+    rest : (V, 3) metres in T-pose.
+    triangles : (T, 3).
+    joints : (J, 3) in picture space.
+    rest_joints : (J, 3) in T-pose.
     """
 
     vertices: NDArray[np.float64]

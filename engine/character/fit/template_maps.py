@@ -21,9 +21,13 @@ Side = Literal["front", "back"]
 
 @dataclass(frozen=True)
 class SideMaps:
-    """One side of a part of the template, (H, W) maps. `depth` is z of picture space (NaN outside); `normals` (H, W, 3):
-    x right, y down, z to the one who looks at this side, who is on the viewer's side (`towards` 1) or behind the picture
-    (-1); `raster` says which triangle is seen."""
+    """One side of a part of the template, (H, W) maps.
+
+    depth : z of picture space, NaN outside.
+    normals : (H, W, 3) x right, y down, z to the one who looks at this side.
+    towards : 1 where that one is on the viewer's side, -1 behind the picture.
+    raster : which triangle is seen.
+    """
 
     mask: NDArray[np.bool_]
     depth: NDArray[np.float32]

@@ -62,11 +62,16 @@ class Ring:
 
 @dataclass(frozen=True)
 class FreeCloth:
-    """What is `worn` (h, w), and its `rings`, row by row from the waist down, the first `above` of them above the crotch. It
-    `hangs` if it is loose and ends in a hem or at the ground; otherwise it is close, a jumper's or trousers', and may
-    `go_on` in legs. `lower` (h, w): what hangs beneath the last ring between and beside the legs. `even`: pixels over which
-    cloth changes along the body. `legs` (h, w): the leg, an index of `BODY_PARTS`, that comes out from under it there, -1 elsewhere;
-    None where none is apart from it. `before`: of these the one that passes before the other, None where neither does."""
+    """What is `worn` (h, w), and its `rings`, row by row from the waist down, the first `above` of them above the
+    crotch. It `hangs` if it is loose and ends in a hem or at the ground; otherwise it is close, a jumper's or
+    trousers', and may `go_on` in legs.
+
+    lower : (h, w) what hangs beneath the last ring between and beside the legs.
+    even : pixels over which cloth changes along the body.
+    legs : (h, w) the leg, an index of `BODY_PARTS`, that comes out from under it there, -1 elsewhere; None where none
+        is apart from it.
+    before : of these the one that passes before the other, None where neither does.
+    """
 
     worn: NDArray[np.bool_]
 

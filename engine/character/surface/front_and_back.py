@@ -31,10 +31,14 @@ CUT_GAP_PIXELS = 0.02
 
 @dataclass(frozen=True)
 class Layer:
-    """One part: its pixels `mask` (H, W) and both its sides. `cut` (H, W) int8, if it is cut: where a 1 lies beside a 2 the
-    part is not joined (one leg and the other). `solid`: what the part is made of in place of a sheet. `limb`: which that is, an
-    index of `BODY_PARTS`; -1 for the body. `hem` (H, W): where more than 0, border is a hem: front and back end there as far apart as
-    they are, and inside they are joined so many pixels further up."""
+    """One part: its pixels `mask` (H, W) and both its sides.
+
+    cut : (H, W) int8, if it is cut: where a 1 lies beside a 2 the part is not joined (one leg and the other).
+    solid : what the part is made of in place of a sheet.
+    limb : which that is, an index of `BODY_PARTS`; -1 for the body.
+    hem : (H, W) where more than 0, border is a hem: front and back end there as far apart as they are, and inside they
+        are joined so many pixels further up.
+    """
 
     mask: NDArray[np.bool_]
     front: Surface

@@ -49,8 +49,13 @@ class Surface:
 
 @dataclass(frozen=True)
 class Warp:
-    """The paper's f, from a part in the picture to the template's: the `border` (m, 2) and its `partners` (m, 2) on the
-    template's outline; `places` (H, W, 2): where each pixel goes; `wanted` (H, W): the pixels that are looked up."""
+    """The paper's f, from a part in the picture to the template's.
+
+    border : (m, 2) of the part.
+    partners : (m, 2) of the border on the template's outline.
+    places : (H, W, 2) where each pixel goes.
+    wanted : (H, W) the pixels that are looked up.
+    """
 
     border: NDArray[np.float64]
     partners: NDArray[np.float64]

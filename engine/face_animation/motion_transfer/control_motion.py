@@ -66,9 +66,13 @@ CONTROL_CHUNK_FRAMES = 32
 
 @dataclass(frozen=True)
 class ControlMotion:
-    """One frame: `offsets` (C, 2) of the control points, pixels, and their `depth` (C,), smaller is nearer;
-    `look` (2, 2) of the irises, see `eyes.gaze_offsets`; `behind` (C, 2) how far apart from them the points of the sheet
-    behind the face are, see `far_side`."""
+    """One frame.
+
+    offsets : (C, 2) of the control points, pixels.
+    depth : (C,) of them, smaller is nearer.
+    look : (2, 2) of the irises, see `eyes.gaze_offsets`.
+    behind : (C, 2) how far apart from them the points of the sheet behind the face are, see `far_side`.
+    """
 
     frame: int
     offsets: NDArray[np.float32]
@@ -81,7 +85,9 @@ class ControlMotion:
 class DriverFrames:
     """Some of a driver's frames, N of them.
 
-    meshes : (N, 478, 3) pixels. periphery : (N, K, 2) pixels. trust : (N, K) in [0, 1]. All as in `FaceTrack`.
+    meshes : (N, 478, 3) pixels.
+    periphery : (N, K, 2) pixels.
+    trust : (N, K) in [0, 1]. These three are as in `FaceTrack`.
     faces : (N, 478, 2) the meshes in the driver's crop.
     """
 

@@ -50,8 +50,10 @@ NOSE_BRIDGE_VERTEX = 168
 class HeadProxy:
     """points : (C, 3) control points with depth, pixels.
     share : (C,) how far each belongs to the head [0, 1].
-    outline : (C,) how far each moves as the skull's outline does [0, 1]: 0 on the face. near : (C,) the same on the side that a turn brings nearer.
-    contour : (C - 478, 36) how far those around the face follow what the face's contour, `FACE_OVAL`, does beyond the head.
+    outline : (C,) how far each moves as the skull's outline does [0, 1]: 0 on the face.
+    near : (C,) the same on the side that a turn brings nearer.
+    contour : (C - 478, 36) how far those around the face follow what the face's contour, `FACE_OVAL`, does beyond the
+        head.
     """
 
     points: NDArray[np.float64]

@@ -48,7 +48,10 @@ INDEPENDENT_GAP_EYE_DISTANCES = 0.08
 class LandmarkResiduals:
     """The residuals of the frames that were looked at, as a kernel ridge regression.
 
-    faces : (K, 956) float32, the driver's face on them. weights : (K, 956) float32. Both in eye distances, upright.
+    faces : (K, 956) float32, the driver's face on them.
+    weights : (K, 956) float32.
+
+    Both are in eye distances, upright.
     """
 
     faces: NDArray[np.float32]

@@ -36,7 +36,8 @@ LACE_SHARE = 0.03
 class Layers:
     """The person as a layer over the background plate.
 
-    person : (H, W, 4) uint8, colours without the background in them, and alpha. plate : (H, W, 3) uint8.
+    person : (H, W, 4) uint8, colours without the background in them, and alpha.
+    plate : (H, W, 3) uint8.
     transparent : the picture itself was cut out; formats that can stay so, others get a white plate.
     inner : what of the picture lies within its margins or its frame, where it has some.
     """

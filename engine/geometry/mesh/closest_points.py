@@ -25,8 +25,9 @@ SINGLE_THREAD_POINTS = 2048
 class ClosestPoints:
     """Of each of N points, the nearest of the surface.
 
-    `distance` (N,) in the vertices' unit. `triangle` (N,) int: the triangle in which it lies. `barycentrics` (N, 3): where in
-    it, summing to one.
+    distance : (N,) in the vertices' unit.
+    triangle : (N,) int, the triangle in which it lies.
+    barycentrics : (N, 3) where in it, summing to one.
     """
 
     distance: NDArray[np.float64]

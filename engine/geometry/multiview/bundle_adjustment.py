@@ -53,8 +53,12 @@ class PosePrior:
 
 @dataclass(frozen=True)
 class Freedom:
-    """What may change: `cameras` (C,) bool; `lens` for focal length, k1 and k2; points always do. `prior`: what is known
-    of the cameras beforehand."""
+    """What may change beside the points, which always do.
+
+    cameras : (C,) bool, which of them may move.
+    lens : whether focal length, k1 and k2 may.
+    prior : what is known of the cameras beforehand.
+    """
 
     cameras: NDArray[np.bool_]
     lens: tuple[bool, bool, bool] = (False, False, False)

@@ -54,9 +54,12 @@ class StereoView:
 
 @dataclass(frozen=True)
 class DepthMap:
-    """What a view measures, at each pixel: `depth` (H, W) float32, metres along the view axis, 0 where nothing is known;
-    `normals` (H, W, 3) float32 in the world, towards the camera; `cost` (H, W) float32: one less the correlation with the
-    sources, 0 to 2."""
+    """What a view measures, at each pixel.
+
+    depth : (H, W) float32, metres along the view axis, 0 where nothing is known.
+    normals : (H, W, 3) float32 in the world, towards the camera.
+    cost : (H, W) float32, one less the correlation with the sources, 0 to 2.
+    """
 
     depth: NDArray[np.float32]
     normals: NDArray[np.float32]

@@ -29,8 +29,10 @@ MAX_SCALE_STEPS = 24
 
 @dataclass(frozen=True)
 class _Chart:
-    """`places` (C, 2) of a chart in units of its surface from (0, 0) up; `triangles` (T, 3) of them; `which` (C,) of the
-    atlas' places they are."""
+    """places : (C, 2) of a chart in units of its surface from (0, 0) up.
+    triangles : (T, 3) of them.
+    which : (C,) of the atlas' places they are.
+    """
 
     places: NDArray[np.float64]
     triangles: NDArray[np.int32]

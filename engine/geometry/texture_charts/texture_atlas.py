@@ -25,9 +25,10 @@ MAX_PACKINGS = 8
 class TextureAtlas:
     """A surface of T triangles, laid out flat.
 
-    `uv` (C, 2) float32: places on the texture as in glTF, (0, 0) the upper left corner of the upper left texel, (1, 1) the
-    lower right corner of the last. `corners` (T, 3) int32: which of them are the corners of each triangle. `charts` (T,)
-    int32: the chart on which each triangle lies, from 0.
+    uv : (C, 2) float32, places on the texture as in glTF, (0, 0) the upper left corner of the upper left texel, (1, 1)
+        the lower right corner of the last.
+    corners : (T, 3) int32, which of them are the corners of each triangle.
+    charts : (T,) int32, the chart on which each triangle lies, from 0.
     """
 
     uv: NDArray[np.float32]

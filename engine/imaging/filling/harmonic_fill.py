@@ -19,8 +19,12 @@ NEIGHBOURS_4 = ((0, 1), (0, -1), (1, 0), (-1, 0))
 
 @dataclass(frozen=True)
 class HarmonicFill:
-    """Holes of maps (H, W), and what is needed to fill them: `hole` and `edge`, the flat indices of the N pixels that are
-    filled and of the M known ones beside them; `from_edge` (N, M); `solver` of the discrete Laplace equation."""
+    """Holes of maps (H, W), and what is needed to fill them.
+
+    hole, edge : the flat indices of the N pixels that are filled and of the M known ones beside them.
+    from_edge : (N, M).
+    solver : of the discrete Laplace equation.
+    """
 
     hole: NDArray[np.intp]
     edge: NDArray[np.intp]

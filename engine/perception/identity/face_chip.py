@@ -16,8 +16,9 @@ from engine.imaging.resample import resized
 class ChipLayout:
     """Where landmarks lie in a chip.
 
-    side : pixels of the square chip. places : (K, 2) of its landmarks, pixels. vertices : for each landmark the mesh's vertices
-    whose mean it is.
+    side : pixels of the square chip.
+    places : (K, 2) of its landmarks, pixels.
+    vertices : for each landmark the mesh's vertices whose mean it is.
     """
 
     side: int

@@ -55,8 +55,11 @@ MIN_FRAMED_HEIGHT_METRES = 0.45
 class Pose:
     """One moment of the performance. Angles in degrees, lengths in metres.
 
-    `units`: weights of the face units. `head`: (pitch, yaw, roll), positive down, to the sitter's left, towards
-    the sitter's left shoulder; `lean`: how far the whole body moves (x, y, z). `gaze`: (up, left) of the eyes within the head. `breath`: 0 empty to 1 full.
+    units : weights of the face units.
+    head : (pitch, yaw, roll), positive down, to the sitter's left, towards the sitter's left shoulder.
+    lean : how far the whole body moves (x, y, z).
+    gaze : (up, left) of the eyes within the head.
+    breath : 0 empty to 1 full.
     """
 
     units: Mapping[str, float] = field(default_factory=dict)

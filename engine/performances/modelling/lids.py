@@ -35,8 +35,13 @@ class Rim:
 
 @dataclass(frozen=True)
 class Lids:
-    """One eye's lids. `upper` and `lower` (C, V) sparse give points on the rims from the template's vertices; `x`
-    (C,) their columns; `shut` (V, 3) the template's blink, `columns` (V,) the rest x of its vertices."""
+    """One eye's lids.
+
+    upper, lower : (C, V) sparse give points on the rims from the template's vertices.
+    x : (C,) their columns.
+    shut : (V, 3) the template's blink.
+    columns : (V,) the rest x of its vertices.
+    """
 
     upper: sp.csr_array
     lower: sp.csr_array

@@ -42,9 +42,12 @@ HAIR_COLOUR = np.array([0.046, 0.027, 0.0165], np.float32)
 
 @dataclass(frozen=True)
 class Exposure:
-    """A scene as light, before the hair is drawn, supersampled: `raster` and `parts` (H, W), int8 and -1 where nothing
-    is, say what the camera sees of the `scene`; `radiance` (H, W, 3) linear; `hair` (S, K, 3) the radiance of its
-    hairs."""
+    """A scene as light, before the hair is drawn, supersampled.
+
+    raster, parts : (H, W), int8 and -1 where nothing is, say what the camera sees of the `scene`.
+    radiance : (H, W, 3) linear.
+    hair : (S, K, 3) the radiance of its hairs.
+    """
 
     scene: Scene
     raster: Raster

@@ -27,8 +27,13 @@ Belongs = Literal["person", "uncertain", "other"]
 
 @dataclass(frozen=True)
 class Belonging:
-    """Of N faces: `belongs` (N,) to whom; `distance` (N,) float32 the median of those to the person's faces. `shown` : whom else the
-    photographs may mean as well: for each of two people a face and how often they are shown; empty where one is clearly meant."""
+    """Of N faces.
+
+    belongs : (N,) to whom.
+    distance : (N,) float32 the median of those to the person's faces.
+    shown : whom else the photographs may mean as well: for each of two people a face and how often they are shown;
+        empty where one is clearly meant.
+    """
 
     belongs: tuple[Belongs, ...]
     distance: NDArray[np.float32]

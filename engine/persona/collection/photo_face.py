@@ -33,10 +33,15 @@ ALIGNED_FACE_LAYOUT = ARCFACE_LAYOUT
 class PhotoFace:
     """A face of a photograph.
 
-    photo : which one. mesh : (478, 3) float32, pixels of the photograph as it is looked at (`as_looked_at`). eye_distance : pixels
-    between the middles of the eyes. yaw, pitch : degrees by which it is turned to the picture's right, and down. blur : in [0, 1],
-    as `engine.imaging.blur` tells. size_share : its width, in shares of that of the photograph's largest face. descriptor : (D,)
-    float32. chip : (C, C) uint8 grey, the face laid on fixed places. year : in which the photograph was taken, where that is known.
+    photo : which one.
+    mesh : (478, 3) float32, pixels of the photograph as it is looked at (`as_looked_at`).
+    eye_distance : pixels between the middles of the eyes.
+    yaw, pitch : degrees by which it is turned to the picture's right, and down.
+    blur : in [0, 1], as `engine.imaging.blur` tells.
+    size_share : its width, in shares of that of the photograph's largest face.
+    descriptor : (D,) float32.
+    chip : (C, C) uint8 grey, the face laid on fixed places.
+    year : in which the photograph was taken, where that is known.
     beside : how many other faces are near it, and large enough to belong to whoever stands beside.
     """
 

@@ -32,8 +32,11 @@ class SkippedFile:
 
 @dataclass(frozen=True)
 class Photos:
-    """strip : the N photographs, upright, as they are looked at. names : of their files. years : in which they were taken, None where
-    a file does not say. skipped : files that are none."""
+    """strip : the N photographs, upright, as they are looked at.
+    names : of their files.
+    years : in which they were taken, None where a file does not say.
+    skipped : files that are none.
+    """
 
     strip: FilmStrip
     names: tuple[str, ...]

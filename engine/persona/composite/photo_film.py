@@ -28,8 +28,11 @@ PHOTO_TEXTURES_AT_ONCE = 8
 class PhotoActing:
     """What a photograph's face does in F frames.
 
-    motions : of its control points. faces : (F, 478, 2) where that puts it, pixels. depths : (F, 478), smaller is nearer. weights : (F, N)
-    how much each of the persona's photographs counts. rest : (N,) the same for the expression that the photograph shows.
+    motions : of its control points.
+    faces : (F, 478, 2) where that puts it, pixels.
+    depths : (F, 478), smaller is nearer.
+    weights : (F, N) how much each of the persona's photographs counts.
+    rest : (N,) the same for the expression that the photograph shows.
     """
 
     motions: tuple[ControlMotion, ...]

@@ -46,9 +46,11 @@ BELIEF_SIGMA = 2.0
 class Retouching:
     """Of one photograph, in the persona's `frame` (H, W).
 
-    base : (H, W, 3) uint8, the persona's texture for the photograph's own expression. skin : (H, W) in [0, 1], where the photograph shows
-    skin. contrast : of its detail over the persona's. unresolved : sigma, in pixels of the frame, of what its own pixels cannot
-    show; zero where it shows all. grey : it is black and white.
+    base : (H, W, 3) uint8, the persona's texture for the photograph's own expression.
+    skin : (H, W) in [0, 1], where the photograph shows skin.
+    contrast : of its detail over the persona's.
+    unresolved : sigma, in pixels of the frame, of what its own pixels cannot show; zero where it shows all.
+    grey : it is black and white.
     """
 
     frame: TextureFrame

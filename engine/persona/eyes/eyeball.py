@@ -29,9 +29,11 @@ RIM_DEPTH_EYE_DISTANCES = 0.1
 class Eyeball:
     """Of a head from the front, in eye distances, y down and z away.
 
-    centre : (3,). radius. vertices : (V, 3), rings about where it looks to. triangles : (T, 3), counter-clockwise from outside. uv : (V, 2)
-    places on its texture, whose middle is the iris' and whose edge is the cap's. travel : of the iris, by the directions of
-    `MAX_GAZE_TRAVEL_EYE_WIDTHS`, eye distances.
+    centre : (3,).
+    radius : of the ball.
+    vertices : (V, 3), rings about where it looks to.
+    triangles : (T, 3), counter-clockwise from outside.
+    uv : (V, 2) places on its texture, whose middle is the iris' and whose edge is the cap's.
     """
 
     centre: NDArray[np.float64]

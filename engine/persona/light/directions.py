@@ -26,8 +26,9 @@ MIN_LIGHT_BELIEF = 0.01
 
 
 class DirectedLight(NamedTuple):
-    """gain : (H, W, 3) float32 over the average light, 1 in the mean of the face. strength : of the logarithm of light, by which it changes
-    from one side of the face to straight ahead."""
+    """gain : (H, W, 3) float32 over the average light, 1 in the mean of the face.
+    strength : of the logarithm of light, by which it changes from one side of the face to straight ahead.
+    """
 
     gain: NDArray[np.float32]
     strength: float

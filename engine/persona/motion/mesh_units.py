@@ -67,8 +67,9 @@ EYEBALL_PARTS = ("left_eye", "right_eye")
 class MeshUnits:
     """The template's mean face as the tracker would have it, and its face units.
 
-    rest : (478, 3) float64, from the front, in eye distances, in the axes of pictures (y down, z away). names : U of
-    `CAPTURED_UNITS`. moved : (U, 478, 3) float64, what each does at its full.
+    rest : (478, 3) float64, from the front, in eye distances, in the axes of pictures (y down, z away).
+    names : U of `CAPTURED_UNITS`.
+    moved : (U, 478, 3) float64, what each does at its full.
     """
 
     rest: NDArray[np.float64]
@@ -103,8 +104,12 @@ def mesh_units(template: Template, space: BodySpace) -> MeshUnits:
 
 @dataclass(frozen=True)
 class _FrontView:
-    """The template's face from before. `low`: x and y, metres, of the top-left pixel. `jaw` (H, W): how far an open jaw moves what
-    is seen; `eyes` (H, W) bool: where eyeballs are."""
+    """The template's face from before.
+
+    low : x and y, metres, of the top-left pixel.
+    jaw : (H, W) how far an open jaw moves what is seen.
+    eyes : (H, W) bool, where eyeballs are.
+    """
 
     raster: Raster
     triangles: NDArray[np.int32]

@@ -25,8 +25,9 @@ FRAME_SIZE = (244, 194)
 class Performance:
     """F frames of a puppet.
 
-    faces : (F, 478, 3) float64 from the front, in eye distances. weights : (F, N) float32, how much each photograph counts. linear :
-    (F, 3, 3) and shift : (F, 3), where the driver's head is: pixels of its video for eye distances.
+    faces : (F, 478, 3) float64 from the front, in eye distances.
+    weights : (F, N) float32, how much each photograph counts.
+    linear : (F, 3, 3) and shift : (F, 3), where the driver's head is: pixels of its video for eye distances.
     """
 
     faces: NDArray[np.float64]

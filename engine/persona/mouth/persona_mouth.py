@@ -17,8 +17,11 @@ from engine.persona.persona import Persona
 
 @dataclass(frozen=True)
 class PersonaMouth:
-    """at : how the face rests. colours : of what is modelled. photo : the upper teeth of a photograph; None where none shows any that can be
-    told apart, and all is modelled. softness : of the puppet's texture (`picture_softness`)."""
+    """at : how the face rests.
+    colours : of what is modelled.
+    photo : the upper teeth of a photograph; None where none shows any that can be told apart, and all is modelled.
+    softness : of the puppet's texture (`picture_softness`).
+    """
 
     at: RestingMouth
     colours: MouthColours

@@ -18,8 +18,11 @@ SHEET_PIXELS_PER_EYE_DISTANCE = 320
 
 
 class TeethSheet(NamedTuple):
-    """vertices : (V, 3) of a head from the front, in eye distances, y down and z away. triangles : (T, 3), counter-clockwise from before.
-    uv : (V, 2). texture : (h, w, 4) uint8, with alpha."""
+    """vertices : (V, 3) of a head from the front, in eye distances, y down and z away.
+    triangles : (T, 3), counter-clockwise from before.
+    uv : (V, 2).
+    texture : (h, w, 4) uint8, with alpha.
+    """
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.int32]

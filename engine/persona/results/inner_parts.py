@@ -45,8 +45,11 @@ LID_RIM_LIGHT = 0.5
 class InnerPart:
     """A part of the model at rest, of a head from the front, in eye distances, y down and z away.
 
-    vertices : (V, 3). triangles : (T, 3), counter-clockwise from outside. uv : (V, 2). texture : (h, w, 3 or 4) uint8. moved : (V, 3) by
-    which face units move it.
+    vertices : (V, 3).
+    triangles : (T, 3), counter-clockwise from outside.
+    uv : (V, 2).
+    texture : (h, w, 3 or 4) uint8.
+    moved : (V, 3) by which face units move it.
     """
 
     name: str

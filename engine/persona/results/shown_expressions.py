@@ -38,8 +38,11 @@ MAX_EXPRESSION_PHOTOS = 16
 
 @dataclass(frozen=True)
 class ShownExpression:
-    """name : of `EXPRESSION_UNITS`. photos : those near it, the strongest first. face : (478, 3) float64, in eye distances. weights : (N,)
-    how much each photograph counts in its texture."""
+    """name : of `EXPRESSION_UNITS`.
+    photos : those near it, the strongest first.
+    face : (478, 3) float64, in eye distances.
+    weights : (N,) how much each photograph counts in its texture.
+    """
 
     name: str
     photos: tuple[int, ...]

@@ -20,8 +20,11 @@ ALBEDO_ALTERNATIONS = 3
 
 @dataclass(frozen=True)
 class PhotometricShape:
-    """normals : (H, W, 3) float64 of unit length: x right, y down, z away from the viewer. albedo : (H, W) float64, in grey levels.
-    Both zero outside the area."""
+    """normals : (H, W, 3) float64 of unit length: x right, y down, z away from the viewer.
+    albedo : (H, W) float64, in grey levels.
+
+    Both are zero outside the area.
+    """
 
     normals: NDArray[np.float64]
     albedo: NDArray[np.float64]

@@ -24,7 +24,8 @@ MIRRORED_WEIGHT = 0.5
 class AlignedPhotos:
     """N photographs in a frame (H, W).
 
-    colours : (N, H, W, 3) uint8 sRGB. shown : (N, H, W) float32 in [0, 1], how well each pixel is shown; zero beside the face.
+    colours : (N, H, W, 3) uint8 sRGB.
+    shown : (N, H, W) float32 in [0, 1], how well each pixel is shown; zero beside the face.
     """
 
     colours: NDArray[np.uint8]

@@ -40,8 +40,9 @@ REFERENCE_WIDTH_PIXELS = 194
 class Appearance:
     """N photographs (H, W) as their subspace has them.
 
-    exposed : (N, H, W) float32, the photographs' greys, each of the same mean. projected : (N, H, W), these in the subspace, which is
-    each photograph's light on the common face. weights : (N, H, W) in [0, 1], how far each pixel can be believed.
+    exposed : (N, H, W) float32, the photographs' greys, each of the same mean.
+    projected : (N, H, W), these in the subspace, which is each photograph's light on the common face.
+    weights : (N, H, W) in [0, 1], how far each pixel can be believed.
     """
 
     exposed: NDArray[np.float32]

@@ -35,8 +35,15 @@ MAX_BATCH = 32
 
 @dataclass(frozen=True)
 class _Level:
-    """A band of all photographs: `mixed` (N, P * 3) confidence times band, `total` (N, P) confidence; `all_mixed` (P * 3,) and
-    `all_total` (P,) their sums, and `uniform` the weight with which these count. `shape` (h, w)."""
+    """A band of all photographs.
+
+    mixed : (N, P * 3) confidence times band.
+    total : (N, P) confidence.
+    all_mixed : (P * 3,) the sum of the former.
+    all_total : (P,) the sum of the latter.
+    uniform : the weight with which the sums count.
+    shape : (h, w).
+    """
 
     mixed: NDArray[np.float32]
     total: NDArray[np.float32]

@@ -31,8 +31,11 @@ _OVAL = np.array(FACE_OVAL)
 class TextureFrame:
     """A face of a mesh and its rim in a picture of (H, W).
 
-    places : (V, 3) float64 vertices in pixels, z too, the mesh's 478 and the rim's after them. normals : (V, 3) of unit length,
-    z away from the viewer. triangles : (T, 3). raster : which covers each pixel, and where. face : (H, W) bool, within the oval.
+    places : (V, 3) float64 vertices in pixels, z too, the mesh's 478 and the rim's after them.
+    normals : (V, 3) of unit length, z away from the viewer.
+    triangles : (T, 3).
+    raster : which covers each pixel, and where.
+    face : (H, W) bool, within the oval.
     scale : pixels for one unit of the mesh.
     """
 

@@ -17,9 +17,11 @@ from engine.performances import State
 class Rhythm:
     """What makes a movement to and fro a gesture.
 
-    measure : one of `MEASURES`. swing : what one way to or fro covers at least, in the measure's unit; `clear` : where
-    it is beyond doubt. seconds : how long one way takes at most; pause : what lies between two at most. times : how many
-    ways there are at least.
+    measure : one of `MEASURES`.
+    swing : what one way to or fro covers at least, in the measure's unit; `clear` : where it is beyond doubt.
+    seconds : how long one way takes at most.
+    pause : what lies between two at most.
+    times : how many ways there are at least.
     """
 
     measure: str

@@ -40,8 +40,10 @@ POSTER_MARGIN_SHARE = 0.35
 class DriverSegment:
     """A segment of a video that holds a state.
 
-    name : the state's, with a number from the second best on. start, end, apex : seconds from the video's beginning;
-    the face is at rest at `start` and `end`, and the state at its height at `apex`. score : how sure it is, in [0, 1].
+    name : the state's, with a number from the second best on.
+    start, end, apex : seconds from the video's beginning; the face is at rest at `start` and `end`, and the state at
+        its height at `apex`.
+    score : how sure it is, in [0, 1].
     """
 
     name: str

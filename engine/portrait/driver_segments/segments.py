@@ -63,7 +63,8 @@ MAX_PER_STATE = 3
 class Segment:
     """Frames `first` to `last` (included) that hold a state, which is at its height in `apex`.
 
-    clearly : how clearly it shows there; 1 is just clearly. rests : how far from rest the ends are, up to 1 is calm.
+    clearly : how clearly it shows there; 1 is just clearly.
+    rests : how far from rest the ends are, up to 1 is calm.
     """
 
     state: State

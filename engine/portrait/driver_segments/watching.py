@@ -29,7 +29,9 @@ BLOCK_FRAMES = 120
 class FaceMeasurements:
     """A video's face, frame by frame at `WATCHED_FPS`.
 
-    seconds : how long the video is. values : (N, 12) float32, `MEASURES`. found : (N,) whether there is a face.
+    seconds : how long the video is.
+    values : (N, 12) float32, `MEASURES`.
+    found : (N,) whether there is a face.
     boxes : (N, 4) float32 left, top, right and bottom of the face in pixels of frames with `MAX_WATCHED_SIDE_PIXELS`.
     """
 

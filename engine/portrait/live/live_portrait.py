@@ -57,7 +57,8 @@ class Watched:
     """What a frame of the camera showed.
 
     state : whether there is a face, and a rest to hold it against; `no_face` once it is live means that it holds still.
-    fraction : of the calibration, in [0, 1]. obstacle : why it does not get on.
+    fraction : of the calibration, in [0, 1].
+    obstacle : why it does not get on.
     motion : where the control points go, and `play`, what draws them; None before the portrait is live.
     """
 

@@ -43,8 +43,12 @@ Obstacle = Literal["turned", "eyes_shut", "mouth_open", "moving"]
 
 @dataclass(frozen=True)
 class Calibration:
-    """How far the rest is found: `fraction` of the calm frames that it takes, in [0, 1]; `obstacle`, why the last frame was
-    not calm; `rest` once it is there."""
+    """How far the rest is found.
+
+    fraction : of the calm frames that it takes, in [0, 1].
+    obstacle : why the last frame was not calm.
+    rest : once it is there.
+    """
 
     fraction: float
     obstacle: Obstacle | None = None

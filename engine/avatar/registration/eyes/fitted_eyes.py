@@ -43,8 +43,10 @@ OUTWARD_SIGNS = {"left_eye": 1.0, "right_eye": -1.0}
 
 @dataclass(frozen=True)
 class FittedEyes:
-    """`vertices` (V, 3) of the whole template, with its eyes and the lids on them. `iris`: metres, the radius of both irises.
-    `measured`: whether frames have shown lids and irises."""
+    """vertices : (V, 3) of the whole template, with its eyes and the lids on them.
+    iris : metres, the radius of both irises.
+    measured : whether frames have shown lids and irises.
+    """
 
     vertices: NDArray[np.float64]
     iris: float

@@ -64,9 +64,14 @@ Residuals = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 @dataclass(frozen=True)
 class _Foot:
-    """One foot at rest: `numbers` (F,) of the skin's vertices and where they are, `places` (F, 3), from the point of the ground
-    below the ankle, metres; `triangles` (T, 3) of them; `axes` (3, 3): its left, up and ahead as rows; its `marks` there by name
-    (3,)."""
+    """One foot at rest.
+
+    numbers : (F,) of the skin's vertices.
+    places : (F, 3) metres, where they are from the point of the ground below the ankle.
+    triangles : (T, 3) of them.
+    axes : (3, 3) its left, up and ahead as rows.
+    marks : (3,) by name, in the same place.
+    """
 
     numbers: NDArray[np.intp]
     places: NDArray[np.float64]

@@ -51,8 +51,12 @@ for _part, _labels in {"head": ("torso",), "torso": ("head", "left_leg", "right_
 
 @dataclass(frozen=True)
 class Evidence:
-    """Of points (...): `colours` (..., 3) float32, the picture's where it shows them, 0 elsewhere; `shown` (...) float32, from 0, not at all, to 1; `source`
-    (...) bool: whether other places may be filled with it."""
+    """Of points (...).
+
+    colours : (..., 3) float32, the picture's where it shows them, 0 elsewhere.
+    shown : (...) float32, from 0, not at all, to 1.
+    source : (...) bool, whether other places may be filled with it.
+    """
 
     colours: NDArray[np.float32]
     shown: NDArray[np.float32]

@@ -40,10 +40,12 @@ class UnrolledPart:
     name : one of `engine.body.parts.BODY_PARTS`; a foot has one of its own, as it lies across its leg.
     share : (V,) float32, how much of what moves a vertex is of the part.
     along : (V,) float32, rows from the part's beginning.
-    angle : (V,) float32, radians round its axis; 0 in front, or above on arms and feet, and growing to the person's left, or forward.
+    angle : (V,) float32, radians round its axis; 0 in front, or above on arms and feet, and growing to the person's
+        left, or forward.
     yoke : of the trunk, the row above which a front has a neckline.
-    raster : which of the mesh's triangles is outermost in each cell, (rows, `UNROLLED_COLUMNS`); cells that none covers have the
-    nearest one. covered : (rows, `UNROLLED_COLUMNS`) bool, which cells have one of their own.
+    raster : which of the mesh's triangles is outermost in each cell, (rows, `UNROLLED_COLUMNS`); cells that none covers
+        have the nearest one.
+    covered : (rows, `UNROLLED_COLUMNS`) bool, which cells have one of their own.
     """
 
     name: str

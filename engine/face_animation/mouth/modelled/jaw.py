@@ -19,7 +19,10 @@ JAW_NEWTON_STEPS = 3
 
 
 class Jaw(NamedTuple):
-    """angle : radians by which it is open. aside : by which it is moved along x, as chin and lower lip tell. hinge : (2,) y and z of its axis."""
+    """angle : radians by which it is open.
+    aside : by which it is moved along x, as chin and lower lip tell.
+    hinge : (2,) y and z of its axis.
+    """
 
     angle: float
     aside: float

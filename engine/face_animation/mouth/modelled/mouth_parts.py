@@ -49,8 +49,10 @@ BACKING_COLUMNS = 48
 class MouthPart:
     """A surface in the mouth, the jaw closed: of a head from the front, in eye distances, y down and z away.
 
-    vertices : (V, 3) float64. triangles : (T, 3) int32, counter-clockwise from outside. uv : (V, 2) float32 on the part's ramp of colours
-    (`engine.face_animation.mouth.modelled.mouth_colours`). light : (V,) float32, what is left of the light where others stand before it.
+    vertices : (V, 3) float64.
+    triangles : (T, 3) int32, counter-clockwise from outside.
+    uv : (V, 2) float32 on the part's ramp of colours (`engine.face_animation.mouth.modelled.mouth_colours`).
+    light : (V,) float32, what is left of the light where others stand before it.
     """
 
     vertices: NDArray[np.float64]

@@ -23,8 +23,9 @@ NOSE_BASE_VERTICES = (2, 94, 98, 327)
 
 @dataclass(frozen=True)
 class RestingMouth:
-    """front : (478, 3) the face from the front, in its eye distances, y down and z away from the viewer. shut : (478, 3) the same with closed
-    lips, as far as it is known."""
+    """front : (478, 3) the face from the front, in its eye distances, y down and z away from the viewer.
+    shut : (478, 3) the same with closed lips, as far as it is known.
+    """
 
     front: NDArray[np.float64]
     shut: NDArray[np.float64]

@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class PicturedFace:
-    """rgb : (h, w, 3) uint8. mesh : (478, 3) float32, pixels of it."""
+    """rgb : (h, w, 3) uint8.
+    mesh : (478, 3) float32, pixels of it.
+    """
 
     rgb: NDArray[np.uint8]
     mesh: NDArray[np.float32]

@@ -43,8 +43,12 @@ MIN_FOCAL_CAMERAS, MIN_DISTORTION_CAMERAS = 4, 10
 
 @dataclass(frozen=True)
 class Lens:
-    """What is known of a clip's lens: `parameters` (3,) focal length in pixels, k1, k2; `centre` (2,) the principal point;
-    `known`: to be kept as they are."""
+    """What is known of a clip's lens.
+
+    parameters : (3,) focal length in pixels, k1, k2.
+    centre : (2,) the principal point.
+    known : to be kept as they are.
+    """
 
     parameters: NDArray[np.float64]
     centre: NDArray[np.float64]
