@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ENGINE = Path(__file__).parent.parent / "engine"
-MIN_ARRAYS = 6
+MIN_ARRAYS = 4
 """Array fields from which on each has a line of its own."""
 
 ARRAY = re.compile(r"\b(NDArray|ndarray|cs[rc]_array|Array|Mask)\b")

@@ -31,10 +31,10 @@ not to the last percent."""
 class Surface:
     """The triangles of `AVATAR_PARTS`, with vertices along seams of the texture once for each side.
 
-    `vertex_of` (N,) int: which of the template's vertices each of these is.
-    `uv` (N, 2) float32 in [0, 1], (0, 0) at the texture's upper left corner.
-    `triangles` (T, 3) int32 into these vertices, counter-clockwise seen from outside.
-    `eyes`: of each joint in `EYE_JOINTS`, the vertices of the eyeball that turns with it.
+    vertex_of : (N,) int, which of the template's vertices each of these is.
+    uv : (N, 2) float32 in [0, 1], (0, 0) at the texture's upper left corner.
+    triangles : (T, 3) int32 into these vertices, counter-clockwise seen from outside.
+    eyes : of each joint in `EYE_JOINTS`, the vertices of the eyeball that turns with it.
     """
 
     vertex_of: NDArray[np.intp]

@@ -32,7 +32,14 @@ class TemplateMissing(Exception):
 
 @dataclass(frozen=True)
 class ObjMesh:
-    """A quad mesh with texture coordinates; `groups` gives each face the name of its OBJ group."""
+    """A mesh of quads with places on a texture.
+
+    vertices : (V, 3) float32.
+    quads : (F, 4) int32.
+    uv : (U, 2) float32, as OBJ has them.
+    uv_quads : (F, 4) int32, each face by its places on the texture.
+    groups : of each face the name of its OBJ group.
+    """
 
     vertices: NDArray[np.float32]
     quads: NDArray[np.int32]

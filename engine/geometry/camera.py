@@ -38,13 +38,13 @@ CONVERGED_STEP_LENGTH = 1e-12
 class Camera:
     """A camera.
 
-    `eye` (3,) metres.
-    `focal` pixels, along a row of the picture.
-    `centre` (x, y): the principal point in pixels.
-    `size` (height, width) of the picture.
-    `axes`: three unit vectors of the world: the camera's right, its up, and backwards, away from what it looks at.
-    `distortion`: none, or Brown's coefficients of a lens (k1, k2, p1, p2) or (k1, k2, p1, p2, k3), as OpenCV has them.
-    `aspect`: focal length down a column by that along a row; 1 where pixels are square.
+    eye : (3,) metres.
+    focal : pixels, along a row of the picture.
+    centre : (x, y) the principal point in pixels.
+    size : (height, width) of the picture.
+    axes : three unit vectors of the world: the camera's right, its up, and backwards, away from what it looks at.
+    distortion : none, or Brown's coefficients of a lens (k1, k2, p1, p2) or (k1, k2, p1, p2, k3), as OpenCV has them.
+    aspect : focal length down a column by that along a row; 1 where pixels are square.
     """
 
     eye: tuple[float, float, float]

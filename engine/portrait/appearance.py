@@ -43,10 +43,10 @@ SAMPLED_SECONDS = 30.0
 
 @dataclass(frozen=True)
 class Appearance:
-    """proportions (R, 2) : the rigid vertices of the face turned to the front, in eye distances around their mean.
-    light (2,) : how the logarithm of the skin's luminance grows to the picture's right and downwards, by eye distance.
-    palette (3,) : mean skin colour, CIE L*a*b*.
-    expressions (F, E) : `EXPRESSION_FEATURES` of each frame looked at; one row for a picture.
+    """proportions : (R, 2) the rigid vertices of the face turned to the front, in eye distances around their mean.
+    light : (2,) how the logarithm of the skin's luminance grows to the picture's right and downwards, by eye distance.
+    palette : (3,) mean skin colour, CIE L*a*b*.
+    expressions : (F, E) `EXPRESSION_FEATURES` of each frame looked at; one row for a picture.
     turn : degrees by which a driver's head turns at most against its usual direction, by which a picture's is turned.
     """
 

@@ -37,9 +37,9 @@ OUT_OF_RANGE = -(1 << 31)
 class Raster(NamedTuple):
     """What covers each pixel of a picture of size (H, W).
 
-    `triangle` (H, W) int32: index of the nearest triangle, -1 where there is none.
-    `barycentrics` (H, W, 3) float32: weights of the triangle's three vertices, summing to one; zero where none.
-    `depth` (H, W) float32: depth at the pixel's centre, +inf where there is none.
+    triangle : (H, W) int32, index of the nearest triangle, -1 where there is none.
+    barycentrics : (H, W, 3) float32, weights of the triangle's three vertices, summing to one; zero where none.
+    depth : (H, W) float32, depth at the pixel's centre, +inf where there is none.
     """
 
     triangle: NDArray[np.int32]

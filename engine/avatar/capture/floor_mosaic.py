@@ -59,10 +59,14 @@ class FloorView:
 
 @dataclass(frozen=True)
 class FloorMosaic:
-    """The floor at `height` metres: `colours` (M, N, 3) float32 of the points `corner` (x, z) + `MOSAIC_SPACING_METRES`
-    * (column, row), NaN where
-    it is not known; the `gains` (F, 3) by which frames differ from it, `sigma` (3,) levels by which they do beside, and the `mixture`
-    of all its colours."""
+    """The floor at `height` metres.
+
+    corner : (2,) x and z of its first point, metres. Points are `MOSAIC_SPACING_METRES` * (column, row) from there.
+    colours : (M, N, 3) float32 of the points, NaN where it is not known.
+    gains : (F, 3) by which frames differ from it.
+    sigma : (3,) levels by which they do beside.
+    mixture : of all its colours.
+    """
 
     height: float
     corner: NDArray[np.float64]

@@ -23,10 +23,10 @@ LID_POINT_COUNT, EYE_POINT_COUNT = 16, 21
 class SpatialLandmarks:
     """Where landmarks are, metres, in the world of the cloud.
 
-    `body`: places (3,) by the names of `engine.body.landmarks.landmark_model`; those not found are left out.
-    `face` (68, 3): NaN where a point is not known.
-    `hands` (2, 21, 3): of the person's own left and right hand; NaN where a point is not known.
-    `eyes` (2, 21, 3): of the person's own left and right eye; NaN where a point is not known.
+    body : places (3,) by the names of `engine.body.landmarks.landmark_model`; those not found are left out.
+    face : (68, 3) NaN where a point is not known.
+    hands : (2, 21, 3) of the person's own left and right hand; NaN where a point is not known.
+    eyes : (2, 21, 3) of the person's own left and right eye; NaN where a point is not known.
     """
 
     body: Mapping[str, NDArray[np.float64]]

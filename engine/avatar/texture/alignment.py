@@ -56,8 +56,13 @@ CONSENSUS_ROUNDS = 3
 
 @dataclass(frozen=True)
 class _Sight:
-    """What a frame sees: `layers` (H, W, 4) uint8, its small picture and the mask; the `points` (n,), by number, which its camera
-    sees, their `places` (n, 2) in the small picture, and how frontal they are, `weights` (n,)."""
+    """What a frame sees.
+
+    layers : (H, W, 4) uint8, its small picture and the mask.
+    points : (n,) by number, those that its camera sees.
+    places : (n, 2) of them in the small picture.
+    weights : (n,) how frontal they are.
+    """
 
     layers: NDArray[np.uint8]
     points: NDArray[np.intp]

@@ -34,12 +34,12 @@ STEPS_PER_ROUND = 4
 class Fit:
     """The template fitted to a person.
 
-    `coefficients` (K,) of the body space.
-    `rotations` (J, 3, 3): each joint's turn in its parent's axes (the world's, at rest).
-    `root_translation` (3,) metres: the root joint in the world of the cameras. A single camera at the origin sees it there:
-    x right, y up, -z away.
-    `reprojection`: the root mean square distance in pixels of the landmarks that were believed.
-    `parameters` (P,): all of it as it was sought.
+    coefficients : (K,) of the body space.
+    rotations : (J, 3, 3) each joint's turn in its parent's axes (the world's, at rest).
+    root_translation : (3,) metres, the root joint in the world of the cameras. A single camera at the origin sees it there:
+        x right, y up, -z away.
+    reprojection : the root mean square distance in pixels of the landmarks that were believed.
+    parameters : (P,) all of it as it was sought.
     """
 
     coefficients: NDArray[np.float32]

@@ -55,10 +55,11 @@ class Contour:
 class SkinPoints:
     """Points of the template's surface, each carried by one joint.
 
-    `joints` (S,): which carries each.
-    `mean` (S, 3) and `basis` (K, S, 3): where they are at rest, metres, linear in the coefficients.
-    `normals` (S, 3): the mean body's, unit vectors.
-    `inside` (S,): how far inside a contour each may be that meets it, as a share of the person's height.
+    joints : (S,) which carries each.
+    mean : (S, 3) metres, where they are at rest.
+    basis : (K, S, 3) metres, how that moves with each coefficient.
+    normals : (S, 3) the mean body's, unit vectors.
+    inside : (S,) how far inside a contour each may be that meets it, as a share of the person's height.
     """
 
     joints: NDArray[np.intp]

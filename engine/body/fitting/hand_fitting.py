@@ -49,10 +49,10 @@ HAND_BONES = tuple(
 class HandAnchor:
     """What a hand hangs on, and who sees it.
 
-    `forearm_axes` (3, 3): those of the forearm, as columns, in the world.
-    `wrist` (3,): where it is in the world, metres.
-    `hand_rotation` (3, 3): the hand's turn on its forearm, as the body's fit has it.
-    `camera`: it looks along the world's -z, for what is nearer to it is known as depth along that axis.
+    forearm_axes : (3, 3) those of the forearm, as columns, in the world.
+    wrist : (3,) where it is in the world, metres.
+    hand_rotation : (3, 3) the hand's turn on its forearm, as the body's fit has it.
+    camera : it looks along the world's -z, for what is nearer to it is known as depth along that axis.
     """
 
     forearm_axes: NDArray[np.floating]
@@ -65,11 +65,11 @@ class HandAnchor:
 class HandFit:
     """A hand fitted to its landmarks.
 
-    `joints` (N,): of the space, the hand, then its fingers.
-    `rotations` (N, 3, 3): theirs, each in its parent's axes.
-    `shift` (2,) pixels: by which the hand seen is beside the body's fit.
-    `scale`: by which it is larger than the template's.
-    `median_error`: of the landmarks, with shift and scale, in lengths of the hand.
+    joints : (N,) of the space, the hand, then its fingers.
+    rotations : (N, 3, 3) theirs, each in its parent's axes.
+    shift : (2,) pixels, by which the hand seen is beside the body's fit.
+    scale : by which it is larger than the template's.
+    median_error : of the landmarks, with shift and scale, in lengths of the hand.
     """
 
     joints: NDArray[np.intp]

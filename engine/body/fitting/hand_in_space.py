@@ -45,10 +45,10 @@ MIN_PALM = 4
 class HandInSpace:
     """A hand fitted to its landmarks.
 
-    `joints` (16,): of the space, the hand, then its fingers.
-    `rotations` (16, 3, 3): theirs, each in its parent's axes.
-    `shift` (3,) metres: from where the body's fit has the wrist to where it is.
-    `scale`: by which the hand is larger than that of the body's fit.
+    joints : (16,) of the space, the hand, then its fingers.
+    rotations : (16, 3, 3) theirs, each in its parent's axes.
+    shift : (3,) metres, from where the body's fit has the wrist to where it is.
+    scale : by which the hand is larger than that of the body's fit.
     """
 
     joints: NDArray[np.intp]

@@ -104,8 +104,13 @@ class HandSkin:
 
 @dataclass(frozen=True)
 class PointsOfHand:
-    """Points (M, 3) metres, each on a triangle of the hand by its `corners` (M, 3) and `shares` (M, 3); `normals` (M, 3) of that,
-    as long as offsets along them count."""
+    """Points, each on a triangle of the hand.
+
+    points : (M, 3) metres.
+    normals : (M, 3) of the triangle, as long as offsets along them count.
+    corners : (M, 3) vertices of the triangle.
+    shares : (M, 3) barycentrics in it.
+    """
 
     points: NDArray[np.float64]
     normals: NDArray[np.float64]

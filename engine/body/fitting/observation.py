@@ -25,10 +25,10 @@ LANDMARK_SIGMA_SHARE = 0.012
 class Crossing:
     """One forearm before the other.
 
-    `front`: the side of the one before, 0 left, 1 right.
-    `front_at`, `back_at`: how far along from the elbow the place is at which both are seen, as shares of the forearms.
-    `tucked_at`: how far along from the shoulder the other's hand is behind the front side's upper arm, too; None where it
-    is not.
+    front : the side of the one before, 0 left, 1 right.
+    front_at, back_at : how far along from the elbow the place is at which both are seen, as shares of the forearms.
+    tucked_at : how far along from the shoulder the other's hand is behind the front side's upper arm, too; None where it
+        is not.
     """
 
     front: int
@@ -41,14 +41,14 @@ class Crossing:
 class Observation:
     """A person as one camera sees them.
 
-    `points` (L, 2): pixels of the landmarks of `engine.body.landmarks`.
-    `confidence` (L,) in [0, 1]: how much each is believed; what is not seen has none.
-    `directions` (M, 3): unit vectors of `DIRECTED_LIMBS` in the camera's axes: x right, y up, z to the viewer.
-    `direction_confidence` (M,) in [0, 1].
-    `camera`: in the world in which the person is fitted.
-    `landmark_sigma`: how far the points are off, usually, as a share of the body's height in the picture.
-    `crossing`: of the forearms, if they cross.
-    `contour`: of the person's mask, where there is one.
+    points : (L, 2) pixels of the landmarks of `engine.body.landmarks`.
+    confidence : (L,) in [0, 1]: how much each is believed; what is not seen has none.
+    directions : (M, 3) unit vectors of `DIRECTED_LIMBS` in the camera's axes: x right, y up, z to the viewer.
+    direction_confidence : (M,) in [0, 1].
+    camera : in the world in which the person is fitted.
+    landmark_sigma : how far the points are off, usually, as a share of the body's height in the picture.
+    crossing : of the forearms, if they cross.
+    contour : of the person's mask, where there is one.
     """
 
     points: NDArray[np.float32]

@@ -39,10 +39,10 @@ class CarriedPoints(Protocol):
 class PosedBodies:
     """N bodies.
 
-    `coefficients` (N, K) of the body space.
-    `rest` (N, J, 3): joints at rest, metres.
-    `joints` (N, J, 3): joints in the pose, metres, in the world.
-    `world_rotations` (N, J, 3, 3): the turns of their axes in the world.
+    coefficients : (N, K) of the body space.
+    rest : (N, J, 3) joints at rest, metres.
+    joints : (N, J, 3) joints in the pose, metres, in the world.
+    world_rotations : (N, J, 3, 3) the turns of their axes in the world.
     """
 
     coefficients: NDArray[np.float64]

@@ -60,9 +60,9 @@ MIN_DEPTH_METRES = 0.1
 class ContourMatches:
     """Points of the body's surface and what they should lie on.
 
-    `skin`: R points of the surface.
-    `points` (R, 2): the points of the contour that they meet, pixels.
-    `normals` (R, 2): the contour's there, outwards.
+    skin : R points of the surface.
+    points : (R, 2) the points of the contour that they meet, pixels.
+    normals : (R, 2) the contour's there, outwards.
     """
 
     skin: SkinPoints

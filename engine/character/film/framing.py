@@ -43,9 +43,13 @@ SWUNG_ARM_JOINT_NAMES = ("Arm", "Hand")
 
 @dataclass(frozen=True)
 class _View:
-    """What decides whether a character is in the picture: the outermost vertices of every bone, `arms` (V,) which of them
-    hands and arms carry, and the box in which they must be, `low` and `high` (x, y) in pixels of `camera_at(second)`, which
-    is where the picture was taken at second 0."""
+    """What decides whether a character is in the picture.
+
+    camera_at : the camera by the second; at second 0 it is where the picture was taken.
+    outer : (V,) the outermost vertices of every bone.
+    arms : (V,) which of them hands and arms carry.
+    low, high : (2,) x and y of the box in which they must be, pixels of the camera.
+    """
 
     mesh: SkinnedMesh
     camera_at: Callable[[float], Camera]

@@ -90,7 +90,12 @@ def label_crossed(
 
 @dataclass(frozen=True)
 class _Arm:
-    """`shoulder`, `elbow`, `wrist` and `fingers` (2,) on the grid, half the width at the elbow, and the pixels of a `metre`."""
+    """An arm on the grid, pixels.
+
+    shoulder, elbow, wrist, fingers : (2,) where they are.
+    wide : half the width at the elbow.
+    metre : how many pixels one has.
+    """
 
     shoulder: NDArray[np.float64]
     elbow: NDArray[np.float64]

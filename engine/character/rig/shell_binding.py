@@ -61,7 +61,14 @@ def bind_shell(
 
 @dataclass(frozen=True)
 class _Part:
-    """What of a mesh comes from one place: arrays as `SkinnedMesh` has them."""
+    """What of a mesh comes from one place, as `engine.geometry.rigging.skinned_mesh.SkinnedMesh` has it.
+
+    vertices : (V, 3) metres.
+    triangles : (T, 3).
+    uv : (V, 2) places on the texture.
+    bones : (V, 4) the joints that carry each.
+    weights : (V, 4) float32, how much each of these does.
+    """
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.int32]

@@ -81,7 +81,13 @@ def displace(mesh: TemplateMesh, template: NDArray[np.float64], outlines: Outlin
 
 @dataclass(frozen=True)
 class _Lines:
-    """Vertices (N,), whose displacement along a normal (N, 2) should be a goal (N,), which counts by a weight (N,)."""
+    """Displacements of vertices along one normal each.
+
+    vertices : (N,) which.
+    normals : (N, 2) along which.
+    goals : (N,) how far they should go.
+    weights : (N,) what that counts.
+    """
 
     vertices: NDArray[np.intp]
     normals: NDArray[np.float64]

@@ -49,7 +49,12 @@ PROP_NEIGHBOUR_COUNT = 6
 
 @dataclass(frozen=True)
 class _Lattice:
-    """Vertices of a piece by row and column: `used` (R, C), `x` and `y` (N,) of those that are, and the `cells` (M, 4) between them."""
+    """Vertices of a piece by row and column.
+
+    used : (R, C) where there is one.
+    x, y : (N,) where it is.
+    cells : (M, 4) those around each cell.
+    """
 
     used: NDArray[np.bool_]
     x: NDArray[np.float64]

@@ -78,7 +78,8 @@ class DetailRegion:
     """Where a target takes ratios.
 
     box : x0, y0, x1, y1 of the face in the target.
-    corners : (468, 2) the mesh in it, and its triangles (T, 3).
+    corners : (468, 2) the mesh in it.
+    triangles : (T, 3) of the mesh.
     weight : (h, w) [0, 1], the face's region without eyes and mouth, feathered.
     slopes : (3,) how far each channel darkens where luminance does (`shading_colour`).
     """

@@ -18,8 +18,11 @@ SOFT_WEIGHT = 0.01
 class HeadMotion:
     """For each frame: mesh = scale * rotation @ (neutral + expression) + shift.
 
-    scale (N,), rotation (N, 3, 3), shift (N, 3) in pixels, expression (N, 478, 3) in pixels of the
-    neutral frame; neutral (478, 3).
+    neutral : (478, 3) pixels of the neutral frame.
+    scale : (N,).
+    rotation : (N, 3, 3).
+    shift : (N, 3) pixels.
+    expression : (N, 478, 3) pixels of the neutral frame.
     """
 
     neutral: NDArray[np.float64]

@@ -15,9 +15,9 @@ from engine.geometry.registration.rigid import Similarity
 class PointCloud:
     """Points of a surface, each with its normal and its colour.
 
-    `points` (N, 3) float32: metres.
-    `normals` (N, 3) float32: unit vectors, out of the body.
-    `colours` (N, 3) uint8: sRGB.
+    points : (N, 3) float32, metres.
+    normals : (N, 3) float32, unit vectors, out of the body.
+    colours : (N, 3) uint8, sRGB.
     """
 
     points: NDArray[np.float32]

@@ -25,7 +25,13 @@ KNEE_AXIS = (1.0, 0.0, 0.0)
 
 @dataclass
 class HeldFoot:
-    """One foot over time: world turns of foot and toes (F, 4), the ankle's place (F, 3), and how far it is held (F,)."""
+    """One foot over time.
+
+    turns : (F, 4) of the foot in the world.
+    toes : (F, 4) of the toes in the world.
+    ankle : (F, 3) where it is.
+    held : (F,) how far the foot is held.
+    """
 
     turns: Array
     toes: Array

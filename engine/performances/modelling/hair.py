@@ -24,8 +24,13 @@ the nape (u, v)."""
 
 @dataclass(frozen=True)
 class Haircut:
-    """Hair that moves with the skull: `points` (S, K, 3) of the rest pose, `roots` (S, 3) the normals of the
-    scalp there, `widths` (S, K) metres, `tone` (S,) each hair's brightness."""
+    """Hair that moves with the skull.
+
+    points : (S, K, 3) of the rest pose.
+    normals : (S, 3) of the scalp at their roots.
+    widths : (S, K) metres.
+    tone : (S,) each hair's brightness.
+    """
 
     points: NDArray[np.float32]
     normals: NDArray[np.float32]

@@ -43,8 +43,14 @@ LOWER_LIP_BORDER = [(-0.0236, 0.7213), (-0.0185, 0.7158), (-0.0115, 0.7116), (-0
 
 @dataclass(frozen=True)
 class Skin:
-    """Maps over the chart: `albedo` (H, W, 3) linear, `height` (H, W) metres of fine relief, `roughness` (H, W),
-    `lips` (H, W) [0, 1]. `maps` (H, W, 6): albedo, roughness, and the relief's slopes along u and v, as one texture."""
+    """Maps over the chart.
+
+    albedo : (H, W, 3) linear.
+    height : (H, W) metres of fine relief.
+    roughness : (H, W).
+    lips : (H, W) in [0, 1].
+    maps : (H, W, 6) albedo, roughness, and the relief's slopes along u and v, as one texture.
+    """
 
     albedo: NDArray[np.float32]
     height: NDArray[np.float32]

@@ -18,9 +18,13 @@ CROWN_HALF_DEPTHS = (3.3, 3.2, 3.9, 4.3, 4.5, 5.0, 5.0)
 
 @dataclass(frozen=True)
 class Dentition:
-    """One jaw's teeth and gum in the rest pose: `vertices` (V, 3) metres, `triangles` (T, 3), and by vertex
-    `enamel` (V,): height on the crown from the gum, 0, to the edge, 1; -1 on the gum. `shade` (V,): each tooth's
-    own brightness."""
+    """One jaw's teeth and gum in the rest pose.
+
+    vertices : (V, 3) metres.
+    triangles : (T, 3).
+    enamel : (V,) height on the crown from the gum, 0, to the edge, 1; -1 on the gum.
+    shade : (V,) each tooth's own brightness.
+    """
 
     vertices: NDArray[np.float32]
     triangles: NDArray[np.int32]

@@ -15,7 +15,15 @@ from engine.render.rasteriser import Raster, rasterise
 
 @dataclass(frozen=True)
 class VisiblePoints:
-    """The visible points of a picture, row by row, and where they lie: `covered` (H, W) marks their pixels."""
+    """The P visible points of a picture, row by row.
+
+    covered : (H, W) the pixels where they are.
+    raster : which triangle covers each pixel.
+    part : (P,) of the scene.
+    position : (P, 3) metres.
+    normal : (P, 3) of unit length.
+    view : (P, 3) the way to the camera, of unit length.
+    """
 
     covered: NDArray[np.bool_]
     raster: Raster

@@ -106,7 +106,9 @@ def mesh_units(template: Template, space: BodySpace) -> MeshUnits:
 class _FrontView:
     """The template's face from before.
 
-    low : x and y, metres, of the top-left pixel.
+    raster : which of its triangles covers each pixel.
+    triangles : (T, 3).
+    low : (2,) x and y of the top-left pixel, metres.
     jaw : (H, W) how far an open jaw moves what is seen.
     eyes : (H, W) bool, where eyeballs are.
     """

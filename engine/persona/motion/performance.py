@@ -27,7 +27,8 @@ class Performance:
 
     faces : (F, 478, 3) float64 from the front, in eye distances.
     weights : (F, N) float32, how much each photograph counts.
-    linear : (F, 3, 3) and shift : (F, 3), where the driver's head is: pixels of its video for eye distances.
+    linear : (F, 3, 3) how the driver's head is turned, pixels of its video for eye distances.
+    shift : (F, 3) where it is, pixels of its video.
     """
 
     faces: NDArray[np.float64]

@@ -40,8 +40,13 @@ UNSEEN_AREA_WEIGHT = 1e-4
 
 @dataclass(frozen=True)
 class HandSurface:
-    """A hand by itself: `triangles` (T, 3) into its `vertices` (V, 3), metres; which of the whole surface's `faces` (T,) these are,
-    ascending; and how far `along` the hand they are, (T,) metres past the wrist."""
+    """A hand by itself.
+
+    vertices : (V, 3) metres.
+    triangles : (T, 3) into these vertices.
+    faces : (T,) which of the whole surface's faces they are, ascending.
+    along : (T,) metres past the wrist, along the hand.
+    """
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.intp]

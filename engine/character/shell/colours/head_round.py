@@ -57,8 +57,15 @@ HEAD_LAB_WEIGHTS = np.array([0.7, 1.5, 1.5], np.float32)
 
 @dataclass(frozen=True)
 class _Kinds:
-    """What is well seen of a head, (A, `UNROLLED_COLUMNS`) each: all that is `known`, and of that the bare skin, the hair (or hat), and what is
-    nearer to the skin's colour than to the hair's. `skin`: the mean colour, sRGB levels; `falls`: whether hair covers ears and neck."""
+    """What is well seen of a head, (A, `UNROLLED_COLUMNS`) each but for the last two.
+
+    known : all of it.
+    bare : the bare skin.
+    hair : hair, or a hat.
+    skin_like : what is nearer to the skin's colour than to the hair's.
+    skin : (3,) the mean colour of skin, sRGB levels.
+    falls : whether hair covers ears and neck.
+    """
 
     known: NDArray[np.bool_]
     bare: NDArray[np.bool_]

@@ -50,8 +50,12 @@ COLOUR_RAMP_PIXELS = (64, 16)
 
 
 class MouthColours(NamedTuple):
-    """(16, 64, 3) uint8 each, a ramp of colours: `lower` and `upper` teeth from the gum to their edges, the tongue from its tip to its root, the bag
-    from the lips to the throat, its roof first."""
+    """A ramp of colours (16, 64, 3) uint8 for each part of a mouth.
+
+    upper, lower : teeth from the gum to their edges.
+    tongue : from its tip to its root.
+    bag : from the lips to the throat, its roof first.
+    """
 
     upper: NDArray[np.uint8]
     lower: NDArray[np.uint8]
