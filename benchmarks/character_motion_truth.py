@@ -106,7 +106,7 @@ class Player:
         return self.held(Clip("", 1.0, self.clip.rotations[[frame]], self.clip.root[[frame]]))
 
     def held(self, clip: Clip) -> NDArray[np.float32]:
-        """The same in the only frame of a clip."""
+        """This person held in the only frame of a clip."""
         mesh = self.mesh
         transforms = pose_transforms(mesh.skeleton, clip.rotations, clip.root)[0]
         vertices = skin(mesh.vertices, mesh.bones, mesh.weights, transforms)

@@ -27,7 +27,7 @@ class Input:
     required: bool = True
     many: bool = False
     serves_many: bool = False
-    """Its analysis is worth keeping for further jobs: stages marked `shared` look at nothing but this input."""
+    """Whether its analysis is worth keeping for further jobs: stages marked `shared` look at nothing but this input."""
     library: Literal["performances", "motions"] | None = None
     """Where set, the input may also be the name of an item of that library: the built-in one, or what a user keeps."""
     offers_auto: bool = True
@@ -38,7 +38,7 @@ class Input:
     spared_by: str | None = None
     """Where set, the option of this name makes the input one that may be left out."""
     spared_by_input: str | None = None
-    """The same of another input, which is given instead."""
+    """Where set, the input of this name, given instead, makes the input one that may be left out."""
     personal: bool = False
     """Shows somebody as they are: an operator may have it erased once the job has succeeded. Only stored stages may read it then."""
     artifact: str | None = None

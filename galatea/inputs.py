@@ -22,7 +22,7 @@ Photos: TypeAlias = File | Sequence[Picture]
 """Photographs: a folder, an archive, or a sequence of pictures and archives."""
 
 KEPT_MODES = ("1", "L", "LA", "P", "RGB", "RGBA", "I;16")
-"""Those of Pillow's that a PNG holds as they are."""
+"""Pillow's modes that a PNG holds as they are."""
 
 
 def picture_file(given: Picture, name: str, folder: Path) -> Path:

@@ -107,7 +107,7 @@ class Job(JobDocument):
 
 
 class AsyncJob(JobDocument):
-    """The same by an `AsyncClient`: its methods are awaited, its events come by `async for`."""
+    """A job by an `AsyncClient`: its methods are awaited, its events come by `async for`."""
 
     @property
     def client(self) -> AsyncClient:

@@ -142,7 +142,7 @@ class _Told(httpx.SyncByteStream):
 
 
 class _ReadAside(httpx.AsyncByteStream):
-    """The same, read from its file in threads."""
+    """A body that threads read from its file."""
 
     def __init__(self, body: Any, sent: OnSent):
         self._body = body

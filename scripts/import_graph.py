@@ -41,7 +41,7 @@ class File:
     imports: frozenset[str]
     """The files of the same package that it imports, by their names."""
     fetched: frozenset[str]
-    """Those of them that are fetched only when they are needed: `import(...)` in the page."""
+    """Which of `imports` are fetched only when they are needed: `import(...)` in the page."""
     lines: int
     functions: tuple[int, ...]
     """The lines of each function and method."""
@@ -97,7 +97,7 @@ def arrows(files: Iterable[File]) -> dict[tuple[str, str], int]:
 
 
 def loads(files: Iterable[File]) -> dict[tuple[str, str], int]:
-    """From file to file: what comes with it, and whose types it takes; without what it fetches when that is needed."""
+    """From file to file: what comes with it and whose types it takes, not what it fetches later."""
     return {(file.name, other): 1 for file in files for other in file.imports - file.fetched}
 
 

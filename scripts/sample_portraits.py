@@ -34,7 +34,8 @@ def rendered_actor() -> NDArray[np.uint8]:
 
 
 def painted_actor() -> NDArray[np.uint8]:
-    """The same in oil: a warm light from the left, a dark ground, a red shirt, strokes, and the weave of the canvas."""
+    """The actor in oil: a warm light from the left, a dark ground, a red shirt, strokes, and the weave of the
+    canvas."""
     rng = np.random.default_rng(PAINT_SEED)
     side = PAINTING_SCALE * SIDE_PIXELS
     filmed = np.asarray(cv2.resize(rendered_actor(), (side, side), interpolation=cv2.INTER_CUBIC), np.uint8)

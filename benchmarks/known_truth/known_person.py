@@ -48,7 +48,7 @@ class Person:
     joints: NDArray[np.float64] | None = None
 
     def turned(self, degrees: float) -> Person:
-        """The same person turned about the vertical, to their left."""
+        """This person turned about the vertical, to their left."""
         turn = Rotation.from_euler("y", degrees, degrees=True).as_matrix()
         joints = None if self.joints is None else self.joints @ turn.T
         name = f"{self.name} {degrees:+.0f}°" if degrees else self.name

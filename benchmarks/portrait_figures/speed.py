@@ -160,7 +160,7 @@ def _processes(image: Path, clip: Path, folder: Path, repeats: int, frames: int)
 
 
 def _another(image: Path, number: int) -> Path:
-    """The same portrait as far as the eye can tell, and another one by its content."""
+    """A copy of a portrait that no eye tells from it, though its bytes differ."""
     rgb = read_image(image).rgb.copy()
     rgb[0, 0] = number
     path = image.with_name(f"another{number}.png")

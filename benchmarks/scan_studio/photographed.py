@@ -20,7 +20,7 @@ from engine.geometry.rigging.skinning import skin
 from engine.motion.kinematics import pose_transforms
 
 PHOTOGRAPHED_PEOPLE = ("readyplayer.me", "soldier")
-"""Those of the rigged who have human proportions."""
+"""The rigged people who have human proportions."""
 NAMED_CAMERAS: Mapping[str, Callable[[Person, tuple[int, int]], Camera]] = {
     "afar": level_camera,
     "near": telephone_camera,

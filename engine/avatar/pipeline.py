@@ -60,7 +60,7 @@ STAGES = {
 }
 """The stages and their usual share of the time."""
 STAGES_PER_CLIP = ("choose_frames", "find_landmarks", "measure_cloud")
-"""Those that come once for each clip."""
+"""The stages that come once for each clip."""
 TURN_SECONDS = 6.0
 """Of the turntable."""
 PREVIEW_SPACING_METRES = 0.006

@@ -43,11 +43,12 @@ from engine.perception.solutions import kept_networks
 FEATURE_SIDE_PIXELS = 1280
 """Pixels of the longer side of frames in which features are found."""
 STEREO_SIDE_PIXELS = 960
-"""The same, at most, of frames between which stereo measures: a millimetre and a half of somebody who fills them."""
+"""Pixels of the longer side, at most, of frames between which stereo measures: a millimetre and a half of somebody who
+fills them."""
 MIN_PIXEL_METRES = 0.001
 """Metres of the person that a pixel of these shows at least: clouds are smoothed over eight."""
 LANDMARK_SIDE_PIXELS = 1280
-"""The same of frames in which landmarks are found."""
+"""Pixels of the longer side of frames in which landmarks are found."""
 HEAD_VIEW_REACH_RATIO = 1.5
 """How far away frames of the head's clip are asked about the person, in distances of the head: shoes below a chin that sways are
 hidden by what the mesh has elsewhere."""

@@ -68,7 +68,7 @@ class BodySpace:
         return Skeleton(self.names, self.parents, self.joints(coefficients))
 
     def with_joints_of(self, rig: Rig) -> BodySpace:
-        """The same bodies with the joints of another rig alone, all of which this one has."""
+        """These bodies with the joints of another rig alone, all of which this one has."""
         at = [self.names.index(name) for name in rig.names]
         return replace(
             self,

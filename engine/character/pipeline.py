@@ -75,7 +75,7 @@ STAGES = {
 """The stages and their usual share of the time."""
 
 STAGES_PER_PERSON = ("cut_out", "fit_template", "label_parts", "build_mesh", "make_character", "measure")
-"""Those that come once for each person."""
+"""The stages that come once for each person."""
 MAX_ANIMATED_PEOPLE = 6
 """People who are woken together."""
 MAX_GLB_BYTES = 10_000_000

@@ -63,9 +63,9 @@ class CharacterModel:
 
     mesh: SkinnedMesh
     clips: Sequence[Clip] = ()
-    """Become animations of the same names. Joints that never leave the T-pose are left out of an animation; one that loops
-    says so in its `extras` (`{"loops": true}`) and ends on its first frame again (moved on, where it travels); a clip of
-    one frame is held for a second."""
+    """Become animations of the same names. Joints that never leave the T-pose are left out of an animation. One that
+    loops says so in its `extras` (`{"loops": true}`), and ends on its first frame again (moved on, where it travels). A
+    clip of one frame is held for a second."""
     unlit: bool = True
     """The texture shows the light of its picture: ask viewers to add none (`KHR_materials_unlit`, not required)."""
     levels: Sequence[SkinnedMesh] = ()
@@ -149,7 +149,7 @@ def _reduced(texture: NDArray[np.uint8], smaller: int) -> NDArray[np.uint8]:
 
 
 def build_glb(model: CharacterModel, texture: bytes, *, name: str = "character", synthetic: bool = True) -> gl.GLTF2:
-    """The same as an object, for formats that are GLB with additions (`engine.export.vrm`). `texture`: as `jpeg`.
+    """The file as an object, for formats that are GLB with additions (`engine.export.vrm`). `texture`: as `jpeg`.
 
     Node `j` is joint `j` of the skeleton; then come the root of all joints and the meshes.
     """

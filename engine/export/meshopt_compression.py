@@ -49,7 +49,7 @@ class _Use:
 
 
 def compressed(glb: bytes) -> bytes:
-    """The same file, smaller, for readers that know the extension, which it then requires.
+    """A GLB made smaller, for readers that know the extension, which it then requires.
 
     Triangles may begin at another of their vertices. Raises ValueError for numbers that are too large for `STEP_EXPONENTS`: 128 metres.
     """

@@ -14,7 +14,7 @@ EASE_SECONDS = 0.6
 
 
 def close_loop(track: FaceTrack) -> FaceTrack:
-    """The same track, its last frames led smoothly to where the first begins, the face's looks with it.
+    """A track whose last frames are led smoothly to where the first begins, the face's looks with them.
 
     The frame after the last is the first: the weight of the beginning would reach 1 just there.
     """

@@ -44,7 +44,7 @@ def match_boundaries(
 def match_curves(
     curve: NDArray[np.floating], reference: NDArray[np.floating], kappa: int = MAX_ADVANCE_POINTS
 ) -> NDArray[np.intp]:
-    """The same for two open curves whose ends belong together: (m,) indices, the first 0, the last n - 1."""
+    """Match two open curves whose ends belong together: (m,) indices, the first 0, the last n - 1."""
     points = np.ascontiguousarray(curve, np.float64)
     partners = np.ascontiguousarray(reference, np.float64)
     kappa = max(kappa, -(-2 * len(partners) // max(len(points) - 1, 1)))

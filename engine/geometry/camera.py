@@ -151,14 +151,15 @@ class Camera:
         return replace(self, centre=(self.centre[0] - left, self.centre[1] - top), size=size)
 
     def moved(self, motion: Similarity) -> Camera:
-        """The camera carried along when the world that it sees undergoes a rigid motion, or a similarity: it sees the moved
-        points where it saw them before."""
+        """The camera carried along with its world by a rigid motion or a similarity: it sees the moved points where it
+        saw them before."""
         x, y, z = motion(np.array(self.eye)).tolist()
         axes = (np.array(self.axes) @ motion.rotation.T).tolist()
         return replace(self, eye=(x, y, z), axes=tuple(map(tuple, axes)))
 
     def aimed(self, eye: ArrayLike, target: ArrayLike) -> Camera:
-        """The same lens, level, at `eye` and looking at `target` (3,). The target may not be right above the eye."""
+        """A camera with this lens, level, at `eye` and looking at `target` (3,). The target may not be right above the
+        eye."""
         back = np.asarray(eye, np.float64) - np.asarray(target, np.float64)
         back = back / np.linalg.norm(back)
         right = np.cross([0.0, 1.0, 0.0], back)

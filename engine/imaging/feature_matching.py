@@ -24,7 +24,7 @@ MIN_MATCHES = 15
 MIN_AGREEING_MATCH_SHARE = 0.25
 """Share of the matches that must be in accord."""
 MANY_MATCHES = 400
-"""So many tie two pictures; where there are fewer, more are looked for along epipolar lines."""
+"""How many matches tie two pictures. Where there are fewer, more are looked for along epipolar lines."""
 MIN_DESCRIPTOR_COSINE = 0.8
 """Cosine between descriptors that are looked for so."""
 OVERLAP_FEATURES = 300

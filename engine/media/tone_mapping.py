@@ -21,10 +21,11 @@ Transfer = Literal["hlg", "pq", "sdr"]
 Primaries = Literal["bt2020", "p3", "bt709"]
 
 WHITE_NITS = 203.0
-"""cd/m2 of diffuse white (BT.2408)."""
+"""Luminance of diffuse white, cd/m2 (BT.2408)."""
 
 PEAK_NITS = 1000.0
-"""cd/m2 of the display that the picture was made for: BT.2100's reference for HLG, usual for PQ; more is clipped."""
+"""Luminance of the display that the picture was made for, cd/m2: BT.2100's reference for HLG, usual for PQ; more is
+clipped."""
 
 _CHROMATICITIES: dict[str, tuple[tuple[float, float], ...]] = {
     "bt709": ((0.640, 0.330), (0.300, 0.600), (0.150, 0.060)),

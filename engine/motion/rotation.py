@@ -146,7 +146,7 @@ def mean(turns: ArrayLike, axis: int = 0) -> Array:
 
 
 def same_signs(turns: ArrayLike) -> Array:
-    """The same turns over time (F, ..., 4), each with the sign nearer to the one before: fit for interpolation."""
+    """Turns over time (F, ..., 4), each with the sign nearer to the one before: fit for interpolation."""
     q = np.asarray(turns, np.float64)
     flips = np.where(np.sum(q[1:] * q[:-1], -1, keepdims=True) < 0, -1.0, 1.0)
     return np.concatenate([q[:1], q[1:] * np.cumprod(flips, 0)])

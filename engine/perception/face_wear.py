@@ -25,7 +25,7 @@ COPY_EYE_CORNERS_PIXELS = 160
 MIN_BRIDGE_EYE_PIXELS = 80
 """Pixels between the outer corners of the eyes in the picture from which a bridge can be seen."""
 MIN_HAIR_EYE_PIXELS = 40
-"""The same from which hair above the lip can be seen."""
+"""Pixels between the outer corners of the eyes in the picture from which hair above the lip can be seen."""
 MAX_NOSE_OFFSET = 0.5
 """By how much of half their distance the tip of the nose may stand off their middle: of a face seen from the side nothing is told."""
 OUTER_CORNERS, INNER_CORNERS = zip(RIGHT_EYE_CORNER_VERTICES, LEFT_EYE_CORNER_VERTICES, strict=True)
@@ -43,7 +43,7 @@ LOG_OFFSET_LEVELS = 8.0
 ABOVE_LIP = ((2, 98, 92, 0, 167, 165), (2, 327, 322, 0, 393, 391))
 """Corners of the skin between nose and lip, of the right and the left half."""
 CHEEK_HALVES_VERTICES = ((50, 101, 205, 36, 142, 187), (280, 330, 425, 266, 371, 411))
-"""Those of the cheeks."""
+"""Corners of the skin of the right and the left cheek."""
 LIP_MARGIN_PIXELS = 7
 """Pixels of the copy about the lips that are none of the skin."""
 MIN_REGION_PIXELS = 15

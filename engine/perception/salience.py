@@ -34,7 +34,7 @@ PEOPLE_MARGIN_SHARE = 0.2
 MIN_PEOPLE_PIXELS = 16
 """Pixels of people from which there is somebody to look at."""
 SALIENCE_SHARE = 0.5
-"""Its share in the belief."""
+"""Share of salience in the belief."""
 EDGE_WIDTH, THING_HALF_WIDTH = 0.012, 0.015
 """How far beside people what stands out is no more than a finer edge, and half the width from which on it is a thing beyond that, as
 shares of their height: what is thinner is a foot or a hand that the networks of people miss."""

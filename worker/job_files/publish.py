@@ -140,7 +140,7 @@ def _store(context: Context, lease: Lease, path: Path) -> tuple[Artifact, tuple[
 
 
 def _copy(artifact: Artifact) -> Artifact:
-    """The same artifact for another session: an attempt to record it may have failed in an earlier one."""
+    """An artifact anew, for another session: an attempt to record it may have failed in an earlier one."""
     return Artifact(**{column.key: getattr(artifact, column.key) for column in Artifact.__table__.columns})
 
 

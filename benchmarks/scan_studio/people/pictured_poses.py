@@ -8,7 +8,7 @@ from benchmarks.scan_studio.people.rigged_people import Directions
 
 
 def _mirrored(directions: Directions) -> Directions:
-    """The same of the other side."""
+    """Directions of limbs with left and right exchanged."""
     return {f"Right{name.removeprefix('Left')}": (-x, y, z) for name, (x, y, z) in directions.items()}
 
 

@@ -15,7 +15,8 @@ from engine.geometry.point_clouds.point_cloud import thinning
 MIN_STANDING_OFF_METRES = 0.012
 """Metres from the skin at which a surface stands off it."""
 MIN_FACE_DISTANCE_METRES = 0.02
-"""The same before a face, which moves while it is filmed, and stays free of what does not clearly stand off."""
+"""Metres from the skin of a face at which a surface stands off it. A face moves while it is filmed, and stays free of
+what does not clearly stand off."""
 ROOT_REACH_METRES, ROOT_DEPTH_METRES = 0.03, -0.02
 """Metres from what stands off within which other points are of the same piece, although they are near the skin, and how far within it
 at most: a piece comes off the body somewhere, and has no holes where the skin comes close."""

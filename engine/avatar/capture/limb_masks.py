@@ -26,7 +26,8 @@ PALM_CORNER_LANDMARKS = ("Wrist", "Index", "Pinky")
 BONE_LANDMARKS = (("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Hip", "Knee"), ("Knee", "Ankle"))
 """Both ends of what is long, without their side."""
 MAX_LOST_SHARE = 0.2
-"""The same in the mean of all frames, beyond which it is the landmarks that are wrong: networks do not lose a limb so often."""
+"""Share of a limb's marks outside of masks, in the mean of all frames, beyond which the landmarks are wrong: networks
+do not lose a limb so often."""
 LIMB_REACH_LENGTHS, BONE_REACH_SHARE = 0.35, 0.2
 """How far a hand, and how far an arm or a leg may reach beyond its marks, in lengths of what is marked."""
 LOST_SHARE = 0.1

@@ -126,5 +126,5 @@ def stands_still(features: Sequence[Features], length: int) -> bool:
 
 
 def with_reconstruction(scene: ClipScene, reconstruction: Reconstruction) -> ClipScene:
-    """The same film, reconstructed in another way."""
+    """The scene of a film with another reconstruction of its cameras."""
     return replace(scene, reconstruction=reconstruction)

@@ -34,7 +34,7 @@ MIRRORED_FACE_POINTS = tuple(
 )
 """Pairs of the 68 points that are each other's mirror images."""
 MIDLINE_LANDMARKS = (27, 28, 29, 30, 33, 51, 57, 8)
-"""Those of the 68 points that lie in the middle of a face."""
+"""Which of the 68 points lie in the middle of a face."""
 
 
 def chosen_views(seen: Sequence[FrameLandmarks]) -> Mapping[str, int]:

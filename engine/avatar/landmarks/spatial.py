@@ -39,6 +39,6 @@ class SpatialLandmarks:
         return replace(self, body={name: at for name, at in self.body.items() if name not in names})
 
     def moved(self, change: Similarity) -> SpatialLandmarks:
-        """The same landmarks in another world."""
+        """These landmarks carried into another world."""
         body = {name: change(at) for name, at in self.body.items()}
         return SpatialLandmarks(body, change(self.face), change(self.hands), change(self.eyes))

@@ -47,10 +47,12 @@ COARSE_LANDMARK_CUTOFF_SIGMAS = 6.0
 MAX_LANDMARK_RESIDUAL_METRES = 0.12
 """Metres from the fit beyond which a landmark is wrong: right ones come within 0.03, those of another limb are 0.4 off."""
 MAX_SIGMAS = 2.5
-"""The same in deviations, where that is more."""
+"""Standard deviations from the fit beyond which a landmark is wrong, where that is more than
+`MAX_LANDMARK_RESIDUAL_METRES`."""
 MIN_LANDMARKS = 8
 SOLE_SIGMA = 0.01
-"""Metres that soles reach below the ground, usually: nothing says where feet are that the cloud lacks, except that."""
+"""Metres by which soles usually reach below the ground. Of feet that the cloud lacks nothing else says where they
+are."""
 CLOTHED_POINT_SIGMA_METRES = 0.006
 """Metres by which points are off, usually, for clothes."""
 INDEPENDENT_CLOUD_POINTS = 500.0

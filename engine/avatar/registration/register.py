@@ -34,7 +34,7 @@ from engine.geometry.rigging.joint_names import SIDE_NAMES
 BODY_SPACING_METRES = 0.0035
 """Metres between points of the body's cloud that are used: twice the template's density, about 150,000 in all."""
 HEAD_SPACING_METRES = 0.0012
-"""The same of the head's."""
+"""Metres between points of the head's cloud that are used."""
 MAX_SHAPE_DEVIATIONS = 5.0
 """Standard deviations of the space of bodies beyond which proportions are unusual, and said to be."""
 MIN_CLOUD_POINTS = 2000

@@ -1,9 +1,10 @@
 """Frames laid onto what they agree on, by a smooth shift of each: what shape and sway leave is not seen where two of them meet.
 
-Source: Q.-Y. Zhou, V. Koltun, Color Map Optimization for 3D Reconstruction with Consumer Depth Cameras, SIGGRAPH 2014, section
-5: points of the surface have colours, and pictures are bent by lattices until they show these; both in turns. Here colours are
-robust means, since some frames show something else at a point; small pictures come first, so that larger shifts are found; and
-the person's masks are one channel more: where the surface stands out of the outline, the outline is drawn onto it.
+Source: Q.-Y. Zhou, V. Koltun, Color Map Optimization for 3D Reconstruction with Consumer Depth Cameras, SIGGRAPH 2014,
+section 5: points of the surface have colours, and pictures are bent by lattices until they show these; both in turns.
+Three things differ here. Colours are robust means, since some frames show something else at a point. Small pictures
+come first, so that larger shifts are found. The person's masks are one channel more: where the surface stands out of
+the outline, the outline is drawn onto it.
 """
 
 from __future__ import annotations
@@ -28,8 +29,13 @@ from engine.render.visibility import depth_buffer, seen_points
 
 
 class Level(NamedTuple):
-    """How finely frames are compared: pixels of their longer `side`; `texels` along a side of the texture, whose middles are the
-    points; `nodes` of the lattice along the longer side; and in how many `rounds`."""
+    """How finely frames are compared.
+
+    side : pixels of their longer side.
+    texels : along a side of the texture; their middles are the points.
+    nodes : of the lattice, along the longer side.
+    rounds : of the comparison.
+    """
 
     side: int
     texels: int
@@ -47,7 +53,8 @@ MAX_SHIFT_SIDES = 1 / 30
 OUTLIER_LEVELS = 20.0
 """Grey levels from which on a colour is thought to be that of something else: the scale of Cauchy's weights."""
 LATE_OUTLIER_LEVELS = 60.0
-"""The same while a frame is still moved: what is a few pixels off looks like something else, too."""
+"""Scale of Cauchy's weights, in grey levels, while a frame is still moved: what is a few pixels off looks like
+something else, too."""
 MASK_LEVELS = 60
 """Grey levels that lie between the person and the room, in the channel of the masks."""
 CONSENSUS_ROUNDS = 3

@@ -25,7 +25,7 @@ class ImageShift:
         return ImageShift(np.zeros((max(rows, 2), max(columns, 2), 2), np.float32), spacing)
 
     def finer(self, size: tuple[int, int], spacing: float) -> ImageShift:
-        """The same shift on another lattice, of a picture of a `size` (height, width)."""
+        """This shift on another lattice, of a picture of a `size` (height, width)."""
         other = ImageShift.none(size, spacing)
         rows, columns = other.nodes.shape[:2]
         y, x = np.meshgrid(np.arange(rows) * spacing, np.arange(columns) * spacing, indexing="ij")
@@ -33,7 +33,7 @@ class ImageShift:
         return ImageShift((self.shifted(at) - at).reshape(rows, columns, 2), spacing)
 
     def scaled(self, factor: float) -> ImageShift:
-        """The same shift of the picture, resized by `factor`."""
+        """This shift as it is of the picture resized by `factor`."""
         return ImageShift(self.nodes * np.float32(factor), self.spacing * factor)
 
     def shifted(self, pixels: NDArray[np.floating]) -> NDArray[np.float32]:

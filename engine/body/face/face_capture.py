@@ -1,8 +1,9 @@
 """What a tracked face does, in ARKit's face units: the weights with which the template's units explain its movements.
 
-Each frame's mesh is laid on the face at rest by the vertices that expressions move little. What then differs is sought as a
-mixture of the units' displacements, each between nothing and the whole: a quadratic programme with bounds, whose term that
-is linear in the weights keeps units at nothing that the rest explains as well. Frames are tied to their neighbours.
+Each frame's mesh is laid on the face at rest by the vertices that expressions move little. What then differs is sought
+as a mixture of the units' displacements, each between nothing and the whole. That is a quadratic programme with bounds.
+A term that is linear in the weights keeps units at nothing that the rest explains as well. Frames are tied to their
+neighbours.
 
 Source: H. Li, T. Weise, M. Pauly, Example-based facial rigging, SIGGRAPH 2010, section 4.2 (blendshape weights by bounded
 least squares); S. Bouaziz, Y. Wang, M. Pauly, Online modeling for realtime facial animation, SIGGRAPH 2013, equation 4 (the
@@ -27,7 +28,7 @@ from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS, RIGID_VERTICES, eye_distance
 
 CAPTURED_UNITS = tuple(unit for unit in FACE_UNITS if unit != "tongueOut")
-"""Those that a face mesh shows: it has no tongue."""
+"""The face units that a face mesh shows: it has no tongue."""
 GAZE_UNITS = tuple(unit for unit in CAPTURED_UNITS if unit.startswith("eyeLook"))
 EYE_LANDMARK_VERTICES = {
     "Right": (RIGHT_EYE[0], RIGHT_EYE[8], RIGHT_IRIS[0]),

@@ -38,7 +38,7 @@ MIN_HAND_LANDMARKS = 12
 RIGID_PALM_LANDMARKS = (0, *(finger_landmarks(finger)[0] for finger in FINGER_NAMES[1:]))
 """Landmarks that do not move as fingers bend."""
 MIN_PALM = 4
-"""Of those, how many have to be known."""
+"""How many of `RIGID_PALM_LANDMARKS` have to be known."""
 
 
 @dataclass(frozen=True)

@@ -45,7 +45,7 @@ SKIN_SIGMA = 0.01
 CONTOUR_CUTOFF = 2.0
 """Deviations at which the pull of a contour is at its strongest: skirts and coats say little about who wears them."""
 FEET_CUTOFF = 8.0
-"""The same of feet: where their contour ends they end."""
+"""Deviations at which the pull of feet's contours is at its strongest: where their contour ends they end."""
 INDEPENDENT_CONTOUR_POINTS = 200.0
 """Independent measurements that all points of a contour count as together."""
 CROSSING_DEPTH_METRES = 0.09
@@ -137,8 +137,9 @@ def _limbs(view: Observation, joints: NDArray[np.float64], names: Sequence[str])
 
 
 def _crossing_term(crossing: Crossing, nearness: NDArray[np.float64], names: Sequence[str]) -> NDArray[np.float64]:
-    """(N, 1 or 2) how far the arm that is before the other is from being so, in standard deviations: its forearm before the
-    other, and its upper arm before the other's hand if that is tucked. `nearness` (N, J) of joints, metres."""
+    """(N, 1 or 2) standard deviations by which the front arm fails to be in front. The first is of its forearm, before
+    the other. The second, where the other's hand is tucked, is of its upper arm, before that hand. `nearness` (N, J) of
+    joints, metres."""
     front, back = (("Left", "Right")[side] for side in (crossing.front, 1 - crossing.front))
 
     def along(side: str, start: str, share: float) -> NDArray[np.float64]:

@@ -1,8 +1,8 @@
 """Feet in shoes: a shoe's own smooth shape, closed over the toes, its sole flat.
 
-Bare toes that are laid on a shoe become claws. A shoe is made on a last, whose shape is given here as curves along its length; the
-skin of a foot is carried onto it along rays from an axis within the foot, so that the vertices are the template's and nothing else
-need know.
+Bare toes that are laid on a shoe become claws. A shoe is made on a last. Its shape is given here as curves along its
+length. The skin of a foot is carried onto it along rays from an axis within the foot. So the vertices stay the
+template's, and nothing else need know.
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ STATION_HEIGHTS = np.array([0.36, 0.36, 0.34, 0.28, 0.22, 0.2, 0.19, 0.19])
 HEEL_ROUND, TOE_ROUND = (0.14, 2.4), (0.36, 2.2)
 """How far from its ends, in its length, it is rounded, and the exponents of the superellipses by which it is."""
 TOE_BOX = (0.34, 2.1)
-"""The same of its height before the toes."""
+"""Of its height before the toes: where it begins to round off, as a share of the length, and the exponent of its
+superellipse."""
 SOLE_EXPONENT, UPPER_EXPONENT = 3.5, 2.3
 """Of the superellipses of its cross-sections below and above half their height."""
 TOE_SPRING = 0.03

@@ -43,7 +43,7 @@ class PicturedJoints:
         return pose_transforms(self.rest, self.turns[None], self.root[None])[0].astype(np.float64)
 
     def seen_from(self, eye: NDArray[np.floating]) -> PicturedJoints:
-        """The same in a world in which the picture's camera stands at `eye` (3,)."""
+        """This skeleton in a world in which the picture's camera stands at `eye` (3,)."""
         return replace(self, root=np.asarray(self.root + eye, np.float32))
 
     def lifted(self, lift: NDArray[np.floating]) -> Skeleton:

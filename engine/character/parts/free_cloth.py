@@ -24,10 +24,10 @@ MIN_FREE_CLOTH_SHARE = 0.5
 WAIST_TRUNK_SHARE = 0.65
 """How far down the trunk cloth may begin to hang freely."""
 OVERLAPPING_LEGS_SHARE = 0.25
-"""Share of the legs' width in which one hides the other, from which on cloth is loose only if it is wider than the hips: trousers of
-legs that are seen from the side are wide for one shin."""
+"""Share of the legs' width in which one hides the other. From there on cloth is loose only if it is wider than the
+hips: trousers of legs that are seen from the side are wide for one shin."""
 HEM_NARROWING_RATIO, HEM_WINDOW_ROWS = 0.85, 16
-"""It ends where it is narrower than this share of what it was within so many rows."""
+"""Cloth ends where it is narrower than this share of what it was within so many rows."""
 CLOTH_SMOOTHING_SHARE, FADE_LENGTH_FACTOR = 0.012, 4.0
 """Share of the person's height over which cloth changes along the body, and over how much of that it begins."""
 HEM_UNEVENNESS_SHARE = 0.1

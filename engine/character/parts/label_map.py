@@ -62,8 +62,8 @@ class Labels:
 
     @property
     def layered(self) -> Labels:
-        """The same of what is made in one piece: a skirt or a coat is the trunk's, and legs that come out from under it are
-        apart."""
+        """Labels by what is made in one piece: a skirt or a coat is the trunk's, and legs that come out from under it
+        are apart."""
         if self.cloth is None or self.cloth.legs is None or not self.cloth.parted:
             return self
         legs = self.cloth.legs
@@ -81,9 +81,9 @@ class LabelHints:
     """What is known of labels (h, w) on the grid beside the picture; -1 where nothing is."""
 
     given: NDArray[np.int8] | None = None
-    """Those that take the place of all that are found."""
+    """Labels that take the place of all that are found."""
     sure: NDArray[np.int8] | None = None
-    """Those that take the place of the template's, where nothing is given."""
+    """Labels that take the place of the template's, where nothing is given."""
     unfound: Sequence[UnfoundHand] = ()
     """Hands that are looked for where they would be."""
     crossed: ArmLabels | None = None
@@ -159,8 +159,8 @@ def _with_occlusion(
     hidden: NDArray[np.int8],
     before: int | None = None,
 ) -> Labels:
-    """Labels with what they say of limbs before others, and where hands are `hidden` (h, w); `before`: the leg that passes
-    before the other."""
+    """Labels with what they say of limbs before others, and where hands are `hidden` (h, w). `before` is the leg in
+    front of the other."""
     places = [rest_places(labels, part, projected, rest) for part in range(len(BODY_PARTS))]
     pixels = {arm: occlusion_pixels(labels, arm, places) for arm in ARM_LABELS}
     parting = np.zeros(labels.shape, np.bool_)

@@ -21,7 +21,8 @@ HIP_DEPTH_TRUNK_SHARE, WRIST_HIP_WIDTH_RATIO, MAX_HIP_DISTANCE_TRUNK_LENGTHS = 0
 """Where a wrist is at the hip: how far down the trunk, at least; how much further from the middle than the hip's joint; and
 how far from that joint, at most, in lengths of the trunk."""
 MIN_HIP_OFFSET_TRUNK_LENGTHS = 0.15
-"""The same of that joint from the middle, at least: seen from the side it is nowhere aside."""
+"""How far the hip's joint is from the middle, at least, in lengths of the trunk: seen from the side it is nowhere
+aside."""
 BELLY_DEPTH_TRUNK_SHARE, MIN_WRIST_DISTANCE_TRUNK_LENGTHS = 0.55, 0.35
 """Where one is before the belly, as in the pocket of a jumper: how far down the trunk, at least; and how far both wrists are from
 each other, at least: else one hand hides the other."""
@@ -31,8 +32,14 @@ SEEN_FINGER_CONFIDENCE = 0.9
 
 @dataclass(frozen=True)
 class UnfoundHand:
-    """A hand of an `arm` (an index of `BODY_PARTS`): its `wrist` (2,) and the `knuckles` (2,) on the grid; the `confidence` with which the
-    body's network has its fingers; whether it is `before` the belly rather than beside the hip; the `skin` of the face (N, 3), RGB."""
+    """A hand that no network has found.
+
+    arm : whose it is, an index of `BODY_PARTS`.
+    wrist, knuckles : (2,) on the grid.
+    confidence : with which the body's network has its fingers.
+    before : whether it is before the belly rather than beside the hip.
+    skin : (N, 3) of the face, RGB.
+    """
 
     arm: int
     wrist: NDArray[np.float64]

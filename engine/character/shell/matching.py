@@ -25,7 +25,8 @@ LATERAL_WEIGHT = 0.5
 MAX_OUTWARD_SHARE = 0.05
 """How far from its vertex an outline may be within the body, as a share of the person's height."""
 MAX_INWARD_SHARES = (0.03, 0.05, 0.05)
-"""The same beyond the body, of hands, feet and the head; of the rest it is said by the round."""
+"""How far beyond the body an outline may be from a vertex of hands, feet and the head, as a share of the person's
+height. Of the rest each round says it."""
 MAX_DISPLACEMENT_SHARES = (0.045, 0.06, 0.06, 0.085)
 """How far a vertex of hands, feet, the head and the rest may be displaced along the normal, as a share of the person's height."""
 BORDER_INSET_SHARE = 0.002

@@ -37,7 +37,7 @@ there is the fit's error."""
 DEPTH_PER_DISTANCE, MAX_DEPTH_SHARES = 1.2, {"head": 0.05, "hand": 0.05, "soft": 0.04}
 """How deep a piece is to each side: by its distance from the shell, and at most, as a share of the person's height."""
 SECTION_FLATTENING_RATIO = 0.8
-"""Its section is so much flatter than a circle's."""
+"""The depth of a piece's section, as a share of a circle's."""
 MIN_ARM_WEIGHT_SHARE = 0.6
 """Share of arms in what moves a piece of cloth from which on it is an arm's."""
 MAX_PROP_BORDER_SHIFT_PIXELS, MIN_PROP_MASK_SLOPE = 2.5, 0.05

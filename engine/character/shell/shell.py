@@ -97,7 +97,7 @@ def as_fitted(silhouette: Silhouette, fitted: FittedBody) -> tuple[NDArray[np.fl
 
 
 def shaped_head(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Shape:
-    """The same of the head alone, what is far from it as the fit has it."""
+    """The shape of the head alone; what is far from it is as the fit has it."""
     mesh = template_mesh()
     straight, template = as_fitted(silhouette, fitted)
     places = load_human().space.mean[mesh.ids]
@@ -116,8 +116,9 @@ def shaped_head(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
 
 
 def ears_laid_back(mesh: TemplateMesh, pictured: NDArray[np.float64], mask: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """The vertices `pictured` (V, 3) with each ear turned towards the head, about where it begins, as far as it stands out of the person's `mask`
-    (h, w): hair lies over it, or it is closer to the head than the template's."""
+    """The vertices `pictured` (V, 3) with each ear turned towards the head, about where it begins. It is turned as far
+    as it stands out of the person's `mask` (h, w): hair lies over it, or it is closer to the head than the
+    template's."""
     moved, beyond = pictured.copy(), distance_to(mask)
     ears = np.flatnonzero(mesh.ear)
     middle = np.median(pictured[(mesh.head > MIN_SURE_HEAD_WEIGHT) & ~mesh.ear, 0])
@@ -170,8 +171,8 @@ def posed(mesh: TemplateMesh, straight: NDArray[np.floating], fitted: FittedBody
 
 
 def face_points(figure: Figure, silhouette: Silhouette, mesh: TemplateMesh) -> KnownPoints:
-    """The fiducials within the face, and where they are seen on the grid; none of a face that is not seen, or in profile, where the
-    network makes up the half that is not seen."""
+    """The fiducials within the face, and where they are seen on the grid. There are none of a face that is not seen, or
+    in profile: of that the network makes up one half."""
     if figure.face is None or in_profile(figure):
         return KnownPoints(np.zeros(0, np.intp), np.zeros((0, 2)))
     seen = fiducials(figure.face[:, :2])[JAW_LANDMARK_COUNT:].astype(np.float64)

@@ -28,7 +28,7 @@ OUTLINE_DEPTH_SMOOTHING_PIXELS = 10.0
 NORMAL_SMOOTHING_PIXELS = 1.5
 """Pixels over which warped normals are smoothed."""
 CLOTH_NORMAL_SMOOTHING_PIXELS = 6.0
-"""The same where clothes are: they hide what the body has beneath."""
+"""Pixels over which warped normals are smoothed where clothes are: they hide what the body has beneath."""
 SKIN_WEIGHT_ROUNDS, CLOTH_WEIGHT_ROUNDS = 6, 220
 """Rounds in which skinning weights spread, on skin and then on clothes: over 2 and 12 pixels."""
 LOOKUP_DILATION_PIXELS = 2

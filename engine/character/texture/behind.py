@@ -25,7 +25,7 @@ MIN_DIFFERENCE_RATIO, MIN_DIFFERENCE_LEVELS = 3.0, 24.0
 ALL_OVER_QUANTILE, MIN_ALL_OVER_SHARE, PATTERN_REPEAT_METRES = 0.2, 0.05, 0.06
 """A pattern is in a row where, of all columns but the poorest, so much is unlike theirs within its repeat, metres."""
 MIN_PATTERNED_ROWS_SHARE, PATTERN_EXTENT_METRES = 0.45, 0.5
-"""It is all over where it is in so many of the rows around, metres: a word is in fewer."""
+"""A pattern is all over where it is in such a share of the rows within so many metres: a word is in fewer."""
 MIN_KNOWN_CELLS_SHARE = 0.5
 """Share of the cells that are usually known in a row, below which it is not told by those that are."""
 SEAM_LIGHT_METRES = 0.03

@@ -54,8 +54,8 @@ that is less likely; and how far inward it is not possible."""
 HAIR_MID_LEVEL = 128.0
 """The level on which what is fine about hair is looked at."""
 FULL_STRAND_COVERAGE, MIN_STRAND_COVERAGE = 0.1, 0.3
-"""How much hair must be seen, as a share of what is to be covered, or patches of it repeat: these are shown more faintly,
-the less there are, and not at all where it is less than this share of that."""
+"""How much hair must be seen, as a share of what is to be covered, or patches of it repeat. They are shown more
+faintly, the less there is, and not at all below this share of that."""
 LONG_STRAND_PIXELS, SHORT_STRAND_PIXELS, STRAND_CONTRAST_FACTOR = (0.3, 3.0), (0.25, 1.2), 0.7
 """Width and length of a streak, pixels of the grid, and how much fainter it is than what is seen of hair."""
 DISTANCE_DECAY = 0.3
@@ -115,7 +115,8 @@ def _beside_the_oval(head: Head) -> NDArray[np.bool_]:
 
 
 def _back(rgb: NDArray[np.uint8], hair: NDArray[np.bool_], head: Head, high: float) -> NDArray[np.uint8]:
-    """The same of the part of the picture (h, w, 3) that shows the head; a face is `high` half its height, pixels."""
+    """The head from behind in the part of the picture (h, w, 3) that shows it; a face is `high` half its height,
+    pixels."""
     nape = nape_height(hair, head)
     noise = np.random.default_rng(0).normal(size=hair.shape).astype(np.float32)
     uneven = NAPE_UNEVENNESS_PIXELS * head.scale**2 / high * cv2.GaussianBlur(noise, (0, 0), head.scale)
@@ -129,9 +130,9 @@ def _back(rgb: NDArray[np.uint8], hair: NDArray[np.bool_], head: Head, high: flo
 def find_hair(
     rgb: NDArray[np.uint8], around: NDArray[np.uint8], head: Head
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """The pixels (h, w) of the head that surely show hair, a hat or a hood: what is along the outline above the brows, and
-    what has its colours rather than the face's, but not those of what is behind the person; and the pixels (h, w) where
-    that is seen through hair."""
+    """The pixels (h, w) of the head that surely show hair, a hat or a hood, and those (h, w) where what is behind the
+    person is seen through hair. Hair is what is along the outline above the brows, and what has its colours rather than
+    the face's or those behind the person."""
     colours = cv2.cvtColor(cv2.GaussianBlur(rgb, (0, 0), 1.5), cv2.COLOR_RGB2LAB).astype(np.float32)
     behind = cv2.cvtColor(around, cv2.COLOR_RGB2LAB).astype(np.float32)
     face = head.mask & (head.out < 0.7)

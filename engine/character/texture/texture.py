@@ -48,8 +48,9 @@ INNER_FACE_FACTORS = np.array([1, 1, 0.7, 0.7, 1], np.float32)
 SEAM_START_PIXELS, SEAM_END_PIXELS = 2.0, 8.0
 """Pixels of the grid from the outline up to which the back is the front, and from which on it is itself."""
 HEAD_SEAM_START_PIXELS, HEAD_SEAM_END_PIXELS = 1.8, 4.9
-"""The same for heads: the back's colours begin on the front, a pixel and a half within the outline, and hair where ears
-and temples end, which is about where the outline is."""
+"""Pixels of a head up to which the back is the front, and from which on it is itself. The back's colours begin on the
+front, a pixel and a half within the outline. Hair begins where ears and temples end, which is about where the outline
+is."""
 MIXED_LIMB_EDGE_PIXELS = 1.5
 """Pixels of the grid within a limb's edge in which its colours are mixed with others."""
 LIMB_NEIGHBOURHOOD_SHARE = 0.04

@@ -31,7 +31,7 @@ LIGHT_WINDOW_EYE_DISTANCES = 0.3
 BESIDE_EYE_DISTANCES = 0.07
 """From what is not skin within which a ratio is not trusted either."""
 BESIDE_BROW_EYE_DISTANCES = 0.12
-"""The same from a brow: it rises by more than its tracked points."""
+"""Eye distances from a brow within which a ratio is not trusted: it rises by more than its tracked points."""
 BLURRED_DETAIL_SHARE, SHARP_DETAIL_SHARE = 0.3, 0.6
 """Of the neutral frame's fine structure: a frame that has less is blurred by its motion."""
 

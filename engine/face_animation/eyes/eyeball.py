@@ -39,7 +39,7 @@ MIN_EYE_WIDTH_PIXELS = 14.0
 WHITE_LIGHT_RANGE = (0.8, 1.5)
 """Of the light of the cheek below, between which the white's is."""
 USUAL_WHITE_LIGHT = 1.0
-"""The same, where the picture shows none."""
+"""The light of a white that the picture does not show, as a share of that of the cheek below."""
 WHITE_HUE_RANGE = (0.0, 0.6)
 """Of the skin's hue, that there is in the white of an eye."""
 LID_SHADOW_START_EYE_WIDTHS, LID_SHADOW_END_EYE_WIDTHS = 0.07, 0.14

@@ -40,7 +40,7 @@ CONTOUR_SMOOTHING_ROUNDS = 2
 EVEN_BAND_EYE_DISTANCES = 0.5
 """Eye distances inside the contour up to which what the face does beside the head's motion is evened out along it."""
 DEPTH_BAND_EYE_DISTANCES = 0.15
-"""The same for its depth."""
+"""Eye distances inside the contour up to which the face's depth is evened out along it."""
 EVEN_SPREAD_EYE_DISTANCES = 0.25
 """Eye distances over which it is: about those between the contour's vertices."""
 JAW_CHIN_LENGTHS = (0.4, 0.9)

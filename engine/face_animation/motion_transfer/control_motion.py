@@ -264,7 +264,7 @@ def plane_share(target: NDArray[np.floating]) -> NDArray[np.float64]:
 
 
 def scale_motion(motion: HeadMotion, strength: float) -> HeadMotion:
-    """The same motion of the head, stronger or weaker; 0 leaves it where the neutral frame has it."""
+    """A motion of the head made stronger or weaker; 0 leaves it where the neutral frame has it."""
     if strength == 1.0:
         return motion
     centre = motion.neutral.mean(axis=0)

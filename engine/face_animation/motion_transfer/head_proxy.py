@@ -40,7 +40,8 @@ SKULL_HALF_WIDTH_FACE_WIDTHS, SKULL_HALF_HEIGHT_CHIN_LENGTHS = 0.56, 1.5
 OUTLINE_SKULL_RADII = (0.85, 1.15)
 """Radii of the skull between which its front passes over into its outline."""
 NEAR_SIDE_OUTLINE_SKULL_RADII = (0.85, 1.45)
-"""The same on the side that turns towards the viewer: beyond ears."""
+"""Radii of the skull between which its front passes over into its outline on the side that turns towards the viewer:
+beyond ears."""
 NEAR_SIDE_COSINES = (0.0, 0.7)
 """Between the way inwards and the way that a turn takes a point from the outline, from and up to which it is on that side."""
 NOSE_BRIDGE_VERTEX = 168
@@ -225,7 +226,7 @@ def followed_outline(
 
 
 def _outline(proxy: HeadProxy, turned: NDArray[np.float64], rolled: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The same, for points that are `turned` and `rolled` (N, C, 3) about the head's middle."""
+    """Where the outline leads points that are `turned` and `rolled` (N, C, 3) about the head's middle."""
     inwards, back = -rolled[..., :2], (turned - rolled)[..., :2]
     sizes = np.linalg.norm(inwards, axis=-1) * np.linalg.norm(back, axis=-1)
     side = smoothstep((inwards * back).sum(axis=-1) / np.maximum(sizes, 1e-9), *NEAR_SIDE_COSINES)

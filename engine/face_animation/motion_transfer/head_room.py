@@ -22,7 +22,8 @@ from engine.perception.landmarks import FACE_OVAL, NOSE_TIP_VERTEX, RIGID_VERTIC
 FREE_ROOM_SHARE = 0.5
 """Share of the room over which nothing is held back."""
 FREE_FACE_ROOM_SHARE = 0.7
-"""The same for the face's contour on its way to the picture's border: as it goes by the skull's shift and by the turn."""
+"""Share of the room over which the face's contour is not held back on its way to the picture's border: as it goes by
+the skull's shift and by the turn."""
 MIN_ROOM_FACE_LENGTHS = 0.08
 """Room that there always is, in lengths from eyes to chin."""
 CUT_HAIR_SHARE = 0.35

@@ -39,7 +39,8 @@ def target_mouth(target: TargetFace) -> MouthInterior:
 
 
 def _inside(target: TargetFace, appearing: float) -> MouthInterior:
-    """The same without the line, as it is seen from an opening of `appearing` on where it is modelled."""
+    """The inside of a target's mouth without the line between its lips. Where it is modelled it is seen from an opening
+    of `appearing` on."""
     rgb, mesh = target.rgb, target.mesh
     general = frontalise(canonical_face()[None].astype(np.float64))[0]
     at, softness = resting_mouth(frontalise(mesh[None])[0], general), picture_softness(rgb, mesh)

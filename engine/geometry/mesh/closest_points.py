@@ -18,7 +18,8 @@ from engine.geometry.mesh.surface import vertex_normals
 NEAREST_VERTICES = 3
 """Vertices whose triangles are looked at for each point."""
 SINGLE_THREAD_POINTS = 2048
-"""So many are looked for without threads: starting them costs more, and a process that has started any must not be forked."""
+"""How many points are looked for without threads. Starting threads costs more, and a process that has started any must
+not be forked."""
 
 
 @dataclass(frozen=True)

@@ -54,7 +54,7 @@ class Bundle:
         return Camera.of_matrices(intrinsics, self.rotations[index], self.translations[index], size, (k1, k2, 0.0, 0.0))
 
     def moved(self, change: Similarity) -> Bundle:
-        """The same bundle in another frame: every point p and every eye becomes `change(p)`; pictures stay alike."""
+        """This bundle in another frame: every point p and every eye becomes `change(p)`; pictures stay alike."""
         rotations = self.rotations @ change.rotation.T
         translations = -np.einsum("cij,cj->ci", rotations, change(self.eyes))
         return replace(self, rotations=rotations, translations=translations, points=change(self.points))

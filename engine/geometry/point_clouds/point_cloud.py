@@ -37,7 +37,7 @@ class PointCloud:
         return PointCloud(self.points[chosen], self.normals[chosen], self.colours[chosen])
 
     def moved(self, change: Similarity) -> PointCloud:
-        """The same points in another world."""
+        """These points carried into another world."""
         normals = self.normals @ change.rotation.T
         return PointCloud(change(self.points).astype(np.float32), normals.astype(np.float32), self.colours)
 

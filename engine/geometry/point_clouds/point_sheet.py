@@ -1,7 +1,7 @@
 """A sheet through points that scatter about it, whichever side of it each was measured on: thin things, brims and tails of coats.
 
-Points move onto planes through those around them, round by round; the distance of a place from the sheet is then what the planes
-of the nearest of them say, and goes on a little beyond their border as these planes do.
+Points move onto planes through those around them, round by round. The distance of a place from the sheet is then what
+the planes of the nearest points say. It goes on a little beyond their border, as these planes do.
 
 Source: D. Levin, Mesh-Independent Surface Interpolation, 2003 (moving least squares), with planes of principal components and no
 normals asked for; the distance is that of R. Kolluri, Provably Good Moving Least Squares, SODA 2005, squared and so without a sign.
@@ -20,8 +20,8 @@ from engine.geometry.point_clouds.point_cloud import thinning
 MAX_PLANE_POINTS = 160
 """Points of which a plane is made, at most."""
 MIN_PLANE_POINTS, FEWEST_SHARE = 8, 0.35
-"""Those without which there is none, and the share of the usual number without which there is none: at a border there are half as
-many as elsewhere, and beside a sheet few."""
+"""Points without which there is no plane, and the share of the usual number without which there is none. At a border
+there are half as many as elsewhere, and beside a sheet few."""
 ASKED_POINT_COUNT = 12
 """Points of a sheet that are asked about a place."""
 KERNEL_WIDTH_SPACINGS = 0.7

@@ -50,7 +50,8 @@ def rigid_onto_cloud(
     gate: float,
     rounds: int,
 ) -> Similarity:
-    """The same of a surface that is known by points on it, `cloud` (M, 3), with its unit `normals` (M, 3) there."""
+    """The rigid motion of points onto a surface that is known by points on it, `cloud` (M, 3), with its unit `normals`
+    (M, 3) there."""
     start, surface = np.asarray(points, np.float64), np.asarray(cloud, np.float64)
     across = np.asarray(normals, np.float64)
     tree = cKDTree(surface)

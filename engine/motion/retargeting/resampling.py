@@ -17,8 +17,8 @@ MIN_RESAMPLED_LOOP_FRAMES = 8
 
 
 def resample_source(motion: SourceMotion, fps: float) -> SourceMotion:
-    """The same source motion at `fps` frames a second, or as it is if that is its own rate; a loop's length is rounded
-    to whole frames."""
+    """A source motion at `fps` frames a second, or as it is if that is its own rate; a loop's length is rounded to
+    whole frames."""
     frames = len(motion.rotations)
     if frames == 1 or abs(fps - motion.fps) < 1e-6 * fps:
         return motion

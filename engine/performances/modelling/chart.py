@@ -16,7 +16,7 @@ from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
 
 AXIS_DEPTH = 0.045
-"""z of the cylinder's axis in the rest pose, metres."""
+"""Metres: z of the cylinder's axis in the rest pose."""
 
 CHART_RADIUS_METRES = 0.1
 """Metres of u for one radian."""
@@ -88,7 +88,7 @@ def blob(centre: tuple[float, float], spread: tuple[float, float], turn: float =
 
 
 def mirrored_blobs(centre: tuple[float, float], spread: tuple[float, float], turn: float = 0.0) -> NDArray[np.float32]:
-    """The same blob on both sides of the face; `centre` and `turn` are those of the sitter's left."""
+    """A blob on each side of the face, mirrored; `centre` and `turn` are those of the sitter's left."""
     return blob(centre, spread, turn) + blob((-centre[0], centre[1]), spread, -turn)
 
 

@@ -39,7 +39,7 @@ CLOSED_LIPS = {
 """The template's lips stand a little apart: with these units they meet."""
 
 BLINK_UNITS = ("eyeBlinkLeft", "eyeBlinkRight")
-"""These units are carried out by `engine.performances.modelling.lids`: their weight is the share of the way to a shut eye."""
+"""Units that `engine.performances.modelling.lids` carries out: their weight is the share of the way to a shut eye."""
 
 NECK_SHARES = {"neck01": 0.12, "neck02": 0.16, "neck03": 0.22, "head": 0.5}
 """How a turn of the head is shared out between the joints."""

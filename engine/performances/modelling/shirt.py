@@ -12,7 +12,7 @@ from engine.performances.modelling.figure import Figure
 from engine.render.rasteriser import rasterise
 
 NECKLINE_AXIS_DEPTH = 0.012
-"""z of the vertical axis around which the neckline runs, metres."""
+"""Metres: z of the vertical axis around which the neckline runs."""
 
 COLLAR_WIDTH = 0.017
 """Width of the ribbed collar, metres."""

@@ -66,7 +66,7 @@ def wink(t: float) -> Pose:
 
 
 def wink_strong(t: float) -> Pose:
-    """The same with half a grin, the other brow up and the head cocked."""
+    """A wink with half a grin, the other brow up and the head cocked."""
     strong = _wink(t, performance("wink-strong").seconds, force=1.12, tilt=5.0)
     units = dict(strong.units)
     grin = swell(t, 0.28, 0.66, 1.05, 1.55, sag=0.1)

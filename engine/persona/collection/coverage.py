@@ -13,7 +13,7 @@ from engine.persona.collection.photo_face import PhotoFace
 MIN_EXPRESSION_SPREADS = 1.0
 """`REST_SPREAD` of a measure, from the person's own median, from which on a photograph shows what the measure tells."""
 MIN_PHOTOS_OF_EXPRESSION = 8
-"""So many photographs at least are mixed in a texture: of fewer, other expressions show through."""
+"""Photographs that are mixed in a texture, at least: of fewer, other expressions show through."""
 MIN_ANGLE_DEGREES = 12.0
 """Degrees aside, up or down from which on a photograph is not one from before."""
 

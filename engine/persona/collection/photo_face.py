@@ -25,7 +25,7 @@ JUDGED_EYE_DISTANCE = 40.0
 """Pixels between the eyes at which blur is told: a large face is shrunk to it, so that what is told is of the face and not of the
 file's size."""
 NEAR_WIDTHS, MIN_NEIGHBOUR_SHARE = 2.5, 0.4
-"""Its widths within which another face is beside a face, and the share of them that the other has at least."""
+"""Widths of a face within which another is beside it, and the share of that width that the other has at least."""
 ALIGNED_FACE_LAYOUT = ARCFACE_LAYOUT
 
 

@@ -21,7 +21,7 @@ FACE_MIDDLE = 0.44
 HEAD_FACE_SIZES = (1.5, 1.75)
 """Widths and heights of the face that a head has, hair and some of the neck with it."""
 HEAD_MIDDLE = 0.54
-"""Of that height, from above, at which the face's middle is."""
+"""Share of the head's height, from above, at which the face's middle is."""
 
 
 def head_box(mesh: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

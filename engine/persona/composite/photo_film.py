@@ -21,7 +21,7 @@ from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 from engine.persona.texture.expression_weights import SMOOTHING_FRAMES, expression_points, expression_weights
 
 PHOTO_TEXTURES_AT_ONCE = 8
-"""So few that frames are drawn meanwhile."""
+"""Textures that are made at once: so few that frames are drawn meanwhile."""
 
 
 @dataclass(frozen=True)

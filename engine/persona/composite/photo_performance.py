@@ -37,7 +37,7 @@ PHOTO_STAGES = {
 """The stages beside those of every persona, and their usual share of the time."""
 
 STILL_STAGES = ("separate_layers", "rig_target")
-"""Those of them that a driver's picture asks for."""
+"""Which of `PHOTO_STAGES` a driver's picture asks for."""
 
 OWN_CREASES = Parts(details=False)
 """The driver's are not carried over: a strand of its hair on the forehead, or its brows' ridge, would be drawn on the person's."""

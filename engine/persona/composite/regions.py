@@ -11,7 +11,7 @@ from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 from engine.persona.texture.texture_frame import TextureFrame
 
 NOSE_TIP_AND_WING_VERTICES = (98, 327, 2, 1, 4, 19, 94, 97, 326, 129, 358, 48, 278)
-"""Its tip and wings: nostrils that are a pixel off would be doubled."""
+"""The nose's tip and wings: nostrils that are a pixel off would be doubled."""
 SKIN_RAMP_PIXELS = (4.0, 16.0)
 """Pixels of a frame 194 wide from the face's rim, between which the skin begins and is whole."""
 EYE_ENLARGEMENT_AND_RAMP_PIXELS, NOSE_WING_ENLARGEMENT_AND_RAMP_PIXELS, LIP_ENLARGEMENT_AND_RAMP_PIXELS = (

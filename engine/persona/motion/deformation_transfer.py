@@ -30,7 +30,7 @@ sets their factors apart, and do not meet."""
 MIN_MOVEMENT_EYE_DISTANCES = 0.02
 """Eye distances: by which movement of less nothing is told of how far one like it leads."""
 MAX_FACTOR = 2.5
-"""And its inverse: no face is so unlike another."""
+"""How many times longer a movement may be on one face than on another, at most: none is so unlike another."""
 MIN_TRUST = 1e-3
 """Of points that do not move, and so tell nothing: they take the factors of those about them, not these theirs."""
 NEIGHBOURHOOD_PIXELS = 2

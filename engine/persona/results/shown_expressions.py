@@ -33,7 +33,7 @@ UNIT_COST_EYE_DISTANCES = 0.02
 SPLINE_BENDING = 1e-3
 """How smooth the spline is: upper and lower lip touch, and are moved apart."""
 MAX_EXPRESSION_PHOTOS = 16
-"""Of those near an expression that say what it is, the strongest first."""
+"""Photographs near an expression that say what it is, at most, the strongest first."""
 
 
 @dataclass(frozen=True)

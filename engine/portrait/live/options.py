@@ -37,6 +37,6 @@ class LiveOptions(BaseModel):
     )
 
     def portrait(self) -> PortraitOptions:
-        """The same as options of a portrait job."""
+        """These options as those of a portrait job."""
         given = self.model_dump(exclude={"longest_side"})
         return PortraitOptions.model_validate({**given, "size": (self.longest_side, self.longest_side)})

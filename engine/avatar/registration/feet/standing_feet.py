@@ -199,7 +199,8 @@ def _points_term(foot: _Foot, found: NDArray[np.float64], cloud: PointCloud, gat
 def _outlines_term(
     foot: _Foot, found: NDArray[np.float64], sights: Sequence[FootSight], gate: float
 ) -> Residuals | None:
-    """The same of its outlines, from those of the person in the sights. Trousers may hide them, nothing can lay them bare."""
+    """How far a foot's outlines are off those of the person in the sights. Trousers may hide them,
+    nothing can lay them bare."""
     vertices = foot.moved(foot.places, found[None])[0]
     outlines = [outline_points(sight, vertices, foot.triangles, foot.places) for sight in sights]
     outlines = [outline for outline in outlines if len(outline.places)]

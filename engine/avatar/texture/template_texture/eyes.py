@@ -32,7 +32,8 @@ WHITE_LIGHTNESS_QUANTILES, MAX_WHITE_CHROMA = (0.5, 0.92), 22.0
 """Quantiles of lightness between which samples of the white count: lids, lashes and their shadow are darker, highlights lighter; and
 the most chroma."""
 IRIS_LIGHTNESS_QUANTILES = (0.2, 0.7)
-"""The same of the iris: lashes and the pupil are darker, highlights and what they mirror lighter."""
+"""Quantiles of lightness between which samples of the iris count: lashes and the pupil are darker, highlights and what
+they mirror lighter."""
 MAX_IRIS_CONTRAST_RATIO = 0.75
 """Of the painted spread of lightness, what a person's has at most: what is painted is for an eye that fills a picture."""
 

@@ -14,7 +14,7 @@ ENAMEL_IN_MOUTH_RGB, DENTINE_IN_MOUTH_RGB, GUM_IN_MOUTH_RGB = (
 )
 TONGUE_IN_MOUTH_RGB, TONGUE_ROOT = np.array([184, 104, 104.0]), np.array([104, 48, 50.0])
 LINING_IN_MOUTH_RGB, THROAT_IN_MOUTH_RGB = np.array([142, 66, 66.0]), np.array([36, 12, 14.0])
-"""sRGB, as things look in a mouth, which is dark: textures are shown without its shade."""
+"""Colours (sRGB) as they look in a mouth, which is dark: textures are shown without its shade."""
 JAW_CROWN_SHARE = 0.62
 """Of a jaw's height from the edge of the teeth, how much is crowns; the rest is gum."""
 GAP_WIDTH_METRES = 0.00022

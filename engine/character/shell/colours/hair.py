@@ -1,8 +1,8 @@
 """Hair on the unrolled head: where it begins, and its strands.
 
-What the picture shows of a hairline is followed to where it ends; behind that hair begins where it does on heads, before the ear
-and down to the nape. Strands are noise drawn out along them, as strong as what is fine about the hair that is seen: what a
-picture shows of the front, laid behind, is a second face of hair.
+What the picture shows of a hairline is followed to where it ends. Behind that, hair begins as on heads: before the ear
+and down to the nape. Strands are noise drawn out along them, as strong as what is fine about the hair that is seen:
+what a picture shows of the front, laid behind, is a second face of hair.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ HAIR_EDGE_RADIANS = {
 }
 """Radians from the face's middle beyond which hair is, by the height: behind the ear, before it in sideburns, and at the temple."""
 LONG_HAIR_EDGE_RADIANS = 1.3
-"""The same, at most, of hair that falls over the ears."""
+"""Radians from the face's middle beyond which hair that falls over the ears is, at most."""
 MIN_EDGE_RADIANS = 0.45
 """Radians from the face's middle from which on a hairline is looked for."""
 EDGE_CELLS = 6
@@ -45,7 +45,7 @@ WAVE_CELLS, WAVE_COLUMNS = 18.0, 4.0
 FINE_CELLS = 4.0
 """Cells over which what is fine about hair averages out."""
 MAX_STRAND_LEVELS = 12.0
-"""sRGB levels of strands, at most: standard deviation."""
+"""Standard deviation of strands, sRGB levels, at most."""
 MIN_STRAND_CELLS = 50
 """Cells of hair that tell how strong strands are."""
 

@@ -29,11 +29,11 @@ MIN_HALF_FACE_SHARE = 0.5
 MIN_HAIR_COLOUR_DISTANCE = 14.0
 """CIE Lab distance, lightness counting 0.7 and hues 1.5, from which hair can be told from skin."""
 MIN_NOT_SKIN_COLOUR_DISTANCE = 25.0
-"""The same, from which a colour is no skin of this face."""
+"""CIE Lab distance, weighted alike, from which a colour is no skin of this face."""
 MAX_LIGHTER_DISTANCE = 5.0
 """By how much a colour counts as lighter than the face's skin there, at most: light may fall on skin."""
 MAX_HAIR_COLOUR_DISTANCE = 20.0
-"""The same, up to which what is beside the cheeks is of the hair's own colour."""
+"""CIE Lab distance, weighted alike, up to which what is beside the cheeks is of the hair's own colour."""
 MIN_COLOUR_CELLS = 40
 """Cells from which a colour is known."""
 LONG_HAIR_SHARE = 0.5
