@@ -6,11 +6,12 @@ Rigged people (`benchmarks.scan_studio.people.rigged_people`) are drawn into pho
 by a telephone near by; real pictures are those of the test media. Figures and silhouettes are kept in `--store` and made where they
 lack, which takes minutes; fitting to them is what is measured.
 
-"arms", "forearms", "thighs", "shins" are degrees between the true limb and the fitted one; "joints" centimetres between shoulders,
-elbows, wrists, knees and ankles and the true ones, hips on hips and both at the picture's scale; "feet" how far the fitted soles
-end above those of the same legs in the truth, as a share of the height (negative: below), "IoU" the overlap of the bare template
-with the person's true outline. Of real pictures "IoU" is with the mask, "feet" from the lowest place of the mask at each foot (of
-both the worse), "landmarks" the root mean square distance from perception's, as a share of the height.
+"arms", "forearms", "thighs" and "shins" are degrees between the true limb and the fitted one. "joints" are centimetres
+between shoulders, elbows, wrists, knees and ankles and the true ones, with hips on hips and both at the picture's
+scale. "feet" is how far the fitted soles end above the true ones of the same legs, as a share of the height (negative:
+below). "IoU" is the overlap of the bare template with the person's true outline. Of real pictures "IoU" is with the
+mask, "feet" from the lowest place of the mask at each foot (of both the worse), "landmarks" the root mean square
+distance from perception's, as a share of the height.
 """
 
 from __future__ import annotations

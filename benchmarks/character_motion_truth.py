@@ -6,11 +6,12 @@ A person of known shape (`benchmarks.scan_studio.people.rigged_people`) is drawn
 picture alone the character is made, as for any user. Then both play the same clip, hips on hips and equally high, and eight
 views of twelve moments are compared.
 
-"IoU" is of silhouettes: of all views, of those from the front, the sides and behind. "colour" is the mean distance in CIE Lab of the
-truth's pixels from the nearest colour within 3 pixels, where both are; "apart" the share of the character's pixels in pieces that hang
-apart; "stretched" the share in triangles of more than four times their pictured area; "foreign" the share whose colours the person has
-nowhere, as the room's. "template" is the bare fitted template in the mean colours of its parts, "posed" how far its limbs are from
-their true directions, degrees. `michelle` has no human proportions and counts in no mean.
+"IoU" is of silhouettes: of all views, of those from the front, the sides and behind. "colour" is the mean distance in
+CIE Lab of the truth's pixels from the nearest colour within 3 pixels, where both are. "apart" is the share of the
+character's pixels in pieces that hang apart. "stretched" is the share in triangles of more than four times their
+pictured area. "foreign" is the share of colours that the person has nowhere, as the room's. "template" is the bare
+fitted template in the mean colours of its parts, "posed" how far its limbs are from their true directions, degrees.
+`michelle` has no human proportions and counts in no mean.
 """
 
 from __future__ import annotations

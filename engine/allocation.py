@@ -11,8 +11,9 @@ MAX_MMAP_BYTES = 32 << 20
 
 
 def keep_memory() -> None:
-    """Let arrays take the place of arrays that are gone: by default each large one is given back to the system, and the
-    next one's pages are asked for and cleared one by one, a hundred thousand times for a clip of three seconds."""
+    """Let arrays take the place of arrays that are gone. By default each large one is given back to the system, and the
+    next one's pages are asked for and cleared one by one. That happens a hundred thousand times for a clip of three
+    seconds."""
     mallopt = getattr(ctypes.CDLL(None), "mallopt", None)
     if mallopt is not None:
         mallopt(ARENA_MAX, 1)

@@ -38,8 +38,11 @@ CLIP_CRF = 25
 
 @dataclass(frozen=True)
 class Found:
-    """A picture in the public domain that an installed package carries; `face`: middle and height of the small square,
-    as shares of the picture's width and height; `part`: what of it is taken, (x, y, width, height) in pixels."""
+    """A picture in the public domain that an installed package carries.
+
+    face : middle and height of the small square, as shares of the picture's width and height.
+    part : what of it is taken, (x, y, width, height) in pixels.
+    """
 
     name: str
     package: str

@@ -89,8 +89,8 @@ def render_head(
 def project_scan(
     scan: HeadScan, yaw: float, size: tuple[int, int], zoom: float = 1.0
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Where the scan's vertices are in the picture that `render_head` draws: (V, 2) pixels; and how well each is seen: (V,) the
-    cosine between its surface and the line of sight, 0 where something is before it."""
+    """Where the scan's vertices are in the picture that `render_head` draws, (V, 2) pixels, and how well each is seen,
+    (V,). That is the cosine between its surface and the line of sight, and 0 where something is before it."""
     height = float(np.ptp(scan.vertices[:, 1]))
     vertices = _turned(scan.vertices, np.deg2rad(yaw), height, False) - (0, AIM_SCAN_HEIGHTS * height, 0)
     camera = _camera(height, size, zoom)

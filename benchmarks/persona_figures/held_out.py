@@ -1,14 +1,16 @@
 """How like a photograph that was held out the texture for its expression is, against simpler ways of mixing photographs.
 
-Of each collection, duplicates left out, a tenth at a time is held out and the
-persona learnt of the rest; each photograph held out is laid on the frame by its own mesh, and asks for its own expression. What is
-compared is the band finer than four pixels of a frame 194 wide, of greys whose tone was fitted, after a smooth flow to the photograph
-(the paper's warp to the reference), over what the photograph shows of bare skin, beside the lips' inside: SSIM of that band.
+Of each collection, duplicates left out, a tenth at a time is held out and the persona learnt of the rest; each
+photograph held out is laid on the frame by its own mesh, and asks for its own expression. What is compared is the band
+finer than four pixels of a frame 194 wide, over the bare skin that the photograph shows, beside the lips' inside. The
+tone of its greys is fitted first, and a smooth flow leads it to the photograph (the paper's warp to the reference):
+SSIM of that band.
 
-The ways: the average of all, laid on one another pixel by pixel, or by the paper's thin-plate spline of 51 points alone (lambda 10); the
-weighted average of photographs laid on one another by a similarity alone; laid on one another pixel by pixel, but mixed in one band; and
-so mixed by expression alone. "Ahead" is the mean of the differences, photograph by
-photograph, and its standard error; "energy" that of the band over the photograph's own, which hairs and spectacles raise, too.
+The ways are these. The average of all, laid on one another pixel by pixel, or by the paper's thin-plate spline of 51
+points alone (lambda 10). The weighted average of photographs laid on one another by a similarity alone. Photographs
+laid on one another pixel by pixel, but mixed in one band. And so mixed by expression alone. "Ahead" is the mean of the
+differences, photograph by photograph, and its standard error; "energy" that of the band over the photograph's own,
+which hairs and spectacles raise, too.
 """
 
 from __future__ import annotations

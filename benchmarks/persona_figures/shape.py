@@ -1,7 +1,7 @@
 """How near a persona's shape is to the true one, of collections that are rendered of known heads under many lights.
 
-The error is that of depth, after the similarity that fits best, in shares of the face's width: the persona's, that of its landmark mesh,
-and that of the general face.
+The error is that of depth, after the best similarity, in shares of the face's width. It is told of the persona, of its
+landmark mesh and of the general face.
 """
 
 from __future__ import annotations

@@ -31,8 +31,13 @@ NEAR_CAMERA_POSES = ("arms down", "A-pose", "stride", "one foot before the other
 
 @dataclass(frozen=True)
 class Truth:
-    """Where the `joints` of a rigged person truly are, by name, metres as the camera has them (x right, y up, z backwards); the
-    `alpha` (H, W) of their coverage; `soles`: the lowest row at which each foot is seen, left and right; the `camera`."""
+    """Where a rigged person truly is in a picture.
+
+    joints : (3,) by name, metres as the camera has them (x right, y up, z backwards).
+    alpha : (H, W) of their coverage.
+    soles : the lowest row at which each foot is seen, left and right.
+    camera : the picture's.
+    """
 
     joints: Mapping[str, NDArray[np.float64]]
     alpha: NDArray[np.float32]

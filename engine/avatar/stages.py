@@ -142,9 +142,9 @@ def lens_of_frames(lens: KnownLens, size: tuple[int, int], shrunk: tuple[int, in
 
 @kept_networks()
 def find_landmarks(chosen: ChosenFrames, found: ClipCameras, whole: bool, warn: Warn, tick: Tick) -> ClipLandmarks:
-    """The landmarks that the frames of a clip show (section 3.3), and masks in which, by these, no hand or foot is missing; of a clip of
-    the `whole` person also without what of the room they let in below the shoulders. Warns of what the face wears that is not
-    fitted."""
+    """The landmarks that the frames of a clip show (section 3.3), and masks in which, by these, no hand or foot is
+    missing. Of a clip of the `whole` person, masks also lose what of the room they let in below the shoulders. Warns of
+    what the face wears that is not fitted."""
     placed = placed_frames(found)
     cameras = [_camera_of(found, int(k), chosen.size) for k in placed]
     seen = []
@@ -260,8 +260,9 @@ def stitch_texture(
     size: int,
     check: Callable[[], None],
 ) -> AvatarTexture:
-    """The texture of the fitted template and of what is `worn` off it, `size` texels a side, from the frames of the body's clip, of
-    the head's, where registration has placed it, and of `further` ones in the body's world: section 3.5."""
+    """The texture of the fitted template and of what is `worn` off it, `size` texels a side (section 3.5). It comes
+    from the frames of the body's clip, of the head's, where registration has placed it, and of `further` ones in the
+    body's world."""
     views: list[FrameView] = []
     scans = in_body_s_world([scan for _, scan in clips], fitted)
     placed = [(chosen, scan) for (chosen, _), scan in zip(clips, scans, strict=False)]

@@ -4,9 +4,9 @@ The palette is that of the first second or so (`SAMPLE` frames): the people and 
 dither hangs on a pixel's place alone, so that what does not move does not flicker, and costs nothing in the file; error
 diffusion crawls from frame to frame. Source of both: FFmpeg's filters `palettegen` and `paletteuse`.
 
-Measured on 60 frames of a made performance at 480x480 (means over 8 x 8 pixels against the source, grey levels; deviation over
-time of what never changes): `bayer` 3.2 MB, 0.66, 0.06; `sierra2_4a` 3.6 MB, 0.34, 0.06; no dither 3.0 MB, 0.40, 0.05, and
-bands on skin.
+Measured on 60 frames of a made performance at 480x480: size, means over 8 x 8 pixels against the source in grey levels,
+and deviation over time of what never changes. `bayer` has 3.2 MB, 0.66, 0.06; `sierra2_4a` 3.6 MB, 0.34, 0.06; no
+dither 3.0 MB, 0.40, 0.05, and bands on skin.
 """
 
 from __future__ import annotations

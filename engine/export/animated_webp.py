@@ -5,8 +5,9 @@ covers the canvas and hangs on no other, so that any can be searched for at once
 
 Source: the WebP Container Specification (Google): RIFF chunks `VP8X`, `ANIM`, and an `ANMF` for each frame.
 
-Measured on 100 frames of a woman at 600x600 whose mouth opens, coded by libwebp as whole pictures, and by its writer of
-animations, which codes what changes (brightness of what never changes: the mean deviation over time, in grey levels):
+Measured on 100 frames of a woman at 600x600 whose mouth opens. libwebp coded whole pictures, or its writer of
+animations coded what changes. The PSNR is of brightness; the deviation is the mean one over time of what never changes,
+in grey levels:
 
 | coding | kB | PSNR | deviation | ms a frame |
 | --- | --- | --- | --- | --- |

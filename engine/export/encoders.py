@@ -1,9 +1,9 @@
 """How each format is coded and laid into its file.
 
-Measured on 100 frames of a talking man at 600x800 on one core (brightness PSNR in brackets): x264 `ultrafast` crf 18
-takes 4 ms a frame and 1430 kB (47.4 dB), `superfast` crf 20 6 ms and 640 kB (46.1), `veryfast` crf 18 9 ms and 370 kB
-(45.4), `medium` crf 20 34 ms and 350 kB (45.7). `superfast` crf 17 with a macroblock tree over 10 frames, which is
-used, takes 6 ms and 520 kB (46.1): nothing is to be seen in the picture, and the renderer keeps the processor.
+Measured on 100 frames of a talking man at 600x800 on one core, with the PSNR of brightness. x264 `ultrafast` crf 18
+takes 4 ms a frame and 1430 kB (47.4 dB), `superfast` crf 20 6 ms and 640 kB (46.1). `veryfast` crf 18 takes 9 ms and
+370 kB (45.4), `medium` crf 20 34 ms and 350 kB (45.7). `superfast` crf 17 with a macroblock tree over 10 frames, which
+is used, takes 6 ms and 520 kB (46.1): nothing is to be seen in the picture, and the renderer keeps the processor.
 """
 
 from __future__ import annotations
@@ -249,8 +249,9 @@ class StreamEncoder:
 
 
 class PngEncoder:
-    """Numbered PNGs (`000000.png`, ...) in a zip archive, whose comment tells the rate; where they are not shown equally
-    long, `timecodes.txt` tells of each when it comes on show, in milliseconds (the format v2 that MKVToolNix reads)."""
+    """Numbered PNGs (`000000.png`, ...) in a zip archive, whose comment tells the rate. Where they are not shown
+    equally long, `timecodes.txt` tells when each comes on show, in milliseconds (the format v2 that MKVToolNix
+    reads)."""
 
     def __init__(self, target: VideoTarget):
         self._synthetic, self._target = target.synthetic, target

@@ -153,7 +153,7 @@ class SoundTrack:
             self.damaged = True  # a broken tail: what came before it is used
 
     def _copied(self, keep_lead: bool) -> Iterator[tuple[float, av.Packet]]:
-        """`keep_lead`: keep the packet that overlaps the cut and the one before, which a decoder needs to be exact; MP4
+        """`keep_lead` keeps the packet that overlaps the cut and the one before: a decoder needs them to be exact. MP4
         hides what they sound before the cut."""
         clock = cast(Fraction, self._stream.time_base)
         shift = round(self._zero / clock)

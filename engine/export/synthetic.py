@@ -5,9 +5,9 @@ which is synthetic". The portrait's pixels were captured, their motion was made 
 not fit: `trainedAlgorithmicMedia` is for what a model made that was trained on media, and nothing here was;
 `algorithmicMedia` is for what mathematics alone made.
 
-The mark lies where each format keeps XMP (XMP Specification part 3): a `uuid` box of its own in MP4, an APP1 segment in
-JPEG, an `iTXt` chunk in PNG, an `XMP ` chunk in WebP, an application extension in GIF. WebM has tags alone. No pixel is
-changed by it.
+The mark lies where each format keeps XMP (XMP Specification part 3). That is a `uuid` box of its own in MP4, an APP1
+segment in JPEG, an `iTXt` chunk in PNG, an `XMP ` chunk in WebP, and an application extension in GIF. WebM has tags
+alone. No pixel is changed by it.
 """
 
 from __future__ import annotations

@@ -187,8 +187,8 @@ class FaceAnimation:
         moved: NDArray[np.float32],
         apart: NDArray[np.float32],
     ) -> None:
-        """Put the face before what it hides of its head, in a `layer` (h, w, 4) with its inverse map `origin`, for offsets (V, 2) of the picture's mesh
-        and how far `apart` (V, 2) from them the sheet behind is."""
+        """Put the face before what it hides of its head, in a `layer` (h, w, 4) with its inverse map `origin`.
+        `offsets` (V, 2) are those of the picture's mesh, and `apart` (V, 2) how far from them the sheet behind is."""
         mesh = self._rig.mesh
         shown = (np.abs(apart).max(axis=1) > MIN_SHEET_GAP_PIXELS)[self._around_face].any(axis=1)
         sheet = replace(mesh, triangles=self._around_face[shown])

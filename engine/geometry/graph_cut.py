@@ -4,8 +4,8 @@ Source: Y. Boykov, O. Veksler, R. Zabih, Fast approximate energy minimization vi
 V. Kolmogorov, R. Zabih, What energy functions can be minimized via graph cuts?, PAMI 2004 (how a move becomes a graph).
 
 Flows are SciPy's. Labels of 39,760 triangles out of 75 views take 21 s on two cores that others use as well
-(`benchmarks/engine_figures/graph_cut.py`), 11 s of it in 495 flows; ortools was three times as fast on a grid, which would save a third, and is
-80 MB: it is not used.
+(`benchmarks/engine_figures/graph_cut.py`), 11 s of it in 495 flows. ortools was three times as fast on a grid, which
+would save a third. It is 80 MB, and not used.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ ones cost nothing."""
 
 @dataclass(frozen=True)
 class Labelling:
-    """`labels` (N,), and the `energy` that they have. `truncated`: how many times, in all moves, an edge's costs did not keep
-    to the triangle inequality, cost(a, b) <= cost(a, c) + cost(c, b), and so were taken for larger in that move: where it
-    is 0 the bounds of Boykov, Veksler and Zabih hold."""
+    """`labels` (N,), and the `energy` that they have. `truncated` counts, over all moves, edges whose costs did not
+    keep to the triangle inequality, cost(a, b) <= cost(a, c) + cost(c, b). They were taken for larger in that move.
+    Where it is 0 the bounds of Boykov, Veksler and Zabih hold."""
 
     labels: NDArray[np.intp]
     energy: float
@@ -179,8 +179,8 @@ def _expansion(
 def _source_side(
     take: NDArray[np.float64], p: NDArray[np.intp], q: NDArray[np.intp], between: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """(n,) who stays with the source in the least cut of a graph: a node that leaves it costs `take` (n,), which may be
-    negative, and an edge of which q leaves and p stays costs `between` >= 0."""
+    """(n,) who stays with the source in the least cut of a graph. A node that leaves it costs `take` (n,), which may be
+    negative. An edge of which q leaves and p stays costs `between` >= 0."""
     count = len(take)
     scale = MAX_INTEGER_COST / max(float(np.abs(take).max(initial=0)), float(between.max(initial=0)), 1e-12)
     source, sink = count, count + 1

@@ -19,8 +19,8 @@ SPLIT_BREGMAN_ITERATIONS = 150
 def denoised(
     field: NDArray[np.floating], weight: float, huber: float, trust: NDArray[np.floating] | None = None
 ) -> NDArray[np.float32]:
-    """(H, W) the field u that minimises weight * sum h(|grad u|) + 1/2 sum trust * (u - field)^2, where h is Huber's norm: the square
-    over twice `huber` up to `huber`, and the absolute value less half of it beyond.
+    """(H, W) the field u that minimises weight * sum h(|grad u|) + 1/2 sum trust * (u - field)^2. There h is Huber's
+    norm: the square over twice `huber` up to `huber`, and the absolute value less half of it beyond.
 
     trust : (H, W) from zero on, by default one: how far each value of `field` is to be believed.
     """

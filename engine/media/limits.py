@@ -15,8 +15,8 @@ MIN_SIDE_PIXELS = 16
 class Limits:
     """Upper bounds for one input file; the caller (settings of the service, options of the shell) chooses them.
 
-    The defaults take any phone's photo and a video of three minutes up to 4K at 30 frames a second; 4K at
-    60 frames a second is refused by the pixel rate, because decoding alone would be slower than 2 cores allow.
+    The defaults take any phone's photo and a video of three minutes up to 4K at 30 frames a second. The pixel rate
+    refuses 4K at 60 frames a second: decoding alone would be slower than 2 cores allow.
     """
 
     image_bytes: int = 100_000_000

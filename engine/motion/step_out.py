@@ -125,8 +125,8 @@ def _stands_on(stands: NDArray[np.bool_]) -> int:
 
 
 def _windows(contacts: NDArray[np.bool_], gaps: Array, seconds: float, fps: float) -> list[_Window]:
-    """When each foot leaves its pictured place: with its first step in the clip if that comes soon, else in a step of
-    its own; feet that are where they should be only settle."""
+    """When each foot leaves its pictured place. It leaves with its first step in the clip if that comes soon, else in a
+    step of its own. Feet that are where they should be only settle."""
     windows: list[_Window] = []
     lasting = [_stands_on(contacts[:, side]) / fps for side in range(2)]
     both_wait = min(lasting) > seconds

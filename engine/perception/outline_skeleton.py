@@ -37,13 +37,14 @@ ROUND_WIDTH_RATIO = 1.3
 TIPS_APART = 0.06
 """How far ends are apart at least, as a share of the outline's longer side."""
 MIN_LIMB, STICKS_OUT = 0.08, 1.5
-"""Length of a limb on the axis, at least: as a share of the outline's longer side, and in radii of the largest disk around the place where
-it leaves the trunk, which the corners of a bar do not reach."""
+"""Length of a limb on the axis, at least, as a share of the outline's longer side, and in radii of the largest disk
+around the place where it leaves the trunk. The corners of a bar do not reach that far."""
 MAX_SKELETON_COST = 1.2
 """Cost of the best choice above which the outline is nobody's."""
 UNLIKE_COST, ASTRAY_COST, LEFT_OVER_COST = 0.5, 1.0, 3.0
-"""What it costs where a limb is e times as long as the other, or an arm leaves the trunk a figure's size further down than the other; where
-the head is, or the feet are, as far from where the axis is highest or lowest; and if nothing of the axis were used."""
+"""Costs of what should not be. The first is of a limb e times as long as the other, or of an arm that leaves the trunk
+a figure's size further down than the other. The second is of a head or of feet as far from the highest or lowest place
+of the axis. The third is of using nothing of the axis."""
 MIN_UPRIGHT_COSINE = 0.8
 """Cosine of the angle with the vertical from which on somebody is upright."""
 MAX_LIMB_LENGTH_RATIO = 2.0
@@ -86,8 +87,12 @@ class MedialAxis:
 
 @dataclass(frozen=True)
 class _Ends:
-    """Places on the axis that may be head, hands or feet: their points `at` (E, 2), how far they are `apart` (E, E) on the axis, and
-    the `ways` from one to another, places on the axis from the first on."""
+    """Places on the axis that may be head, hands or feet.
+
+    at : (E, 2) the points.
+    apart : (E, E) how far they are apart on the axis.
+    ways : from one to another, places on the axis from the first on.
+    """
 
     at: NDArray[np.float64]
     apart: NDArray[np.float64]

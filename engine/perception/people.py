@@ -1,5 +1,5 @@
-"""All the people of a picture, though the network of body poses sees but one: each that was found is painted over, and
-the network looks again; and it looks closely below every face that belongs to none of those found."""
+"""All the people of a picture, though the network of body poses sees but one. Each that was found is painted over, and
+the network looks again. It also looks closely below every face that belongs to none of those found."""
 
 from __future__ import annotations
 

@@ -63,8 +63,8 @@ def person_mask(
     model : a matting network of the operator's (`engine.perception.models`), used instead of all that
         follows but the last step, the guided upsampling. Where it leaves out what the seed knows, what is found
         without it is added.
-    others : (H, W), where other people are known to be, who do not belong to the mask: of what the networks believe to be
-        people, colours say whose it is.
+    others : (H, W), where other people are known to be, who do not belong to the mask. Of what the networks believe to
+        be people, colours say whose it is.
     whole : the picture shows people whole, not portraits.
     people : what `people_confidence` said of the picture, if it was asked before.
     """
@@ -105,9 +105,9 @@ def person_mask(
 
 
 def _within(channel: Mask, found: Mask, others: NDArray[np.bool_]) -> Mask:
-    """The part of a cut-out (H, W) that is the one person found in it: whole pieces of it where no others are; where
-    somebody is connected with others, what was found. That ends somewhere near the cut-out's own edge, which is the truth:
-    there it counts as it does a little further in."""
+    """The part of a cut-out (H, W) that is the one person found in it. Where no others are, that is whole pieces of it;
+    where somebody is connected with others, it is what was found. That ends somewhere near the cut-out's own edge,
+    which is the truth: there it counts as it does a little further in."""
     shared = pieces_touching(channel > 0, others, connectivity=8)
     inside = cv2.erode((channel > CERTAIN_BELIEF).astype(np.uint8), EDGE_NEIGHBOURHOOD, borderValue=1)
     own = np.where(inside > 0, found, np.maximum(found, cv2.dilate(found * inside, EDGE_NEIGHBOURHOOD)))

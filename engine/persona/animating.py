@@ -33,8 +33,8 @@ from engine.run import Run
 
 
 def with_composite(options: PersonaOptions, persona: Persona, behind: bool, run: Run) -> PersonaOptions:
-    """The options with what is seen of this `persona`, where they leave it open: the puppet, if it is to stand before a picture that
-    is `behind` it; warns `puppet_alone` where it cannot be a photograph."""
+    """The options with what is seen of this `persona`, where they leave it open. That is the puppet, if it is to stand
+    before a picture that is `behind` it. Warns `puppet_alone` where the persona cannot be a photograph."""
     if options.composite != "auto":
         return options
     if behind:

@@ -15,8 +15,8 @@ from engine.media.limits import Limits
 def backdrop(
     colour: tuple[int, int, int], size: tuple[int, int], picture: Path | None, limits: Limits
 ) -> NDArray[np.uint8]:
-    """(h, w, 3) what is behind a puppet of `size` (width, height): the `picture`, as large as covers all of it and about its own
-    middle; the `colour` where it lets that through, or where there is none.
+    """(h, w, 3) what is behind a puppet of `size` (width, height). The `picture` is as large as covers all of it, about
+    its own middle. The `colour` is seen where that lets it through, or where there is none.
 
     Raises
     ------

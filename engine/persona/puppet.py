@@ -48,8 +48,10 @@ class Puppet:
     ) -> NDArray[np.uint8]:
         """The face drawn over a `picture` (h, w, 3).
 
-        face : (478, 3) its vertices from the front, in eye distances. texture : (H, W, 3) of the persona's frame. placing : a matrix
-        (3, 3), rotation times pixels for an eye distance, and a shift (3,): where vertices are in the picture.
+        face : (478, 3) its vertices from the front, in eye distances.
+        texture : (H, W, 3) of the persona's frame.
+        placing : where vertices are in the picture: a matrix (3, 3), rotation times pixels for an eye distance, and a
+            shift (3,).
         """
         linear, shift = placing
         points = self.vertices(face) @ np.asarray(linear, np.float64).T + shift

@@ -61,8 +61,8 @@ class PhotoFaces:
 
 @dataclass(frozen=True)
 class SortedFaces:
-    """The faces of a collection, why each is of no use (`Reason`, None where it is kept), whose they are, and of which of the person's looks
-    each is that is of use, or would be were it of the look that is meant."""
+    """The faces of a collection, why each is of no use (`Reason`, None where it is kept), and whose they are. Also of
+    which of the person's looks each is that is of use, or would be were it of the look that is meant."""
 
     faces: tuple[PhotoFace, ...]
     reasons: tuple[Reason | None, ...]

@@ -141,8 +141,8 @@ def film_cast(
     shadow: GroundShadow | None = None,
     alone: bool = False,
 ) -> Iterator[NDArray[np.uint8]]:
-    """Characters acting, the later before the earlier, and all before the shadows of all: one frame (H, W, 3) of the film
-    for each of the longest clip's; who has done stands still.
+    """Characters acting, the later before the earlier, and all before the shadows of all. One frame (H, W, 3) of the
+    film is drawn for each of the longest clip's; who has done stands still.
 
     If they are `alone`, nothing is seen behind them and no shadow falls on it: frames are (H, W, 4), with alpha.
 

@@ -38,8 +38,8 @@ def diffuse(
 ) -> NDArray[np.float32]:
     """Blur (H, W, 3) irradiance as skin does.
 
-    `translucency` (H, W): 1 where the surface is skin, 0 where it is not translucent (no light comes from there
-    nor goes there); `depth` (H, W) metres, +inf where nothing is: light does not leap from one depth to another.
+    `translucency` (H, W) is 1 where the surface is skin, and 0 where it is not translucent: no light comes from there
+    nor goes there. `depth` (H, W) is in metres, +inf where nothing is: light does not leap from one depth to another.
     """
     shares = np.array(PROFILE_WEIGHTS, np.float32)
     shares[shares < MIN_GAUSSIAN_WEIGHT] = 0

@@ -1,5 +1,5 @@
-"""Inputs that are addresses: fetched one after another before the work begins, each in a thread of its own so that the
-attempt can be watched meanwhile, and kept as files of the job like uploads."""
+"""Inputs that are addresses are fetched one after another before the work begins, and kept as files of the job like
+uploads. Each is fetched in a thread of its own, so that the attempt can be watched meanwhile."""
 
 from __future__ import annotations
 

@@ -36,8 +36,8 @@ class Child:
     """One process that forks another for each job, one after another (see `worker.job_process.child`)."""
 
     def __init__(self, settings: Settings, user: int | None = None, turn: int = 0, kinds: Sequence[str] = ()):
-        """`user` is who its jobs work as; by its `turn` several processes share the cores evenly; `kinds` are those that
-        it is to be ready for, all if there are none."""
+        """`user` is who its jobs work as. By its `turn` several processes share the cores evenly. `kinds` are those
+        that it is to be ready for, all if there are none."""
         self._ended = False
         self._job: int | None = None
         self.worked_on: set[str] = set()

@@ -19,8 +19,8 @@ class UnknownUser(Exception):
 
 
 def user_id(user: str) -> int | None:
-    """The number of the user that jobs work as; None where they stay who the worker is: it is not root, or `user` is
-    empty. Raises `UnknownUser`."""
+    """The number of the user that jobs work as. It is None where they stay who the worker is: that is not root, or
+    `user` is empty. Raises `UnknownUser`."""
     if os.geteuid() != 0 or not user:
         return None
     if user.isdecimal():

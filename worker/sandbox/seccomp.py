@@ -1,7 +1,8 @@
 """seccomp: the kernel refuses this process the system calls that no job needs (Linux on x86-64, ctypes).
 
-No sockets of any family, so no network and no way to the embedded Redis; no new processes and programs; no signals to
-others; no look into others' memory; no change of whose file something is. Threads, files and memory are as always.
+There are no sockets of any family, so no network and no way to the embedded Redis. There are no new processes and
+programs, no signals to others and no look into others' memory. Nobody changes whose file something is. Threads, files
+and memory are as always.
 
 Source: the kernel's `linux/seccomp.h`, `linux/filter.h` and its table of system calls.
 """

@@ -38,9 +38,9 @@ class Silhouettes:
     bare: Sequence[NDArray[np.bool_]]
 
     def depths(self, points: NDArray[np.floating]) -> tuple[NDArray[np.float32], NDArray[np.uint16]]:
-        """(N,) metres by which `points` (N, 3) lie within the silhouettes of the views that have them beside the body, but for
-        `MAX_SILHOUETTES_WITHOUT_PIECE_SHARE` of these, negative outside; and (N,) how many views have them there: +inf where
-        none has."""
+        """How far `points` (N, 3) lie within silhouettes, and how many views have them there, (N,). The former, (N,)
+        metres, negative outside, is the least over the views that have them beside the body, but for
+        `MAX_SILHOUETTES_WITHOUT_PIECE_SHARE` of these. It is +inf where no view has them there."""
         beside = Beside(self.bare, BESIDE_BODY_METRES)
         return silhouette_depths(points, self.masks, self.cameras, MAX_SILHOUETTES_WITHOUT_PIECE_SHARE, beside)
 

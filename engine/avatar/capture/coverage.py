@@ -22,8 +22,8 @@ def coverage(
 ) -> dict[str, float]:
     """For each part, vertices chosen by a mask (V,) or by their numbers, the share that has a point of the cloud within `near`.
 
-    `vertices` (V, 3) metres, of a mesh that lies where the cloud does: what it is off counts as not covered, so ask with the
-    mesh that was fitted to the cloud, not before. A part without vertices has none covered.
+    `vertices` (V, 3) metres are of a mesh that lies where the cloud does. Where it lies off, it counts as not covered:
+    so ask with the mesh that was fitted to the cloud, not before. A part without vertices has none covered.
     """
     if len(cloud):
         distance, _ = cKDTree(cloud.points).query(vertices, distance_upper_bound=near)

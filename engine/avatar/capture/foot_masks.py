@@ -1,8 +1,8 @@
 """Feet in the masks of a person, told from the floor by what the floor looks like there.
 
-Networks lose feet, and colours alone do not tell dark shoes from a dark carpet. The floor's own look is known from the frames in
-which no foot covers it (`floor_mosaic`), and the person's colours from where landmarks have their legs: each pixel about a foot is of
-one or of the other, and a cut along contrasts parts them.
+Networks lose feet, and colours alone do not tell dark shoes from a dark carpet. The floor's own look is known from the
+frames in which no foot covers it (`floor_mosaic`). The person's colours are known from where landmarks have their legs.
+Each pixel about a foot is of one or of the other, and a cut along contrasts parts them.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """A second film of the same person in the frame of the first: the close-up of the head in that of the body.
 
-Both show the same room, which tells where they are to one another, once both are adjusted as one: alone, a lens's focal length is
-a per cent or two off in either film, by which the room is nearer or farther in each, and the head by as much too large or small. Then
-the person, who may have moved between the films, has the last word.
+Both show the same room. It tells where they are to one another, once both are adjusted as one. Alone, a lens's focal
+length is a per cent or two off in either film. By as much the room is nearer or farther in each, and the head too large
+or small. Then the person, who may have moved between the films, has the last word.
 """
 
 from __future__ import annotations
@@ -78,8 +78,8 @@ def in_frame_of(joined: JoinedScenes, first: ClipScene) -> ClipScene:
 
 
 def moved_person(first: PersonLock, second: PersonLock, tracks: NDArray[np.integer]) -> Similarity:
-    """The rigid motion that the person made between both films, which are in one frame and locked to the person: from where the second
-    has them to where the first has. None at all where they share too little of them.
+    """The rigid motion that the person made between both films, from where the second has them to where the first has.
+    Both are in one frame and locked to the person. None at all where they share too little of them.
 
     Parameters
     ----------

@@ -27,8 +27,9 @@ CLOUD_PLACED_LANDMARKS = (*FRONT_VIEW_LANDMARKS, "Index", "Pinky")
 
 
 def back_projected(seen: Sequence[tuple[Camera, FrameLandmarks]], points: NDArray[np.floating]) -> SpatialLandmarks:
-    """Landmarks of body and face where the view that shows each best meets the cloud's `points` (N, 3); those of the body that no view
-    suits, or whose line of sight meets nothing, are left out, and of the face they are NaN. Hands and eyes are not sought."""
+    """Landmarks of body and face where the view that shows each best meets the cloud's `points` (N, 3). Where no view
+    suits, or the line of sight meets nothing, those of the body are left out, and those of the face are NaN. Hands and
+    eyes are not sought."""
     frames = [found for _, found in seen]
     wanted: dict[int, list[str]] = {}
     for name, view in chosen_views(frames).items():

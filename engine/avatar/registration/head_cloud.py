@@ -43,10 +43,10 @@ def head_to_body(
     """From the world of the head's clip to that of the body's, whose own cloud is `body`. None where the face was not found in
     the head's clip.
 
-    It begins with face landmarks, which give its scale unless it is `sized` as the body is; and where it is, also with no motion
-    at all, since both clips were then measured in one world. From each the clouds are laid on each other rigidly, by closest
-    points; the one in which more points agree is taken. The template is not asked how the head is turned: the body's clip shows
-    it small, and under a hat or hair it is another shape.
+    It begins with face landmarks. They give its scale, unless it is `sized` as the body is, and where it is. It begins
+    with no motion at all, too, since both clips were then measured in one world. From each the clouds are laid on each
+    other rigidly, by closest points; the one in which more points agree is taken. The template is not asked how the
+    head is turned: the body's clip shows it small, and under a hat or hair it is another shape.
     """
     known = np.flatnonzero(np.isfinite(landmarks.face).all(1))
     known = known[known >= FIRST_INNER_FACE_POINT]

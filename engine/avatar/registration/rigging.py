@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from engine.geometry.rigging.skeleton import Skeleton
 
 MIN_BLEND_STRETCH_RATIO, MAX_BLEND_STRETCH_RATIO = 0.5, 2.0
-"""Least and most by which what is blended of the joints' turns may shrink or stretch a place, in any direction, when it is undone:
-where very different turns meet, as under raised arms, the blend is nearly flat and its inverse explodes."""
+"""Least and most by which the blend of the joints' turns may shrink or stretch a place, in any direction, when it is
+undone. Where very different turns meet, as under raised arms, the blend is nearly flat and its inverse explodes."""
 
 
 @dataclass(frozen=True)

@@ -26,8 +26,13 @@ def lattice_step(
 ) -> NDArray[np.float64]:
     """(rows, columns, 2) what is to be added to the nodes so that a picture shows at places what it should.
 
-    `layers` (H, W, 4): its colours and, last, a mask, of which only too little counts; `places` (N, 2) in it, not shifted;
-    `colours` (N, 4) that are to be there, `weights` (N,); what is more than `outlier` grey levels off counts less (Cauchy).
+    Parameters
+    ----------
+    layers : (H, W, 4) its colours and, last, a mask, of which only too little counts.
+    places : (N, 2) in it, not shifted.
+    colours : (N, 4) that are to be there.
+    weights : (N,) of the places.
+    outlier : grey levels off from which on a place counts less (Cauchy).
     """
     rows, columns = shift.nodes.shape[:2]
     spots = shift.shifted(places)

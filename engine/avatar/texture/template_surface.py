@@ -55,8 +55,9 @@ class TemplateSurface:
     lid_rims: Mapping[str, NDArray[np.intp]]
 
     def fitted(self, vertices: NDArray[np.floating]) -> ChartedSurface:
-        """The surface of the person whose template vertices are (V, 3), metres: all of the body's skin but the mouth's bag is
-        stitched from frames, and so is what stands off it; but not what a hand lies on, nor what lies in the lids' folds."""
+        """The surface of the person whose template vertices are (V, 3), metres. Stitched from frames are all of the
+        body's skin but the mouth's bag, and what stands off it. Not stitched are what a hand lies on, and what lies in
+        the lids' folds."""
         places = np.asarray(vertices, np.float64)
         stitched = (
             np.isin(self.part, [AVATAR_PARTS.index("body"), ATTACHED_PART]) & ~self.mouth & ~self._under_hands(places)

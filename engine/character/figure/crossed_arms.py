@@ -47,8 +47,8 @@ class CrossedArms:
 
 
 def crossed_arms(figure: Figure, mask: NDArray[np.bool_]) -> CrossedArms | None:
-    """The figure's arms, if they are crossed; None else. That arm is before the other whose hand is seen; where both are or
-    none is, that which perception has nearer. `mask` (H, W): the person."""
+    """The figure's arms, if they are crossed; None else. That arm is before the other whose hand is seen. Where both
+    hands are seen, or none, perception says which arm is nearer. `mask` (H, W): the person."""
     at = {
         f"{side}{name}": figure.point(f"{side}{name}") for side in SIDE_NAMES for name in ("Shoulder", "Elbow", "Wrist")
     }

@@ -46,9 +46,12 @@ MIN_PERSON_HEIGHT_PIXELS = 80
 
 @dataclass(frozen=True)
 class Choice:
-    """What a user says about who is meant, in pixels of the original picture: the `box` (x, y, width, height) in which to
-    look, beside which an index says nothing; or the `index` of those found, counted from the largest, None for the largest
-    unless there is a crowd; and joints `placed` by hand: name, x, y."""
+    """What a user says about who is meant, in pixels of the original picture.
+
+    index : of those found, counted from the largest; None for the largest unless there is a crowd.
+    box : (x, y, width, height) in which to look; beside it an index says nothing.
+    placed : joints placed by hand: name, x, y.
+    """
 
     box: tuple[float, float, float, float] | None = None
     index: int | None = None

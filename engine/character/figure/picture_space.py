@@ -1,8 +1,8 @@
 """The space in which characters are made: the picture's own, with depth in the same unit.
 
-x and y are pixels (y down), z is towards the viewer, in pixels as they are at the person's distance. A camera's rays run
-along z here, so that a depth map is a surface, front and back have one outline, and whatever is made comes to lie
-exactly under its pixels again when it is seen by the picture's camera.
+x and y are pixels (y down), z is towards the viewer, in pixels as they are at the person's distance. A camera's rays
+run along z here. So a depth map is a surface, and front and back have one outline. Whatever is made comes to lie
+exactly under its pixels again when the picture's camera sees it.
 """
 
 from __future__ import annotations

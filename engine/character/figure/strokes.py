@@ -69,8 +69,8 @@ def _require_size(what: str, rgb: NDArray[np.uint8], sizes: Sequence[tuple[int, 
 def painted(
     strokes: Sequence[MaskStroke | LabelStroke], shape: tuple[int, int], scale: NDArray[np.float64]
 ) -> Iterator[NDArray[np.float32]]:
-    """One after another, where each stroke covers a picture of `shape` (H, W), in [0, 1], soft at its edge; `scale` (2,): its
-    pixels for each of those in which strokes are counted, along x and y."""
+    """One after another, where each stroke covers a picture of `shape` (H, W), in [0, 1], soft at its edge. `scale`
+    (2,) is how many of its pixels one has in which strokes are counted, along x and y."""
     for stroke in strokes:
         drawn = np.zeros(shape, np.uint8)
         radius = stroke.radius * float(scale.mean())

@@ -1,8 +1,9 @@
 """Films in which the person stays in the picture: from head to soles in every frame, and whole in the last.
 
-A still picture has no more background than it shows, so the camera cannot go back before somebody who comes nearer: they
-come, and go aside, as far as they are still seen whole, and there they tread on the spot (`engine.motion.confine`). Whoever
-needs more room than the picture has above them, because they straighten up or raise their arms, first steps back.
+A still picture has no more background than it shows, so the camera cannot go back before somebody who comes nearer.
+They come, and go aside, as far as they are still seen whole. There they tread on the spot (`engine.motion.confine`).
+Whoever needs more room than the picture has above them, because they straighten up or raise their arms, first steps
+back.
 """
 
 from __future__ import annotations

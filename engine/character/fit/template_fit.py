@@ -49,8 +49,8 @@ LANDMARK_WEIGHTS = {
 """How much these landmarks count; the others count 1. Nose and eyes are found best of all; with ears they say enough of the
 head, whose turn is found by all of its face points."""
 ARM_FORWARD_METRES, TRUNK_CORE_SHARE, FREE_ARM_JOINT_CONFIDENCE = 0.2, 0.9, 0.5
-"""Metres from the trunk's middle to an arm before it; the share of the trunk's outline that is surely the trunk's; the
-confidence from which a joint is seen and not hidden."""
+"""Metres from the trunk's middle to an arm before it, the share of the trunk's outline that is surely the trunk's, and
+the confidence from which on a joint is seen and not hidden."""
 FOREARM_DEPTH_BIAS = 0.25
 """How much nearer to the viewer than the elbow perception has wrists, more than they are, per length of the forearm: of
 straight arms in A-pose, rendered and photographed."""

@@ -1,8 +1,8 @@
 """What a trunk has behind limbs: what is beside them, mirrored at their border.
 
-The paper fills these regions by PatchMatch. Here a hanging arm hides a side of the trunk that has but one border with what is seen,
-and what is searched for freely there is found anywhere, as trousers below a striped shirt; a mirror keeps stripes, belts
-and hems at their height.
+The paper fills these regions by PatchMatch. Here a hanging arm hides a side of the trunk that has but one border with
+what is seen. What is searched for freely there is found anywhere, as trousers below a striped shirt. A mirror keeps
+stripes, belts and hems at their height.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 SHADOW_BAND_SHARE = 0.008
 """Beside limbs, as a share of the picture's longer side, colours are mixed with theirs, or in their shadow, and are not mirrored."""
 SEAM_PIXELS, SEAM_LIGHT_SMOOTHING_PIXELS, SEAM_FADE_SHARE = 2, 3.0, 0.02
-"""Pixels beside what is hidden by whose light it begins, and over which that is smoothed; and how far that goes, as a share of the longer side."""
+"""Pixels beside what is hidden whose light it begins with, pixels over which that light is smoothed, and how far it
+goes, as a share of the longer side."""
 MAX_LIGHT_STEP = 30.0
 """Grey levels by which what is hidden may begin lighter or darker than it is further in: more is another colour, and no light."""
 BORDER_SMOOTHING_SHARE = 0.006
@@ -28,9 +29,9 @@ MAX_MIRROR_DISTANCE_SHARE = 0.025
 
 
 def mirrored_behind(rgb: NDArray[np.uint8], hidden: NDArray[np.bool_], shown: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """A picture (H, W, 3) in which what is `hidden` (H, W) has the colours of what is `shown` (H, W) as far on the other side of
-    the nearest border, to and fro within `MAX_MIRROR_DISTANCE_SHARE`; where nothing is shown so far away, those of the
-    border. Where it meets what is shown it is as light as that, and goes over from there."""
+    """A picture (H, W, 3) in which what is `hidden` (H, W) has mirrored colours: those of what is `shown` (H, W) as far
+    on the other side of the nearest border, to and fro within `MAX_MIRROR_DISTANCE_SHARE`. Where nothing is shown so
+    far away, it has the border's. Where it meets what is shown it is as light as that, and goes over from there."""
     longest = max(hidden.shape)
     shadow = dilate_mask(hidden, max(2, round(SHADOW_BAND_SHARE * longest)))
     source = shown & ~shadow

@@ -35,8 +35,8 @@ MAX_LOOSE_HAIR_SHARE, MAX_UNCOVERED_SHARE = 0.06, 0.13
 """Share of what the picture shows of the head that may be further off, and share of the template's head that may lie beside the person,
 for it to be a head of that shape: beyond, hair is loose, or the head is not where it is taken to be."""
 NECK_SURROUND_SHARE, COLLAR_DEPTH_SHARE, MAX_FALLEN_HAIR_SHARE = 0.25, 0.03, 0.27
-"""As shares of the head's height: how far about jaw and neck hair that falls is looked for, and how far off them it is at least; and how much
-of it there may be, as a share of what jaw and neck cover."""
+"""How far about jaw and neck falling hair is looked for, and how far off them it is at least, both in heights of the
+head. And how much of it there may be, as a share of what jaw and neck cover."""
 MOUTH_LANDMARK = 62
 """Of the 68 points of a face, the middle of the upper lip's lower edge."""
 NECK_OVERLAP_METRES = 0.1
@@ -50,8 +50,8 @@ HEAD_LABEL_TOLERANCE_PIXELS = 2
 def hair_keeps_to_the_head(
     figure: Figure, silhouette: Silhouette, labels: Labels, mesh: TemplateMesh, template: NDArray[np.float64]
 ) -> bool:
-    """Whether the head, hair and all, has the shape of the `template`'s (V, 3), picture space; not known, and so no, where no face is seen,
-    or one in profile, whose turn is not found, or where the picture cuts the head off."""
+    """Whether the head, hair and all, has the shape of the `template`'s (V, 3), picture space. No where that is not
+    known: no face is seen, or one in profile, whose turn is not found, or the picture cuts the head off."""
     if figure.face is None or in_profile(figure):
         return False
     own = labels.labels == HEAD_LABEL
@@ -120,8 +120,8 @@ def without_head(labels: Labels) -> Labels:
 def joined_at_the_neck(
     mesh: TemplateMesh, pictured: NDArray[np.float64], shown: Limbs, trunk: ClosedMesh, labels: Labels
 ) -> tuple[NDArray[np.float64], ClosedMesh]:
-    """The shell's vertices (V, 3) and the trunk, so that the head is before the trunk where the picture shows it, `labels`, behind its front where that
-    is seen, and what of it goes on in the trunk is within."""
+    """The shell's vertices (V, 3) and the trunk with the head in its place. It is before the trunk where the picture
+    shows it (`labels`), and behind the trunk's front where that is seen. What of it goes on in the trunk is within."""
     shape = (labels.labels.shape[0], labels.labels.shape[1])
     body = trunk.triangles[(trunk.layer == 0)[trunk.triangles].all(1)]
     front = -rasterise(trunk.vertices * [1, 1, -1], body, shape).depth

@@ -24,8 +24,13 @@ from engine.character.surface.front_and_back import ClosedMesh
 
 @dataclass(frozen=True)
 class HeadedRelief:
-    """A relief in the pictured pose and the `labels` that it is made of; and the shell whose head it has, with which of it is `shown`, none where
-    the relief has its own."""
+    """A relief that may have the head of a shell.
+
+    relief : in the pictured pose.
+    labels : of the parts that it is made of.
+    shell : the one whose head it has.
+    shown : which of the shell's vertices are that head; none where the relief has its own.
+    """
 
     relief: ClosedMesh
     labels: Labels

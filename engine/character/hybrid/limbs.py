@@ -57,8 +57,12 @@ WEIGHT_SMOOTHING_ROUNDS = 4
 
 @dataclass(frozen=True)
 class Limbs:
-    """The shell's vertices (V,) that are shown: of a `limb` an index of `BODY_PARTS`, -1 of none; those of which the trunk has
-    the most, `overlap` bool; and how `near` all are to a shoulder or hip, from 0 to 1 at the joint."""
+    """Which of the shell's vertices (V,) are shown.
+
+    limb : an index of `BODY_PARTS`; -1 of none.
+    overlap : bool, those of which the trunk has the most.
+    near : how near each is to a shoulder or hip, from 0 to 1 at the joint.
+    """
 
     limb: NDArray[np.intp]
     overlap: NDArray[np.bool_]
@@ -153,8 +157,8 @@ def _as_deep(mesh: TemplateMesh, vertices: NDArray[np.float64], limbs: Limbs, tr
 def _beneath_at_the_cut(
     mesh: TemplateMesh, vertices: NDArray[np.float64], limbs: Limbs, trunk: Layer, labels: Labels
 ) -> Layer:
-    """The trunk with front and back bent beneath the shell's where it is cut from a limb: both show the same picture there, and where they
-    cross nothing is to be seen, while a border of the trunk that stood off would be a step."""
+    """The trunk with front and back bent beneath the shell's where it is cut from a limb. Both show the same picture
+    there, so where they cross nothing is to be seen; a border of the trunk that stood off would be a step."""
     joint = mesh.triangles[((limbs.near > 0) & (limbs.limb >= 0))[mesh.triangles].all(1)]
     facing = -area_vectors(vertices, joint)[:, 2]  # y is down, so that the triangles turn the other way
     from_cut = distance_to(np.isin(labels.labels, LIMB_LABELS))

@@ -74,10 +74,11 @@ def _evened(labels: NDArray[np.int8], one: int, other: int, where: NDArray[np.bo
 
 
 def strange_colours(rgb: NDArray[np.uint8], labels: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """The pixels (h, w) of a picture (h, w, 3) close to a limb that is not theirs, or of a limb close to what is not its, of `labels` (h, w), which
-    have no colour of their part's inside around them, and one of what is beside it, a mixture of both, or a darker one: the print on a shirt has
-    none of these. Where a part has no inside nearby nothing is said; nor of heads, nor where legs come out of the trunk: a hem and a belt are
-    seen always."""
+    """The pixels (h, w) of a picture (h, w, 3) whose colours are not those of their part in `labels` (h, w). They are
+    close to a limb that is not theirs, or of a limb and close to what is not its. No colour of their part's inside is
+    around them. Theirs is one of what is beside it, a mixture of both, or a darker one: the print on a shirt has none
+    of these. Where a part has no inside nearby nothing is said; nor of heads, nor where legs come out of the trunk: a
+    hem and a belt are seen always."""
     lab = _smooth_lab(rgb)
     found = np.zeros(labels.shape, np.bool_)
     for part in (TRUNK_LABEL, *ARM_LABELS, *LEG_LABELS):

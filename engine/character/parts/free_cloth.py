@@ -113,9 +113,15 @@ def free_cloth(
 ) -> FreeCloth | None:
     """Find it: in each row one piece, round all that the template has there. None where nothing goes round it.
 
-    `cloth` (h, w): which pixels may be cloth; `shown` (h, w): the part that the template's body shows, -1 beside it;
-    `nearest` and `furthest` (h, w): its depths there; `parting` (h, w): where one leg meets the other. There close cloth is
-    trousers, unless it gets loose further down and ends in a hem. `overlap` (h, w): where one of the template's legs hides the other.
+    Parameters
+    ----------
+    cloth : (h, w) which pixels may be cloth.
+    shown : (h, w) the part that the template's body shows, -1 beside it.
+    nearest, furthest : (h, w) its depths there.
+    parting : (h, w) where one leg meets the other.
+
+    There close cloth is trousers, unless it gets loose further down and ends in a hem. `overlap` (h, w): where one of
+    the template's legs hides the other.
     """
     trunk, left, right = (shown == BODY_PARTS.index(name) for name in ("torso", "left_leg", "right_leg"))
     if not (cloth.any() and trunk.any() and left.any() and right.any()):

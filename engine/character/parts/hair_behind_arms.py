@@ -26,9 +26,9 @@ LIKELIHOOD_BLUR_PIXELS = 2.0
 def hair_behind_arms(
     rgb: NDArray[np.uint8], labels: NDArray[np.integer], template: NDArray[np.integer], sure: NDArray[np.integer]
 ) -> NDArray[np.intp]:
-    """Labels (H, W) in which the hair that a raised arm passes before is the head's: pieces above the chin that are not `sure`
-    (H, W) to be the arm, have the colours of hair rather than of the arm, and would hang together with the head if the arm
-    were not before it. `template` (H, W): the projected template's labels."""
+    """Labels (H, W) in which the hair that a raised arm passes before is the head's. Such pieces lie above the chin and
+    are not `sure` (H, W) to be the arm. They have the colours of hair rather than of the arm, and would hang together
+    with the head if the arm were not before it. `template` (H, W): the projected template's labels."""
     found = labels.astype(np.intp).copy()
     head = BODY_PARTS.index("head")
     hair = (labels == head) & (template != head)

@@ -1,7 +1,7 @@
 """Where cloth that goes round both legs ends, and which pixels beneath are legs'.
 
-Beyond the paper, in which clothes are one with the body: legs that come out from under a hem are limbs that something passes
-before, and go on behind it.
+This goes beyond the paper, in which clothes are one with the body. Legs that come out from under a hem are limbs that
+something passes before, and go on behind it.
 """
 
 from __future__ import annotations
@@ -115,8 +115,8 @@ def _parted(
     end: int,
     wide: int,
 ) -> NDArray[np.bool_]:
-    """Which pixels of the `band` (h, w) are legs' by their colours and by how far they are from the row where the cloth ends;
-    those that are `near` (h, w) and not in it are as `below` (h, w) says."""
+    """Which pixels of the `band` (h, w) are legs', by their colours and by their distance from the row where the cloth
+    ends. Those that are `near` (h, w) and not in it are as `below` (h, w) says."""
     colours = rgb.astype(np.float64)
     learned = [colours[near & ~band & which] for which in (~below, below)]
     if min(len(some) for some in learned) < MIN_MIXTURE_PIXELS:

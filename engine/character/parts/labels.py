@@ -48,8 +48,9 @@ MIN_SECOND_PIECE_SHARE = 0.25
 BARE_ARM_MARGIN_SHARE = 0.008
 """How far beyond the template's arm no hair is looked for, as a share of the height."""
 STRAY_PIXEL_COST = 0.25
-"""What a pixel that the template covers costs with the label of a part of it that is one pixel away, in units of equation 16: too
-little where colours differ, as those of hand and trousers, but those of a sleeve and the trunk beside it say nothing."""
+"""What a pixel that the template covers costs with the label of a part of it that is one pixel away, in units of
+equation 16. It is too little where colours differ, as those of hand and trousers. The colours of a sleeve and of the
+trunk beside it say nothing."""
 UNSHOWN_LABEL_COST_PIXELS = 1e3
 """The cost, in pixels, of a label that the template does not show."""
 
@@ -94,9 +95,9 @@ def complete_labels(mask: NDArray[np.bool_], labels: NDArray[np.integer]) -> NDA
 def hair_beside_arms(
     rgb: NDArray[np.uint8], labels: NDArray[np.integer], template: NDArray[np.integer], sure: NDArray[np.integer]
 ) -> NDArray[np.intp]:
-    """Labels (H, W) in which hair is the head's where a raised arm is nearer: what is not of the arms of the projected
-    `template` (H, W) and not `sure` (H, W), has the colours of hair rather than those of the arm, and hangs together with
-    the head."""
+    """Labels (H, W) in which hair is the head's where a raised arm is nearer. Such pixels are not of the arms of the
+    projected `template` (H, W), and not `sure` (H, W). They have the colours of hair rather than those of the arm, and
+    hang together with the head."""
     found = labels.astype(np.intp).copy()
     head = BODY_PARTS.index("head")
     colours = rgb.astype(np.float64)
@@ -116,9 +117,10 @@ def hair_beside_arms(
 def without_specks(
     labels: NDArray[np.integer], sure: NDArray[np.integer], plain: NDArray[np.bool_]
 ) -> NDArray[np.intp]:
-    """Labels (H, W) whose small pieces have gone over to what is around them; each keeps its largest piece. An arm has no
-    other pieces, either, unless the other arm passes before it, or they are at a shoulder where labels are `plain` (H, W):
-    nothing smaller than the one with its hand, which is `sure` (H, W; -1 where nothing is), or than a share of the largest."""
+    """Labels (H, W) whose small pieces have gone over to what is around them; each keeps its largest piece. An arm has
+    no other pieces, either: nothing smaller than the one with its hand, or than a share of the largest. The hand is
+    `sure` (H, W; -1 where nothing is). Pieces stay where the other arm passes before them, or at a shoulder where
+    labels are `plain` (H, W)."""
     kept = labels.astype(np.intp).copy()
     for part in range(len(BODY_PARTS)):
         count, pieces, stats, _ = cv2.connectedComponentsWithStats((labels == part).astype(np.uint8), connectivity=4)

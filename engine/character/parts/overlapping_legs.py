@@ -82,9 +82,9 @@ def standing_off(labels: NDArray[np.integer], leg: int, away: NDArray[np.floatin
 
 
 def as_the_template(labels: NDArray[np.integer], template: NDArray[np.integer], before: int) -> NDArray[np.intp]:
-    """Labels (h, w) in which each leg is what is nearest to that leg of the projected `template` (h, w): where legs cross, one
-    comes out behind the other in wedges, which even labels cut off. What the leg that is `before` wears hides as much of the
-    other as it stands off elsewhere."""
+    """Labels (h, w) in which each leg is what is nearest to that leg of the projected `template` (h, w). Where legs
+    cross, one comes out behind the other in wedges, which even labels cut off. What the leg that is `before` wears
+    hides as much of the other as it stands off elsewhere."""
     away = {leg: distance_to(template == leg) for leg in LEG_LABELS}
     off = standing_off(labels, before, away[before])
     front = away[before] <= np.maximum(away[OPPOSITE_LABEL[before]], off)

@@ -26,13 +26,13 @@ from engine.imaging.masks.mask_pieces import pieces_touching
 UNSEEN_FINGER_CONFIDENCE = 0.7
 """Confidence of a finger below which the hand surely is not seen."""
 CLOTH_SHARE, CLOTH_WITHOUT_SKIN_SHARE = 0.2, 0.4
-"""Share of the template's hand that stands out from the cloth around it, up to which the cloth goes on there, whatever else is said;
-and up to which it does if no skin is seen there, or no finger."""
+"""Share of the template's hand that stands out from the cloth around it. Up to the first the cloth goes on there,
+whatever else is said; up to the second it does if no skin is seen there, or no finger."""
 PLAIN_CLOTH_SHARE = 0.9
 """Share of the cloth that does not stand out from itself."""
 PARTED_RADIUS_HAND_LENGTHS, CLOTH_RADIUS_HAND_LENGTHS, MIN_CLOTH_DISTANCE_HAND_LENGTHS = 1.2, 2.5, 0.3
-"""Lengths of the hand from its middle within which pixels are parted, and within which cloth tells of its colours; and how far
-that is from the template's hand, at least: the hand may be beside it."""
+"""Lengths of the hand from its middle: within the first, pixels are parted; within the second, cloth tells of its
+colours. The third is how far cloth is from the template's hand, at least: the hand may be beside it."""
 CUFF_LENGTH_HAND_LENGTHS = 0.3
 """Lengths of the hand by which a sleeve reaches beyond the wrist."""
 MIN_CLOTH_LOG_LIKELIHOOD_RATIO = 3.0

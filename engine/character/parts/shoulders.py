@@ -29,8 +29,9 @@ from the cloth of the trunk."""
 def labelled_shoulders(
     rgb: NDArray[np.uint8], labels: NDArray[np.integer], template: PosedTemplate, rig: Rig
 ) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-    """Labels (h, w) in which arm and trunk part at the shoulders where their colours do, and where that is (h, w): where nearly all
-    colours of the picture `rgb` (h, w, 3) are either the arm's or the trunk's, as these are further away."""
+    """Labels (h, w) in which arm and trunk part at the shoulders where their colours do, and where that is (h, w). It
+    is where nearly all colours of the picture `rgb` (h, w, 3) are either the arm's or the trunk's, as these are further
+    away."""
     y, x = np.mgrid[: labels.shape[0], : labels.shape[1]]
     colours = rgb.astype(np.float64)
     out, plain = labels.astype(np.intp).copy(), np.zeros(labels.shape, np.bool_)

@@ -19,9 +19,9 @@ from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 
 MIN_VOLUME_RATIO, TARGET_VOLUME_RATIO = 0.35, 0.6
-"""What blending turns may leave of a volume. Where it leaves less halfway between a vertex's two strongest joints, as in a
-sharply bent elbow, the way back to T-pose is no longer one: there the vertex goes with the strongest, as much more as
-it takes to keep the second."""
+"""What blending turns may leave of a volume. Where the blend leaves less halfway between a vertex's two strongest
+joints, as in a sharply bent elbow, the way back to T-pose is no longer one. There the vertex goes with the strongest,
+as much more as it takes to keep the second."""
 VOLUME_BISECTION_STEPS = 7
 """Of the share that is asked for how much more."""
 
@@ -93,9 +93,9 @@ def at_rest(
     weights: NDArray[np.float32],
     transforms: NDArray[np.floating],
 ) -> tuple[NDArray[np.float64], NDArray[np.float32], NDArray[np.float64]]:
-    """The way back from a pose: vertices (V, 3) at rest which the joints' transforms (J, 4, 4) bring to `posed` (V, 3); the
-    weights (V, 4) by which they do: some are changed where there is no way back (`MIN_VOLUME_RATIO`); and what these blend
-    for each vertex, (V, 4, 4)."""
+    """The way back from a pose. Vertices (V, 3) at rest are brought to `posed` (V, 3) by the joints' transforms (J, 4,
+    4) and weights (V, 4). Returns the vertices at rest, the weights, some of which are changed where there is no way
+    back (`MIN_VOLUME_RATIO`), and what these blend for each vertex, (V, 4, 4)."""
     turned = transforms.astype(np.float64)
     blended = _blended(weights, turned[bones])
     halfway = _volume((turned[bones[:, 0]] + turned[bones[:, 1]]) / 2)

@@ -35,8 +35,8 @@ ANKLE_HEIGHT_METRES = 0.1
 NOSE_FIDUCIALS = slice(27, 36)
 """Of the fiducials: about them there is skin."""
 MAX_BARE_FOOT_HUE_DISTANCE, MIN_FOOT_LIGHTNESS_RATIO, MAX_FOOT_LIGHTNESS_RATIO, MIN_BARE_FOOT_SHARE = 9.0, 0.6, 1.5, 0.6
-"""By how much the skin of a foot differs from the face's in CIELAB's a and b at most, how light it may be, in the face's lightness,
-and of how much of a foot that must hold for it to be bare."""
+"""When a foot is bare: by how much its skin differs from the face's in CIELAB's a and b at most, how light it may be,
+in the face's lightness, and of how much of the foot that must hold."""
 MIN_SHIN_WEIGHT = 0.9
 """Share of the shin's joint in what moves a vertex that is of a shin."""
 MIN_COLOUR_PIXELS = 25

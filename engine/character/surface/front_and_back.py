@@ -208,8 +208,8 @@ def _sheet(
 def _parted(
     at: NDArray[np.intp], cut: NDArray[np.int8], triangles: NDArray[np.intp]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """A sheet of pixels (n, 2) cut where side 1 meets side 2: a triangle of both goes with side 1, for which it gets corners
-    of its own in the same places, moved as the nearest pixel of that side is."""
+    """A sheet of pixels (n, 2) cut where side 1 meets side 2. A triangle of both goes with side 1. For that it gets
+    corners of its own in the same places, moved as the nearest pixel of that side is."""
     side = cut[at[:, 0], at[:, 1]]
     corners = side[triangles]
     both = (corners == 1).any(1) & (corners == 2).any(1)

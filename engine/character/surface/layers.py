@@ -45,8 +45,8 @@ BARE_JOINT_NAMES = ("Head", "Neck", "Jaw", "Eye", "Hand", "Foot", "Toe")
 
 
 def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face | None = None) -> list[Layer]:
-    """The body first, its head by its `face` if there is one; then legs that come out from under its cloth, and each limb that
-    is apart and large enough, and those that are not seen. `labels`: taken apart (`Labels.layered`)."""
+    """The body comes first, its head by its `face` if there is one. Then come legs out from under its cloth, each limb
+    that is apart and large enough, and those that are not seen. `labels`: taken apart (`Labels.layered`)."""
     beneath = legs_beneath(labels, template, rig)
     legs = [leg.limb for leg in beneath]
     apart = [int(limb) for limb in labels.apart

@@ -1,7 +1,7 @@
 """Soles: what a foot stands on is flat.
 
-Beyond the paper. A picture shows shoes from before and above; their undersides are the back sheet's, which follows the
-template's bare foot, and the foot that the fit has turned a little wrong, or that stands on a heel, comes out pointed.
+Beyond the paper. A picture shows shoes from before and above. Their undersides are the back sheet's, which follows the
+template's bare foot. A foot that the fit has turned a little wrong, or that stands on a heel, comes out pointed.
 """
 
 from __future__ import annotations

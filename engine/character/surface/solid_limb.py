@@ -124,9 +124,9 @@ def _inner(own: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def places_on_the_picture(limbs: Sequence[SolidLimb]) -> list[NDArray[np.float64]]:
-    """For each of some limbs the pixels (V, 2), x and y, whose colours its vertices take: their own where they are seen, else those
-    of the nearest at rest that is, of a hand for a hand and of an arm for an arm; of a limb that is not seen those of the one that it
-    is like. NaN where nothing is seen."""
+    """For each of some limbs the pixels (V, 2), x and y, whose colours its vertices take. Where they are seen these are
+    their own. Else they are those of the nearest at rest that is, of a hand for a hand and of an arm for an arm. A limb
+    that is not seen takes those of the one that it is like. NaN where nothing is seen."""
     found = []
     for limb in limbs:
         places = np.full((len(limb.vertices), 2), np.nan)

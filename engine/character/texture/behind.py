@@ -77,9 +77,8 @@ def _light(
     aside: NDArray[np.float32],
     step: float,
 ) -> NDArray[np.float32]:
-    """By how much (A, 3) the right side (A, n, 3) is lighter than the left at the outline, over all that is
-    `LIGHT_WINDOW_METRES` around, by what is known of `both`
-    (A, n); in between it is as much of that as cells are `aside` (1, n, 1)."""
+    """By how much (A, 3) the right side (A, n, 3) is lighter than the left at the outline, by what is known of `both`
+    (A, n) within `LIGHT_WINDOW_METRES`. In between it is as much of that as cells are `aside` (1, n, 1)."""
     rows = np.flatnonzero(both.any(1))
     if not len(rows):
         return np.zeros((len(left), 3), np.float32)
@@ -98,8 +97,9 @@ def _whole(
     of_other: NDArray[np.bool_],
     step: float,
 ) -> NDArray[np.float32]:
-    """One side (A, n, 3): its `own` colours where they are `known` (A, n), where not the `other`'s, and where neither are, those of the
-    nearest of its row, and of rows of which nothing is known what lies between those before and after."""
+    """One side (A, n, 3). It has its `own` colours where they are `known` (A, n), and the `other`'s where they are not.
+    Where neither are, it has those of the nearest of its row. Rows of which nothing is known have what lies between
+    those before and after."""
     if known.all():
         return own
     either = known | of_other
@@ -182,8 +182,9 @@ def _agreed(
 def _levelled(
     left: NDArray[np.float32], right: NDArray[np.float32], join: int, step: float
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Two pictures (A, N, 3) and (A, M, 3) of which the last and the first `join` columns overlap, each going over to what is between both there: what is
-    left of a difference over some rows is no pattern, and would be an edge."""
+    """Two pictures (A, N, 3) and (A, M, 3) joined: the last `join` columns of one lie on the first of the other, and
+    each goes over to what is between both there. What is left of a difference over some rows is no pattern, and would
+    be an edge."""
     apart = np.median(right[:, :join] - left[:, -join:], 1)
     apart = cv2.GaussianBlur(
         apart.astype(np.float32), (1, 0), 1, sigmaY=SEAM_LIGHT_METRES / step, borderType=cv2.BORDER_REPLICATE

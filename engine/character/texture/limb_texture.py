@@ -118,10 +118,10 @@ def of_the_limbs(
     legs: NDArray[np.bool_] | None = None,
     rings: NDArray[np.float32] | None = None,
 ) -> NDArray[np.uint8]:
-    """The limbs (h, w, 3): what is seen of their `own`; around it, where a surface that was made on the grid may end, the
-    colours of their inside; and the `hole` behind what is before them filled from what is usual near it: a hand's skin is on no
-    shoulder, nor, where `legs` (h, w) are, on one of these. Where it is known what limbs are like all round, `rings` (h, w, 3), that is what they
-    are like there, too, and patches say what is fine about it."""
+    """The limbs (h, w, 3): what is seen of their `own`, and around it, where a surface that was made on the grid may
+    end, the colours of their inside. The `hole` behind what is before them is filled from what is usual near it. A
+    hand's skin is on no shoulder, nor, where `legs` (h, w) are, on one of these. Where it is known what limbs are like
+    all round, `rings` (h, w, 3), that is what they are like there, too, and patches say what is fine about it."""
     inside = distance_inside(own) / scale
     deep = inside > MIXED_EDGE_PIXELS[1]
     around = continued_colours(seen, deep if deep.any() else own)
@@ -137,8 +137,8 @@ def of_the_limbs(
 def filled(
     rgb: NDArray[np.uint8], hole: NDArray[np.bool_], source: NDArray[np.bool_], rings: NDArray[np.float32] | None
 ) -> NDArray[np.uint8]:
-    """A picture (h, w, 3) with a `hole` (h, w) filled with patches of the `source` (h, w): of all of it, or, where it is known what limbs are like all
-    round, `rings` (h, w, 3), of what is fine about them."""
+    """A picture (h, w, 3) with a `hole` (h, w) filled with patches of the `source` (h, w). Where `rings` (h, w, 3) say
+    what limbs are like all round, patches are of what is fine about them."""
     if rings is None or not hole.any():
         return inpaint(rgb, hole, source)
     box = bounding_box(hole | source)

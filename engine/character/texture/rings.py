@@ -1,7 +1,8 @@
 """Limbs as rings: what a limb is coloured like at each height along it, by what is seen of it there, or of the other side's.
 
-A sleeve ends all round, and so does a sock, and both sides' do at one height. So what is hidden of a limb has the colour that the limb shows at
-the same height; where it shows nothing, that of the other one; and where neither does, what is between those above and below.
+A sleeve ends all round, and so does a sock, and both sides' do at one height. So what is hidden of a limb has the
+colour that the limb shows at the same height. Where it shows nothing, it has the other limb's; where neither does, what
+is between those above and below.
 """
 
 from __future__ import annotations

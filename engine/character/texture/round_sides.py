@@ -1,8 +1,8 @@
 """The sides of head and body: where the back's colours begin, and how they are laid over the surface.
 
-Seen from the front, a head or a trunk shows its sides in a pixel or two, stretched over a third of it. So the back's colours begin
-there, within the outline, and are laid from there to the middle of the back at the pace of the surface, as if it were round:
-what is painted as an inch of hair or cloth is an inch wherever it is seen from.
+Seen from the front, a head or a trunk shows its sides in a pixel or two, stretched over a third of it. So the back's
+colours begin there, within the outline. From there to the middle of the back they are laid at the pace of the surface,
+as if it were round: an inch of painted hair or cloth is an inch wherever it is seen from.
 """
 
 from __future__ import annotations
@@ -97,9 +97,9 @@ def _with_copies(mesh: ClosedMesh, chosen: NDArray[np.bool_]) -> tuple[ClosedMes
 def _at_the_surfaces_pace(
     start: NDArray[np.float64], depth: NDArray[np.float32], seam_depth: float
 ) -> NDArray[np.float64]:
-    """Places (N, 2) for points (N, 2) of the back, of which the outermost pixels of a picture are stretched most: further
-    inward, so that from the seam on the front, `seam_depth` within the outline, over the outline to the middle, the way on
-    the picture is the same share of the way on the surface. `depth` (h, w): distances from the outline."""
+    """Places (N, 2) for points (N, 2) of the back, further inward: a picture's outermost pixels would be stretched
+    most. The way leads from the seam on the front, `seam_depth` within the outline, over the outline to the middle.
+    Each share of it on the picture is the same share on the surface. `depth` (h, w): distances from the outline."""
     soft = np.asarray(cv2.GaussianBlur(depth, (0, 0), DISTANCE_SMOOTHING_PIXELS), np.float32)
     slope = [
         np.asarray(cv2.Sobel(soft, cv2.CV_32F, *axis, ksize=3, scale=1 / 8), np.float32) for axis in ((1, 0), (0, 1))

@@ -25,9 +25,10 @@ FOLD_SMOOTHING_ROUNDS = 4
 
 
 def places_on_the_picture(mesh: ClosedMesh, barred: NDArray[np.bool_], body_layer: int) -> NDArray[np.float64]:
-    """For each vertex the pixel (V, 2) of the grid, x and y, whose colour it takes: its own, or on the border that of the
-    fold. Vertices of the border at one place take one pixel, of the front and of the back: no fold of the body's goes where it
-    is `barred` (h, w), because these differ there, or because it would show an ear twice. What has `places` keeps them."""
+    """For each vertex the pixel (V, 2) of the grid, x and y, whose colour it takes: its own, or on the border that of
+    the fold. Vertices of the border at one place take one pixel, of the front and of the back. No fold of the body's
+    goes where it is `barred` (h, w): front and back differ there, or it would show an ear twice. What has `places`
+    keeps them."""
     own = mesh.vertices[:, :2]
     at, point = _points(mesh)
     inward, length = _folds(mesh, at, point)

@@ -184,8 +184,8 @@ def _behind_the_limbs(
     face: NDArray[np.floating] | None,
     round_them: Mapping[int, NDArray[np.float32]],
 ) -> NDArray[np.uint8]:
-    """The body (h, w, 3) where `limbs` (h, w) hide it, filled from what is nearby: the head from the
-    head without its face, a leg behind the other from that leg, all else from all else, so that no dress is made of hair."""
+    """The body (h, w, 3) where `limbs` (h, w) hide it, filled from what is nearby. The head is filled from the head
+    without its face, a leg behind the other from that leg, all else from all else. So no dress is made of hair."""
     size = (own.shape[1], own.shape[0])
     bare = np.where(np.isin(labels.labels, labels.apart), -1, labels.labels)
     beneath = complete_labels(labels.labels >= 0, bare)
@@ -257,8 +257,8 @@ def _behind(
 def _from_the_sides(
     rgb: NDArray[np.uint8], labels: Labels, size: tuple[int, int], own: NDArray[np.bool_]
 ) -> NDArray[np.uint8]:
-    """The middle of each part of the body filled with patches of its sides (the paper's second way to a back): what is
-    printed, buttoned or worn in front is not on the back, and at the outline front and back are one."""
+    """The middle of each part of the body filled with patches of its sides (the paper's second way to a back). What is
+    printed, buttoned or worn in front is not on the back. At the outline front and back are one."""
     out = rgb
     for part, name in enumerate(BODY_PARTS):
         if name == "head":

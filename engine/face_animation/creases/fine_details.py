@@ -156,8 +156,8 @@ def detail_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> DetailR
 
 
 def flatness(rgb: NDArray[np.uint8], weight: NDArray[np.float32], unit: float) -> float:
-    """How far the part of a picture (h, w, 3) that a `weight` (h, w) marks is drawn in flat colours, on which a crease's soft shade is a stain,
-    from 0 to 1; `unit` is the eye distance in pixels."""
+    """How far a part of a picture (h, w, 3) is drawn in flat colours, from 0 to 1: on these a crease's soft shade is a
+    stain. A `weight` (h, w) marks the part; `unit` is the eye distance in pixels."""
     scale = min(1.0, FLATNESS_EYE_DISTANCE_PIXELS / unit)
     grey = cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY).astype(np.float32)
     small, marks = (
@@ -310,8 +310,9 @@ def shade(
     """Equation 3: multiply the warped target (H, W, 3), in place, by the warped ratio where its region allows, with a
     `strength` from 0 to 1; each channel as far as the target's own skin darkens in the shade.
 
-    `landing` is the region's origin on the driver's neutral crop; `origin` (H, W, 2) the frame's inverse map, in
-    pixels of the target enlarged by `scale`; `within`: points (V, 2) of the frame around which its face ends, if known.
+    `landing` is the region's origin on the driver's neutral crop. `origin` (H, W, 2) is the frame's inverse map, in
+    pixels of the target enlarged by `scale`. `within` are points (V, 2) of the frame around which its face ends, if
+    known.
     """
     x0, y0 = region.box[:2]
     change = cv2.remap(ratio, landing, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)  # type: ignore[call-overload]

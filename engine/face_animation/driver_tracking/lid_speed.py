@@ -38,8 +38,8 @@ def slow_lids(meshes: NDArray[np.floating], neutral: int, fps: float) -> None:
 
 
 def held_openness(openness: NDArray[np.floating], neutral: int, fps: float) -> NDArray[np.float64]:
-    """The largest (N, K) below the openness (N, K) of lids, of which 1 is as usual and `CLOSED_GAP_SHARE` is shut, that does not change faster;
-    but for a blink right beside the `neutral` frame, where they are open as they were seen."""
+    """The largest (N, K) below the openness (N, K) of lids that does not change faster. Openness is 1 as usual and
+    `CLOSED_GAP_SHARE` shut. In a blink right beside the `neutral` frame lids are open as they were seen."""
     whole = np.asarray(openness, np.float64)
     frames = np.arange(len(whole))[:, None]
     falls, rises = ((1 - CLOSED_GAP_SHARE) / (seconds * fps) for seconds in (FALLS_SECONDS, RISES_SECONDS))

@@ -73,8 +73,8 @@ Reason = Literal["chosen", "at_rest", "like_the_target", "nearest_to_rest"]
 
 @dataclass(frozen=True)
 class NeutralFrame:
-    """A frame of the driver and why it was taken: `chosen` by the user; `at_rest` as the target is; `like_the_target`, whose
-    expression it shares; `nearest_to_rest`, of a driver that is never at rest."""
+    """A frame of the driver and why it was taken. It was `chosen` by the user, it is `at_rest` as the target is, it is
+    `like_the_target`, whose expression it shares, or it is `nearest_to_rest`, of a driver that never rests."""
 
     frame: int
     reason: Reason
@@ -128,9 +128,10 @@ def warn_if_never_at_rest(choice: NeutralFrame, warn: Callable[[str, str], None]
 def estimate_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     """The measures (12,) of this person at rest, from those of all frames (N, 12) that show the face.
 
-    The most probable one, where people at rest are distributed about the general rest by `SPREAD_BETWEEN_PEOPLE`, and one person at rest
-    about their own by `REST_SPREAD`: a frame that many are like and that is not unlike a face at rest. Many alone would not do,
-    for a driver may laugh through most of a clip; likeness alone would not, for people differ.
+    The most probable frame: one that many are like and that is not unlike a face at rest. People at rest are
+    distributed about the general rest by `SPREAD_BETWEEN_PEOPLE`, and one person at rest about their own by
+    `REST_SPREAD`. Many alone would not do, for a driver may laugh through most of a clip; likeness alone would not, for
+    people differ.
 
     It is a face that anybody would call calm, in however few frames this one is, for what the driver shows there stands for
     the target, who is taken to be at rest. `driver_segments.rest.own_rest` looks for a habit instead, which may be a smile.
@@ -184,8 +185,8 @@ def _face_unlike(values: NDArray[np.floating], wanted: NDArray[np.floating]) -> 
 def _torn(
     track: FaceTrack, target: NDArray[np.floating], values: NDArray[np.floating], rest: NDArray[np.floating]
 ) -> NDArray[np.float64]:
-    """(N,) square of how far each frame's mouth is torn aside, in `TORN_MOUTH_SCALE`: from where it is at rest, which is even but for as
-    much, or from the target's where that is torn."""
+    """(N,) square of how far each frame's mouth is torn aside, in `TORN_MOUTH_SCALE`. It is measured from where the
+    mouth is at rest, which is even but for as much, or from the target's where that is torn."""
     torn = lip_asymmetry(track.meshes)
     nearest = np.argsort(np.where(track.found, _face_unlike(values, rest), np.inf))[:5]
     wanted = np.median(torn[nearest], axis=0)

@@ -67,8 +67,9 @@ def _look(meshes: NDArray[np.floating], side: tuple) -> NDArray[np.float64]:
 
 
 def held_looks(eyes: tuple[Eyeball | None, Eyeball | None], looks: NDArray[np.floating]) -> NDArray[np.float64]:
-    """`looks` (2, 2), as `gaze_offsets` gives them, with each iris within its eye: ones that are larger than the driver's, or nearer to a corner
-    in the picture, go less far, and so does the other eye's, by the same share: eyes that are held are not crossed."""
+    """`looks` (2, 2), as `gaze_offsets` gives them, with each iris within its eye. Irises that are larger than the
+    driver's, or nearer to a corner in the picture, go less far. The other eye goes less far by the same share, so that
+    held eyes are not crossed."""
     shares = [
         held_along(eye, float(look[0])) / look[0]
         for eye, look in zip(eyes, looks, strict=True)
@@ -150,8 +151,8 @@ def _lash_line(opening: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[
 
 
 def _departure(eye: Eyeball, opening: NDArray[np.float32], look: NDArray[np.floating]) -> float:
-    """How far the layer is drawn: 0 where lids and gaze are as in the picture, 1 where they are not, and 0
-    again where the lids have met, so that nothing shines through their seam."""
+    """How far the layer is drawn: 0 where lids and gaze are as in the picture, and 1 where they are not. It is 0 again
+    where the lids have met, so that nothing shines through their seam."""
     open_by = _open_by(eye, opening)
     moved = max(abs(open_by - 1) / FULL_OPENING_CHANGE, float(np.hypot(*look)) / FULL_GAZE_CHANGE)
     return min(moved, 1.0) * min(max((open_by - SHUT_SHARE) / SHUT_SHARE, 0.0), 1.0)

@@ -59,8 +59,8 @@ _STRIP_TRIANGLES = np.array([t for k in range(8) for t in ((k, k + 1, 9 + k), (k
 
 
 def lid_skins(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> list[NDArray[np.float32]]:
-    """The skin of both upper lids, right one first, of a target (H, W, 3) with its face at `mesh` (478, 2 or 3): (h, w, 3)
-    float32 from the crease down to the edge, from the eye's outer corner to the inner one."""
+    """The skin of both upper lids, right one first, of a target (H, W, 3) with its face at `mesh` (478, 2 or 3). Each
+    is (h, w, 3) float32, from the crease down to the edge, and from the eye's outer corner to the inner one."""
     return [_skin(rgb, mesh, side) for side in range(2)]
 
 

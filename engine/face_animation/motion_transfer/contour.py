@@ -2,8 +2,8 @@
 
 Where a face's surface goes out of sight its points lie close to the contour in the picture and far behind each other in
 space. A turn of the head, an expression or a second look then moves neighbours apart, or past the contour, and the
-outline gets notches. So beside the contour of the cheeks its own points alone carry the picture; where others would pass
-it, it goes out with them as an even curve, and those nearest to it are stretched no more than those further in.
+outline gets notches. So beside the contour of the cheeks its own points alone carry the picture. Where others would
+pass it, it goes out with them as an even curve. Those nearest to it are stretched no more than those further in.
 """
 
 from __future__ import annotations
@@ -196,8 +196,8 @@ def _nearest(
     edges: NDArray[np.bool_],
     points: NDArray[np.floating] | None = None,
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
-    """The spot of some seen edges (36,) of the contour next to each of points (P, 2), or to each vertex: its edge (P,), its share of the way
-    along that, and how far away it is, pixels; nowhere if none is seen."""
+    """Which spot of some seen edges (36,) of the contour is next to each of points (P, 2), or to each vertex. Returns
+    its edge (P,), its share of the way along that, and how far away it is, pixels; nowhere if none is seen."""
     places = mesh[:, :2] if points is None else points
     oval = list(FACE_OVAL)
     ring = mesh[oval, :2].astype(float)

@@ -104,7 +104,7 @@ class MotionTransfer:
     Parameters
     ----------
     rest : one frame, in which the driver shows what the target shows. target : (478, 3) mesh, pixels. proxy : None keeps to
-    the plane.
+        the plane.
     """
 
     def __init__(
@@ -206,7 +206,8 @@ class MotionTransfer:
         """(N, C - 478, 2) what the points around the face do: the head's with the skull, the body's with the shoulders, the
         neck's between them; and what the face's contour does beyond the skull.
 
-        solid : (N, C, 2) where the skull, `held` back, carries all points. faces : (N, 478, 2) where the face's are; pixels.
+        solid : (N, C, 2) pixels, where the skull, `held` back, carries all points.
+        faces : (N, 478, 2) pixels, where the face's are.
         """
         target, phi, oval = self._target, self._phi, list(FACE_OVAL)
         points, share = self._control.points[MESH_SIZE:], proxy.share[MESH_SIZE:, None]

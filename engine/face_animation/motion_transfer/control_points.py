@@ -42,9 +42,9 @@ class ControlPoints:
 
     points : (C, 2) float64 pixels, first the 478 of the face's mesh, then those around it, then those on the border.
     peripheral : how many lie around the face.
-    usable : (C,) bool, False for three kinds of points of the face: those that the picture sees from behind, where they say
-        nothing about the pixels there; those beside its contour, which carries them; and the irises, which stay behind the
-        lids that move over them.
+    usable : (C,) bool, False for three kinds of points of the face. The picture sees some from behind: they say nothing
+        about the pixels there. Some lie beside its contour, which carries them. The irises stay behind the lids that
+        move over them.
     room : (2, 2) how far the head may go, pixels, see `head_room`.
     face_room : (2, 2) how far its face may, pixels, see `face_room`.
     borders : (3,) where the picture ends to the left, to the right and below, pixels; at infinity where a side cuts nobody, see `body_borders`.
@@ -119,8 +119,8 @@ def place_control_points(
 
 
 def body_borders(mesh: NDArray[np.floating], person: NDArray[np.floating], shown: Window) -> NDArray[np.float64]:
-    """(3,) where the picture that is `shown` ends to the left, to the right and below, pixels; at infinity where a side does not cut the body of a
-    `person` (H, W) below the chin of a mesh (478, 2 or 3)."""
+    """(3,) pixels where the picture that is `shown` ends to the left, to the right and below. It is at infinity where a
+    side does not cut the body of a `person` (H, W) below the chin of a mesh (478, 2 or 3)."""
     edge = max(1, round(PICTURE_BORDER_SHARE * min(shown.shape)))
     below = person[
         int(np.clip(mesh[CHIN_VERTEX, 1], shown.top, shown.bottom - 1)) : shown.bottom, shown.left : shown.right

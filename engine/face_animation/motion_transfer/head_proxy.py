@@ -1,12 +1,13 @@
 """The head as one solid: the face mesh, carried on over ears and hair, turned in space.
 
-The paper warps in the plane and names turns of the head as its limit (section 7.3); its outlook is "to map the face over a
-template 3D face". Here every control point of the head has a depth: the mesh's own on the face, an ellipsoid's around it. The
-driver's motion is split into the head's rigid motion and the expression, and the rigid part moves all of the head in space.
-What the skull's outline shows is another part of it after a turn, and as wide: it goes along and turns in the plane alone. On the side that
-turns towards the viewer the picture has nothing of that other part. To keep the outline where it was would draw out the ear and the hair beside
-it to more than twice their width; there what is seen turns whole, and the surroundings, which have no such marks, make up for it.
-Towards the shoulders the head hands over to the body (`body_motion`).
+The paper warps in the plane and names turns of the head as its limit (section 7.3); its outlook is "to map the face
+over a template 3D face". Here every control point of the head has a depth: the mesh's own on the face, an ellipsoid's
+around it. The driver's motion is split into the head's rigid motion and the expression, and the rigid part moves all of
+the head in space. What the skull's outline shows is another part of it after a turn, and as wide: it goes along and
+turns in the plane alone. On the side that turns towards the viewer the picture has nothing of that other part. To keep
+the outline where it was would draw out the ear and the hair beside it to more than twice their width. There what is
+seen turns whole. The surroundings have no such marks, and make up for it. Towards the shoulders the head hands over to
+the body (`body_motion`).
 """
 
 from __future__ import annotations

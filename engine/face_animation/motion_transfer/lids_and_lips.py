@@ -49,8 +49,8 @@ def lid_ratio(
     """(N, 14) gap of each pair of lid vertices against the neutral frame's; the tracker never reports a
     gap of zero, so that ratios under `CLOSED_GAP_SHARE` become 0.
 
-    Eyes of a `target` (478, 3) open no farther than their irises allow; those that are narrower at rest than the driver's are narrowed no further than these are, by `eye_opening`: what is
-    left of wide eyes is not a squint.
+    Eyes of a `target` (478, 3) open no farther than their irises allow. Those that are narrower at rest than the
+    driver's are narrowed no further than these are, by `eye_opening`: what is left of wide eyes is not a squint.
     """
     upper, lower = np.array(LID_EDGE_VERTEX_PAIRS).T
     gap = np.linalg.norm(meshes[:, upper] - meshes[:, lower], axis=-1)

@@ -24,8 +24,8 @@ SKIN_BELOW_LIDS_VERTICES = (*(110, 24, 23, 22, 26), *(339, 254, 253, 252, 256))
 
 
 def spectacles_share(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(478,) how far each vertex of a face at `mesh` (478, 2 or 3), pixels of a picture (H, W, 3), lies behind the frame of spectacles: 0 of a face
-    that wears none, or of which that cannot be told."""
+    """(478,) how far each vertex of a face at `mesh` (478, 2 or 3), pixels of a picture (H, W, 3), lies behind the
+    frame of spectacles. It is 0 of a face that wears none, or of which that cannot be told."""
     bridge = face_wear(rgb, mesh).bridge
     if not bridge > BRIDGE_STRENGTHS[0]:  # nor where it cannot be told, NaN
         return np.zeros(MESH_SIZE)

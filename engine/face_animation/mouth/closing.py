@@ -102,8 +102,8 @@ def lip_influence() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 @cache
 def thickness_influence() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(478, 9) each, how much a vertex goes along with the border of each of nine columns of the upper lip, and of the lower: none at the lips' inner
-    edges, as much as it is away from there within the lip."""
+    """(478, 9) each, how much a vertex goes along with the border of each of nine columns of the upper lip, and of the
+    lower. At the lips' inner edges that is none; within the lip it grows with the distance from there."""
     columns = np.array(_COLUMNS).reshape(-1, len(_COLUMNS[0][0]))
     face = canonical_face().astype(float)
     away = np.linalg.norm(face[columns] - face[columns[:, -2:-1]], axis=-1)

@@ -39,15 +39,16 @@ MIN_SKIN_SHARE = 0.2
 NARROW_LIP_SKIN_SHARE = 0.3
 """Share of its usual breadth that skin under the nose keeps, at least, where it does on the driver's face."""
 EVEN_SHARE, MAX_EVEN_SHARE = 0.85, 0.6
-"""Of what is left of a column's breadth as a whole, that each part of it keeps; and up to which it is led to: the part beside the lip alone would be
-pressed to a line in which the picture's pixels break up."""
+"""Share of a column's remaining breadth that each part of it keeps, and up to which it is led to that. The part beside
+the lip alone would be pressed to a line in which the picture's pixels break up."""
 NEIGHBOUR_WEIGHTS = np.array([1, 2, 3, 2, 1]) / 9
 """How much columns of a lip draw their neighbours along."""
 
 
 def philtrum_compression(faces: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(N,) how far the skin between nose and mouth is pressed together on the driver's faces (N, 478, 2 or 3), upright as
-    the `neutral` one (478, 2 or 3) is: what is left of its breadth, from `MIN_SKIN_SHARE` to `NARROW_LIP_SKIN_SHARE`."""
+    """(N,) how far the skin between nose and mouth is pressed together on the driver's faces (N, 478, 2 or 3): what is
+    left of its breadth, from `MIN_SKIN_SHARE` to `NARROW_LIP_SKIN_SHARE`. Faces are upright as the `neutral` one (478,
+    2 or 3) is."""
     lip, _, nose = SKIN_ABOVE_COLUMNS[4]
     now, usual = ((one[..., lip, :2] - one[..., nose, :2]) @ _down(neutral) for one in (faces, neutral))
     return np.asarray(np.clip(now / np.maximum(usual, 1e-6), MIN_SKIN_SHARE, NARROW_LIP_SKIN_SHARE), float)

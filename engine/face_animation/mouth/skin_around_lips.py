@@ -12,8 +12,8 @@ from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, NOSE_BASE_VERTEX
 
 
 def with_lips(vertices: NDArray[np.integer], moved: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(478, K) how far each vertex of a face goes where some `vertices` (L,) of its lips go as far as `moved` (L, K): between the least and the most
-    of them, and nowhere from the nose's base up and at the contour."""
+    """(478, K) how far each vertex of a face goes where some `vertices` (L,) of its lips go as far as `moved` (L, K).
+    It is between the least and the most of them, and nothing from the nose's base up and at the contour."""
     face = canonical_face().astype(float)
     pairs = edges(face_triangles())
     weight = 1 / np.maximum(np.linalg.norm(face[pairs[:, 0]] - face[pairs[:, 1]], axis=1), 1e-6)

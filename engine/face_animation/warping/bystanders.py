@@ -32,8 +32,8 @@ MASK_BLUR_PIXELS = 0.7
 def own_share(
     rgb: NDArray[np.uint8], people: NDArray[np.float32], face: NDArray[np.floating], others: NDArray[np.floating]
 ) -> NDArray[np.float32]:
-    """(H, W) in [0, 1]: how far what is seen of `people` (H, W) in a picture (H, W, 3) belongs to the person with this `face`
-    (4,), rather than to those with `others` (K, 4): boxes as x, y, width, height in pixels."""
+    """(H, W) in [0, 1]: how far what is seen of `people` (H, W) in a picture (H, W, 3) belongs to the person with this
+    `face` (4,), rather than to those with `others` (K, 4). Boxes are x, y, width, height in pixels."""
     size = size_within(rgb.shape, WORKING_SIZE_PIXELS)
     factor = size[0] / rgb.shape[1]
     faces = np.vstack([face, others]) * factor

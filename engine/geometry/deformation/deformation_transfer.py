@@ -119,8 +119,8 @@ class DeformationTransfer:
 def deformation_gradients(
     rest: NDArray[np.floating], deformed: NDArray[np.floating], triangles: NDArray[np.integer]
 ) -> NDArray[np.float64]:
-    """(T, 3, 3): what each triangle (T, 3) of vertices (V, 3) went through: it takes edges at rest to edges deformed, and the
-    normal, as long as the root of twice the area, to the normal (Sumner and Popovic, section 3)."""
+    """(T, 3, 3) what each triangle (T, 3) of vertices (V, 3) went through. It takes edges at rest to edges deformed,
+    and the normal to the normal, as long as the root of twice the area (Sumner and Popovic, section 3)."""
     frames = []
     for vertices in (rest, deformed):
         places = np.asarray(vertices, np.float64)
@@ -146,8 +146,8 @@ def _gradients(vertices: NDArray[np.float64], triangles: NDArray[np.intp]) -> tu
 def _unheld_pieces(
     corners: NDArray[np.intp], areas: NDArray[np.float64], stiffness: sp.csr_array, held: NDArray[np.intp]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], sp.csr_array]:
-    """Of the P pieces of which no vertex is held: (V,) which of them each vertex belongs to, P for others; a vertex of each,
-    (P,); and (P, T) sparse: the share that each triangle has in the area of each."""
+    """The P pieces of which no vertex is held. Returns (V,) which of them each vertex belongs to, P for others; (P,) a
+    vertex of each; and (P, T) sparse, the share that each triangle has in the area of each."""
     _, piece = connected_components(stiffness, directed=False)
     of_triangle = piece[corners[:, 0]]
     unheld = np.setdiff1d(of_triangle, piece[held])

@@ -28,10 +28,10 @@ MIN_ENERGY_DECREASE_SHARE = 1e-5
 class LaplacianDeformation:
     """Spreads smoothly over the surface what its targets ask for beyond a rigid motion.
 
-    The displacement d from the surface carried along with its targets minimises d' L d (`order` 1: harmonic, in the middle
-    of what surrounds it, with creases at single targets) or d' L M^-1 L d (`order` 2: biharmonic, smooth there, too) plus what
-    soft targets cost. L has cotangent weights; M are the vertices' areas as shares of their mean, so that weights of soft
-    targets are without unit.
+    The displacement d from the surface carried along with its targets minimises an energy plus what soft targets cost.
+    With `order` 1 that is d' L d: harmonic, in the middle of what surrounds it, with creases at single targets. With
+    `order` 2 it is d' L M^-1 L d: biharmonic, smooth there, too. L has cotangent weights; M are the vertices' areas as
+    shares of their mean, so that weights of soft targets are without unit.
 
     Source: M. Botsch, O. Sorkine, On linear variational surface deformation methods, IEEE TVCG 14, 2008 (sections 3, 4).
     """

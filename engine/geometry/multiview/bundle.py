@@ -1,9 +1,9 @@
 """Bundles: cameras, points of space, and the pixels at which the ones see the others.
 
 A camera is a rotation R and a translation t in vision's axes (x right, y down, z into the picture), and one of a few
-lenses: a focal length in pixels with two radial coefficients of distortion, its principal point known. A point p is seen
-at f (1 + k1 r2 + k2 r2^2) (x, y) / z + centre, (x, y, z) = R p + t, r2 = (x^2 + y^2) / z^2 (Brown's model, as
-`engine.geometry.camera.Camera` and OpenCV have it).
+lenses: a focal length in pixels with two radial coefficients of distortion, its principal point known. A point p is
+seen at f (1 + k1 r2 + k2 r2^2) (x, y) / z + centre. There (x, y, z) = R p + t and r2 = (x^2 + y^2) / z^2 (Brown's
+model, as `engine.geometry.camera.Camera` and OpenCV have it).
 """
 
 from __future__ import annotations

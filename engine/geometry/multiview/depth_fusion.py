@@ -152,8 +152,8 @@ def _height(
     projection: np.ndarray,
     limits: np.ndarray,
 ) -> tuple[int, float]:
-    """Whether a view tells of a point: 1 if it has a surface near it, -1 if it looks through it, else 0; and how far along
-    the normal that surface lies."""
+    """Whether a view tells of a point, and how far along the normal the surface lies of which it tells. It is 1 if it
+    has a surface near it, -1 if it looks through it, else 0."""
     x, y, z = point
     p = projection
     away = p[2, 0] * x + p[2, 1] * y + p[2, 2] * z + p[2, 3]

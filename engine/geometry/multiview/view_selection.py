@@ -48,8 +48,8 @@ def shared_sight(
 def chosen_sources(
     score: NDArray[np.float64], cameras: Sequence[Camera], centre: NDArray[np.floating], count: int
 ) -> list[list[int]]:
-    """For each view the best `count` of those with which it shares sight (V, V), or fewer where no more do; one after another,
-    and each counts less the nearer it stands to one that is chosen already, as seen from `centre` (3,)."""
+    """For each view the best `count` of those with which it shares sight (V, V), or fewer where no more do. They are
+    taken one after another. Each counts less the nearer it stands to one that is taken, as seen from `centre` (3,)."""
     eyes = np.array([camera.eye for camera in cameras]) - centre
     eyes /= np.linalg.norm(eyes, axis=1, keepdims=True)
     between = np.degrees(np.arccos(np.clip(eyes @ eyes.T, -1, 1)))

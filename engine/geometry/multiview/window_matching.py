@@ -35,8 +35,9 @@ SAMPLE_COUNT = len(WINDOW_OFFSETS)
     BELOW_START,
     BELOW_RIGHT_START,
 ) = range(0, 10 * SAMPLE_COUNT, SAMPLE_COUNT)
-"""Where in the memory of a window its samples' values begin: offsets, grey levels less their mean, and 1 for those of the body, 0
-for others; and, of the picture that the window is compared with, the places between four pixels, and these."""
+"""Where in the memory of a window its samples' values begin: offsets, grey levels less their mean, and 1 for those of
+the body, 0 for others. Of the picture that the window is compared with, there are the places between four pixels, and
+these."""
 WINDOW_MEMORY = 10 * SAMPLE_COUNT
 """Values in the memory of a window: one array, so that a compiler knows what lies apart in it."""
 BEST_SOURCE_COUNT = 2
@@ -130,8 +131,8 @@ def _unlikeness(
     across: tuple[np.float32, np.float32, np.float32],
     along: tuple[np.float32, np.float32, np.float32],
 ) -> np.float32:
-    """One less the correlation of a window with the picture that begins at `begin`, where `across` and `along` say in which column
-    and in which row the window's middle lies, and how these change by a pixel to the right and by one down.
+    """One less the correlation of a window with the picture that begins at `begin`. `across` and `along` say in which
+    column and in which row the window's middle lies, and how these change by a pixel to the right and by one down.
 
     In three loops: only the one between, which fetches, is not done for eight samples at once.
     """

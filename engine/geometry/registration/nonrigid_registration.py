@@ -44,10 +44,11 @@ class ElasticSurface:
     matched : (T,) bool: those that points are of.
     stiffness : (V,) by how much more than others the hinges at a vertex keep their bend.
     trust : (V,) in [0, 1]: what points near a vertex count.
-    held : (V,) bool: those that stay where they are at first; by default none.
-    noise : (V,) or one for all: metres by which points may scatter before they count less; by default as many as they like.
-    anchor : what it counts that the surface stays where it is at rest, if points, all of them, count 1: bending alone lets a
-        limb that no point is of swing about the joint at which the points end.
+    held : (V,) bool, those that stay where they are at first; none by default.
+    noise : (V,) or one for all, metres by which points may scatter before they count less; as many as they like by
+    default.
+    anchor : what it counts that the surface stays where it is at rest, where all points together count 1. Bending alone
+        lets a limb without points swing about the joint at which the points end.
     contact : (C, V) sparse, by default none: each row is a point of the surface minus another that it touches, in weights of
         vertices; times the vertices, it is what is between the two.
     """

@@ -1,10 +1,10 @@
 """Alpha matting: how much of each pixel along an outline belongs to the front layer.
 
-Closed-form matting (Levin, Lischinski, Weiss, "A closed-form solution to natural image matting", PAMI 2008): inside each
-3x3 window alpha is taken to be an affine function of the colour, which makes alpha the minimum of a quadratic form, the
-matting Laplacian. It is solved on the unknown pixels of a trimap only, from a coarse picture to a fine one. A second source
-of evidence holds it: pairs of a front and a back colour found along rays (`engine.imaging.alpha.colour_pairs`). They carry
-alpha across wide bands of hair where the Laplacian alone would bleed.
+Closed-form matting (Levin, Lischinski, Weiss, "A closed-form solution to natural image matting", PAMI 2008). Inside
+each 3x3 window alpha is taken to be an affine function of the colour. That makes alpha the minimum of a quadratic form,
+the matting Laplacian. It is solved on the unknown pixels of a trimap only, from a coarse picture to a fine one. A
+second source of evidence holds it: pairs of a front and a back colour found along rays
+(`engine.imaging.alpha.colour_pairs`). They carry alpha across wide bands of hair where the Laplacian alone would bleed.
 """
 
 from __future__ import annotations

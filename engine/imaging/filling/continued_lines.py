@@ -71,8 +71,12 @@ class _Canvas:
 
 @dataclass(frozen=True)
 class _Strip:
-    """The surroundings of a line, a row for each pixel along it from `start`: `colours` (N, K, 3), not numbers in the hole,
-    `known` (N,) where the line and what is next to it are not in it, `open` (N,) where the line itself is."""
+    """The surroundings of a line, a row for each pixel along it from `start`.
+
+    colours : (N, K, 3), not numbers in the hole.
+    known : (N,) where the line and what is next to it are not in the hole.
+    open : (N,) where the line itself is in it.
+    """
 
     start: int
     colours: NDArray[np.float32]

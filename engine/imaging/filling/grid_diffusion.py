@@ -11,9 +11,9 @@ from engine.imaging.masks.mask_pieces import bounding_box
 
 
 def diffuse(values: NDArray[np.float32], mask: NDArray[np.bool_], rounds: int) -> NDArray[np.float32]:
-    """`values` (N, C) of the N pixels of `mask` (H, W), in their order, each replaced by the mean of itself and its
-    neighbours (of eight) in the mask, `rounds` times: on open ground a blur with a standard deviation of
-    sqrt(2 / 3 rounds) pixels."""
+    """`values` (N, C) of the N pixels of `mask` (H, W), in their order, each replaced `rounds` times by the mean of
+    itself and its neighbours (of eight) in the mask. On open ground that is a blur with a standard deviation of sqrt(2
+    / 3 rounds) pixels."""
     if not len(values):
         return values.copy()
     mask = mask[bounding_box(mask)]

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 WORKING_EXTENT = 1000.0
 """Units to which the larger side of the points is brought first: OpenCV's subdivision counts in single precision."""
 SUBDIVISION_HALF_SIDE = 20_000
-"""Half the side, in the same units, of the plane that OpenCV divides, far larger than the points: it begins with a triangle around that plane, and what is
-thinner than a triangle that reaches its corners would be missing along the hull."""
+"""Half the side, in the same units, of the plane that OpenCV divides, far larger than the points. It begins with a
+triangle around that plane. What is thinner than a triangle that reaches its corners would be missing along the hull."""
 
 
 def delaunay(points: NDArray[np.floating]) -> NDArray[np.int32]:

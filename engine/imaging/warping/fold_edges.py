@@ -21,8 +21,8 @@ def smooth_folds(
     Parameters
     ----------
     frame : (H, W, 3) uint8, a picture warped by `origin` (H, W, 2), its inverse map.
-    jump : pixels of the source by which the origins of two neighbours differ where the picture folds: more than where it
-        is only squeezed.
+    jump : pixels of the source by which the origins of two neighbours differ at a fold: more than where it is only
+    squeezed.
     moved, triangles : the mesh (V, 2), (T, 3) that made the map; where it folds, triangles lie face down.
     """
     height, width = frame.shape[:2]

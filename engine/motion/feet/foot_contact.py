@@ -1,7 +1,7 @@
 """When feet stand on the ground, and how well they do it.
 
 A foot stands while its heel or its ball is low and slow (Kovar, Schreiner and Gleicher, "Footskate cleanup for motion
-capture editing", 2002, section 3); a foot that stands goes on standing a little beyond both limits, so that noise does
+capture editing", 2002, section 3). A foot that stands goes on standing a little beyond both limits, so that noise does
 not end it. A foot that wanders off while it seems to stand, shuffles: it is let go while it does.
 """
 

@@ -52,8 +52,8 @@ def set_legs(world: Array, places: Array, feet: Sequence[tuple[Sole, HeldFoot]])
 
 
 def ankle_over_ball(sole: Sole, turns: Array, level: Array, pitch: Array) -> Array:
-    """(F, 3) from where the ball lies, when the foot is flat, to the ankle of the rolling foot: world turns `turns`
-    (F, 4) of the foot, `level` of the foot if it lay flat, and `pitch` (F,) radians between them."""
+    """(F, 3) from where the ball lies, when the foot is flat, to the ankle of the rolling foot. `turns` (F, 4) are the
+    foot's in the world, `level` is its turn if it lay flat, and `pitch` (F,) radians are between them."""
     over_ball = -sole.ball - rotation.rotate(turns, sole.toe)
     over_heel = rotation.rotate(level, sole.heel - sole.toe - sole.ball) - rotation.rotate(turns, sole.heel)
     return np.where(pitch[:, None] > 0, over_ball, over_heel)

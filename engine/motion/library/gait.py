@@ -1,8 +1,9 @@
 """Walk and run.
 
 Angles and their times over the gait cycle follow Winter, "Biomechanics and motor control of human movement" (2009),
-chapters 3 and 4, and for the run Novacheck, "The biomechanics of running" (1998); the cycle begins when the left foot
-touches the ground. A standing foot has one place on the ground and rolls over it; between, it goes to the next.
+chapters 3 and 4. For the run they follow Novacheck, "The biomechanics of running" (1998). The cycle begins when the
+left foot touches the ground. A standing foot has one place on the ground and rolls over it; between, it goes to the
+next.
 """
 
 from __future__ import annotations

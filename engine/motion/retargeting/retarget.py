@@ -111,8 +111,8 @@ def clean_motion(motion: SourceMotion, joints: Mapping[str, str]) -> tuple[Sourc
 
 
 def world_upright(motion: SourceMotion, joints: Mapping[str, str], places: Array) -> Array:
-    """(4,) the turn of the motion's world that brings its vertical to y: where heads are, seen from the feet, over all
-    frames; y where that is in doubt, and where the format says so."""
+    """(4,) the turn of the motion's world that brings its vertical to y. The vertical is where heads are, seen from the
+    feet, over all frames; it is y where that is in doubt, or where the format says so."""
     if motion.up is not None:
         return rotation.between(motion.up, (0.0, 1.0, 0.0))
     at = {

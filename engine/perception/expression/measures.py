@@ -26,8 +26,9 @@ FACE_MEASURES = slice(0, 9)
 """The measures of the face itself among `MEASURES`, without the head's turn."""
 
 REST_SPREAD = np.array([0.06, 0.10, 0.07, 0.07, 0.04, 0.04, 0.03, 0.08, 0.08, 0.25, 0.20, 0.20])
-"""By how much each of `MEASURES` may differ from rest on a face that shows nothing: twice to three times what it
-varies by while people wait (from the idle performances and the quiet stretches of the clips in `benchmarks/driver_segments`)."""
+"""By how much each of `MEASURES` may differ from rest on a face that shows nothing. That is twice to three times what
+it varies by while people wait (from the idle performances and the quiet stretches of the clips in
+`benchmarks/driver_segments`)."""
 
 SPREAD_BETWEEN_PEOPLE = np.array([0.03, 0.10, 0.04, 0.04, 0.10, 0.08, 0.05, 0.06, 0.06, 0.20, 0.20, 0.20])
 """By how much the measures at rest differ between people."""

@@ -18,8 +18,8 @@ def return_share(frames: ArrayLike) -> NDArray[np.float64]:
 
 
 class HeldFace:
-    """A face that is not always seen: where it is lost it stays as it was last seen, where it comes back it eases over
-    from there; before it is first seen it is as it will be."""
+    """A face that is not always seen. Where it is lost it stays as it was last seen, and where it comes back it eases
+    over from there. Before it is first seen it is as it will be."""
 
     def __init__(self) -> None:
         self._waiting = 0

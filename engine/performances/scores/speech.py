@@ -1,8 +1,8 @@
 """Speech without sound: sentences as phonemes, phonemes as shapes of the mouth that melt into each other.
 
 Shapes follow each other as in M. Cohen, D. Massaro, Modeling Coarticulation in Synthetic Visual Speech, 1993: each
-phoneme pulls at the mouth around its own time and the more the more its shape matters (lips that must meet, do);
-what is seen is the mean of all, weighted by their pull. Stress carries brows and head along, as in real talk.
+phoneme pulls at the mouth around its own time. It pulls the more, the more its shape matters (lips that must meet, do).
+What is seen is the mean of all, weighted by their pull. Stress carries brows and head along, as in real talk.
 """
 
 from __future__ import annotations

@@ -19,9 +19,9 @@ KMEANS_SEEDS = 8
 
 
 def appearance_clusters(descriptors: Sequence[NDArray[np.floating]], same: float) -> tuple[int, ...]:
-    """For each of N descriptors of one person's faces which look it is of, numbered by how many have it, the most first: as many looks, four
-    at most, as k-means finds apart, with `MIN_PHOTOS_OF_LOOK` photographs each; else all are of one. `same` is the distance of descriptors
-    below which faces are one person's."""
+    """For each of N descriptors of one person's faces which look it is of, numbered by how many have it, the most
+    first. There are as many looks, four at most, as k-means finds apart with `MIN_PHOTOS_OF_LOOK` photographs each;
+    else all are of one. `same` is the distance of descriptors below which faces are one person's."""
     rows = np.asarray(descriptors, np.float64)
     for count in range(min(MAX_LOOKS, len(rows) // MIN_PHOTOS_OF_LOOK), 1, -1):
         labels = min(

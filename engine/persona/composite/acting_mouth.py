@@ -20,8 +20,8 @@ from engine.run import Run
 
 
 def acting_mouth(persona: Persona, target: TargetFace, faces: NDArray[np.floating], run: Run) -> MouthInterior:
-    """What is between the lips of the persona's photograph `target`, whose face does `faces` (F, 478, 2): the upper teeth of one photograph
-    before what is modelled, in the target's light; warns where no photograph has any."""
+    """What is between the lips of the persona's photograph `target`, whose face does `faces` (F, 478, 2). The upper
+    teeth of one photograph stand before what is modelled, in the target's light. Warns where no photograph has any."""
     rgb, mesh = target.rgb, target.mesh
     at = resting_mouth(frontalise(mesh[None])[0], persona.neutral)
     appearing, softness = appearing_opening(mesh), picture_softness(rgb, mesh)

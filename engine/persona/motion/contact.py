@@ -1,8 +1,8 @@
 """Lids and lips that meet where the driver's do: how far two sides of an opening are apart is carried over by itself.
 
-A factor for each point (`engine.persona.motion.deformation_transfer`) lets them nearly meet: it is denoised, and those of an upper and a
-lower lip are not told together. Here the gap between the two vertices that face each other is a share of what it is at rest, on the puppet
-as on the driver, and what the mesh lacks to it is added as smoothly as the mesh bends.
+A factor for each point (`engine.persona.motion.deformation_transfer`) lets them nearly meet: it is denoised, and those
+of an upper and a lower lip are not told together. Here the gap between the two vertices that face each other is a share
+of what it is at rest, on the puppet as on the driver. What the mesh lacks to it is added as smoothly as the mesh bends.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def corrected(
     """(478, 3) the puppet's movements `moved` (478, 3), changed so that its openings are as far shut as the driver's.
 
     deformation : (478, 3) the driver's movements. factors : (478,) or (478, 1), by which they were made longer. driver, puppet : (478, 3)
-    both faces at rest, from the front, in eye distances.
+        both faces at rest, from the front, in eye distances.
     """
     upper, lower, spread = _openings()
     before, own = driver[lower] - driver[upper], puppet[lower] - puppet[upper]
@@ -51,8 +51,8 @@ def corrected(
 
 @cache
 def _openings() -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """(P,) the upper and the lower vertices that face each other, and what each gap's change is spread by, (478, P): the smoothest
-    movement, that of least bending, after which all gaps are as much wider as is asked."""
+    """(P,) the upper and (P,) the lower vertices that face each other, and (478, P) what each gap's change is spread
+    by. That is the smoothest movement, of least bending, after which all gaps are as much wider as is asked."""
     pairs = [
         (contour[place], contour[-place])
         for contour in (LIPS_INNER, RIGHT_EYE, LEFT_EYE)

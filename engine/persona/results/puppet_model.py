@@ -31,8 +31,9 @@ MIN_UNIT_OFFSET_METRES = 1e-4
 
 
 def write_puppet(path: Path, persona: Persona, units: FaceUnits, texture: NDArray[np.uint8], synthetic: bool) -> None:
-    """Write the GLB: the neutral face with the average shape's relief, y up, facing +z, one joint that turns it, `Head`; all of ARKit's face
-    units; and behind openings for eyes and mouth what is there (`engine.persona.results.inner_parts`), with a material of its own.
+    """Write the GLB. It holds the neutral face with the average shape's relief, y up, facing +z, one joint that turns
+    it, `Head`, and all of ARKit's face units. Behind openings for eyes and mouth is what is there
+    (`engine.persona.results.inner_parts`), with a material of its own.
 
     texture : (H, W, 3) of the persona's frame.
     """

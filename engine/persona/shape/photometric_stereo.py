@@ -35,8 +35,9 @@ def photometric_stereo(
 ) -> PhotometricShape:
     """The normals of photographs as their subspace has them, over `area` (H, W).
 
-    template : (H, W, 3) normals of a face that is alike. trusted : (H, W) bool, where it is skin: there the template tells which
-    mixtures are normals (the rest of the generalised bas-relief ambiguity among them).
+    template : (H, W, 3) normals of a face that is alike.
+    trusted : (H, W) bool, where it is skin. There the template tells which mixtures are normals (the rest of the
+        generalised bas-relief ambiguity among them).
     """
     rows = seen.projected[:, area]
     _, vectors = np.linalg.eigh((rows @ rows.T).astype(np.float64))

@@ -1,8 +1,9 @@
 """Where photographs show the face's own skin, and not the hair, caps, hands or surroundings that lie on it or beside it.
 
-What comes over a face comes from around it: two mixtures of colours are learnt of each photograph, one of its cheeks, nose and chin, one of
-what lies about the face's oval and is not of those colours (ears and neck are). A cut between them, which follows contrast, tells how far
-the surroundings reach into the face. It asks no other photograph: hair that falls on the forehead in most of them is hair in each.
+What comes over a face comes from around it. Two mixtures of colours are learnt of each photograph: one of its cheeks,
+nose and chin, and one of what lies about the face's oval and is not of those colours (ears and neck are). A cut between
+them, which follows contrast, tells how far the surroundings reach into the face. It asks no other photograph: hair that
+falls on the forehead in most of them is hair in each.
 """
 
 from __future__ import annotations
@@ -39,8 +40,9 @@ SKIN_QUANTILE = 0.95
 UNLIKE_COLOUR_COST = 20.0
 """Of a colour that is quite unlike."""
 FEATURE_MARGIN, RIM_MARGIN, CENTRE_MARGIN = 0.035, 0.02, 0.105
-"""Of the frame's width: about eyes, brows and lips, which have no skin's colour; beyond the oval, where the surroundings begin; and within
-it, where the middle of the face begins, which is skin."""
+"""Shares of the frame's width. The first is the margin about eyes, brows and lips, which have no skin's colour. The
+second, beyond the oval, is where the surroundings begin. The third, within it, is where the middle of the face
+begins."""
 FEATHER_SIGMA_WIDTHS = 0.015
 """Of the frame's width: sigma by which the border is softened, and how far it is set back before."""
 

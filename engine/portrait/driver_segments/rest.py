@@ -33,8 +33,8 @@ _MEASURES_BUT_LIDS = np.delete(np.arange(len(MEASURES)), LID_MEASURES)
 def own_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     """The measures (12,) of this person at rest, from those of all frames (N, 12) that show the face.
 
-    The frame among whose nearest neighbours it is closest, and which is not unlike a resting face at all: so a smile
-    that lasts through half of a clip is not taken for rest, where the other half is quiet.
+    The frame that is closest to its nearest neighbours, and is not unlike a resting face at all. So a smile that lasts
+    through half of a clip is not taken for rest, where the other half is quiet.
 
     It is a habit: a segment ends where the face has come back to what it comes back to, be that a little amused. A calm face
     that is seen in fewer than `NEIGHBOUR_SHARE` of the frames is an exception. `neutral.estimate_rest` looks for that one, however

@@ -92,8 +92,9 @@ def detect_segments(
 
     Parameters
     ----------
-    values : (N, 12) the measures of every frame; whatever where no face was `found` (N,). rest : (12,) the person's
-    measures at rest. fps : frames a second.
+    values : (N, 12) the measures of every frame; whatever where no face was `found` (N,).
+    rest : (12,) the person's measures at rest.
+    fps : frames a second.
     """
     moved = np.asarray(values - rest, float)
     unresting = np.where(found, distance_from_rest(moved), np.inf)

@@ -1,7 +1,7 @@
 """From rest and back: a performance made to begin and to end in the target at rest.
 
-At rest all control points lie where the picture has them, so that any pose can be led there by shrinking its offsets:
-what is drawn on the way is a true frame of the animation, as sharp as any other.
+At rest all control points lie where the picture has them, so that any pose can be led there by shrinking its offsets.
+What is drawn on the way is a true frame of the animation, as sharp as any other.
 """
 
 from __future__ import annotations

@@ -40,8 +40,8 @@ class MeetingRims:
         return np.concatenate([self.upper, np.unique(self.between)])
 
     def met(self, eyeball: NDArray[np.float64], vertices: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(U + L, 3) where `vertices` (V, 3) of both rims are as a blink ends: the upper ones on the lower rim, before the
-        eyeball (E, 3) all the way, and the lower ones as much before it as that takes."""
+        """(U + L, 3) where `vertices` (V, 3) of both rims are as a blink ends. The upper ones lie on the lower rim,
+        before the eyeball (E, 3) all the way, and the lower ones as much before it as that takes."""
         upper = vertices[self.upper]
         end = upper + before_the_eye(eyeball, upper, self.lower(vertices) - upper)
         ahead = end - self.lower(vertices)

@@ -54,9 +54,9 @@ def place_parts(
 ) -> NDArray[np.float64]:
     """All the template's vertices (V, 3) for the `fitted` skin (S, 3), from `model` (V, 3), the whole template before the fit.
 
-    Skin is as it was fitted; what is in the mouth is the template's own, as the face is turned and the skin about it is large,
-    its upper incisors `SHOWN_INCISORS_METRES` below the lip, behind the lips; and what is left (eyeballs, lashes, cages of cloth,
-    joints' cubes) goes with the nearest skin.
+    Skin is as it was fitted. What is in the mouth is the template's own, as the face is turned and the skin about it is
+    large. Its upper incisors are behind the lips, `SHOWN_INCISORS_METRES` below the upper one. What is left (eyeballs,
+    lashes, cages of cloth, joints' cubes) goes with the nearest skin.
     """
     before, after = np.asarray(model, np.float64), np.asarray(fitted, np.float64)
     out = _carried_by_skin(before, before[skin.vertices], after)
@@ -102,8 +102,8 @@ def _in_mouth(
 def _back_in_expressions(
     template: Template, skin: Skin, fitted: NDArray[np.float64], placed: Similarity, head: Similarity
 ) -> float:
-    """Metres by which what is `placed` in the mouth of the skin (S, 3) has to be set back so that, seen from the front, none of it
-    comes through what any of `_mouth_poses` makes of the face; what is seen between lips may be.
+    """Metres by which what is `placed` in the mouth of the skin (S, 3) has to be set back. Then, seen from the front,
+    none of it comes through what any of `_mouth_poses` makes of the face; it may be seen between lips.
 
     Skin and teeth move as the template's do, as large as the `head`."""
     parts = triangulate(template.quads[template.faces(*MOUTH_PARTS)]).astype(np.int32)

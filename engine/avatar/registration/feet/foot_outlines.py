@@ -37,8 +37,12 @@ class Silhouette:
 
 @dataclass(frozen=True)
 class FootSight:
-    """What a silhouette has about a foot: the `camera` of that part, how far each pixel (h, w, 1) is outside the mask, negative
-    within, 0 along its own rim, metres at the foot; and where the rest of the body is `beside` (h, w)."""
+    """What a silhouette has about a foot.
+
+    camera : of that part of the picture.
+    outside : (h, w, 1) metres at the foot that each pixel is outside the mask, negative within, 0 along its own rim.
+    beside : (h, w) where the rest of the body is.
+    """
 
     camera: Camera
     outside: NDArray[np.float32]
@@ -94,8 +98,8 @@ def foot_sights(
 def outline_points(
     sight: FootSight, vertices: NDArray[np.float64], triangles: NDArray[np.integer], rest: NDArray[np.float64]
 ) -> OutlinePoints:
-    """The points of a foot, `vertices` (F, 3) where it is and `rest` (F, 3) where it is at rest, on its outline in a sight where that
-    ends neither at the rest of the body nor at the picture's border."""
+    """A foot's points on its outline in a sight, where that ends neither at the rest of the body nor at the picture's
+    border. The foot has `vertices` (F, 3) where it is and `rest` (F, 3) at rest."""
     raster = rasterise(sight.camera.project(vertices), triangles, sight.camera.size, perspective=True)
     shown = raster.triangle >= 0
     rim = shown & dilate_mask(~shown, 1) & ~sight.beside

@@ -57,10 +57,11 @@ class Skin:
     triangles : (T, 3) into them, counter-clockwise from outside.
     visible : (T,) seen from outside; the mouth's inside and the eyes' sockets are not.
     bones, weights : (S, K) the joints that move each, and by how much, summing to one.
-    regions : masks (S,) by name: `head`, `face`, `lips` (with the skin around), `lids`, `hands`, `whole_hands` (those that no forearm moves),
-        `feet`, `lower_feet` (what
-        a shoe covers at least), `inner` (part of no visible triangle), `hidden_by_cloth` (nipples, navel), `left_eye_rim` and
-        `right_eye_rim` (where lids end before the eyeball: `engine.avatar.registration.template_skin.lid_rims`), `left_eye_lids` and `right_eye_lids` (close to there).
+    regions : masks (S,) by name: `head`, `face`, `lips` (with the skin around), `lids`, `hands`, `whole_hands` (those
+        that no forearm moves), `feet`, `lower_feet` (what a shoe covers at least), `inner` (part of no visible
+        triangle), `hidden_by_cloth` (nipples, navel). `left_eye_rim` and `right_eye_rim` are where lids end before the
+        eyeball (`engine.avatar.registration.template_skin.lid_rims`), `left_eye_lids` and `right_eye_lids` what is
+        close to there.
     face_points : (68,) the face landmarks, all of them vertices that are seen from the front.
     lip_contact : (C, S) the lips' contact (`engine.avatar.registration.template_skin.lip_contact`).
     """

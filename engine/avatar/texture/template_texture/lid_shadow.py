@@ -34,8 +34,9 @@ MIN_SEEN_LIGHT_SHARE = 0.05
 
 
 def lid_shadow(surface: ChartedSurface, points: NDArray[np.float64], gaze: NDArray[np.float64]) -> NDArray[np.float32]:
-    """(N,) what an eyeball's colours at `points` (N, 3) are multiplied by: 1 where as much light comes as on average over what lids
-    leave to be seen, from which the colours are, or more; it goes over to 1 where lids hide it, since that shows when the eye turns. `gaze` (3,): where it looks, a unit vector; y is up."""
+    """(N,) what an eyeball's colours at `points` (N, 3) are multiplied by. It is 1 where at least as much light comes
+    as on average over what lids leave to be seen, from which the colours are. It goes over to 1 where lids hide it,
+    since that shows when the eye turns. `gaze` (3,): where it looks, a unit vector; y is up."""
     middle = points.mean(0)
     half = (LIGHT_PICTURE_PIXELS - 1) / 2
     lens = Camera(
@@ -74,10 +75,9 @@ def lid_shadow(surface: ChartedSurface, points: NDArray[np.float64], gaze: NDArr
 def lash_shadow(
     points: NDArray[np.float64], rim: NDArray[np.float64], gaze: NDArray[np.float64]
 ) -> NDArray[np.float32]:
-    """(N,) what an eyeball's colours at `points` (N, 3) are multiplied by for the lashes of the upper lid, which an avatar does not
-    have: least right beneath that lid; it ends softly where the lid hides it, since that shows when the eye
-    turns. `rim` (R, 3): the loop in which the lids end; `gaze` (3,): where the
-    eye looks; y is up."""
+    """(N,) what an eyeball's colours at `points` (N, 3) are multiplied by for the lashes of the upper lid, which an
+    avatar does not have: least right beneath that lid. It ends softly where the lid hides it, since that shows when the
+    eye turns. `rim` (R, 3): the loop in which the lids end; `gaze` (3,): where the eye looks; y is up."""
     aside = np.cross([0.0, 1.0, 0.0], gaze)
     aside /= np.linalg.norm(aside)
     axes = np.stack([aside, np.cross(gaze, aside)], 1)

@@ -114,8 +114,8 @@ def witness(
     hides: NDArray[np.int32] | None = None,
     strange: NDArray[np.bool_] | None = None,
 ) -> Witness:
-    """The picture (H, W, 3) as a witness of the shell; `hides` (T, 3): the triangles that hide others, all unless they are given;
-    `strange` (h, w): pixels that have not the colours of what they are labelled as."""
+    """The picture (H, W, 3) as a witness of the shell. `hides` (T, 3) are the triangles that hide others, all unless
+    they are given. `strange` (h, w) are pixels that have not the colours of what they are labelled as."""
     normals = vertex_normals(shell.pictured, shell.mesh.triangles)
     towards = -normals[:, 2:]  # y is down, so that the triangles turn the other way
     height, width = silhouette.mask.shape

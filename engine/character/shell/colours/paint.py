@@ -75,7 +75,8 @@ def paint_shell(
     rgb : (H, W, 3), the picture.
     labels : what each pixel of the grid shows; what hangs over the legs is the trunk's (`Labels.layered`).
     back : what is behind: the front seen through without what only fronts have, all of it, or what the sides of each row say.
-    hides : (T, 3), the triangles that are shown and hide others, where that is not all of the shell: what else it has is not painted.
+    hides : (T, 3), the triangles that are shown and hide others, all of the shell's by default. What else it has is not
+        painted.
     strange : (h, w), pixels of the grid that have not the colours of what they are labelled as.
 
     Raises

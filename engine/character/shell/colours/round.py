@@ -68,8 +68,12 @@ OPPOSITE_COLUMN_AND_WEIGHT = (
 
 @dataclass(frozen=True)
 class RowModel:
-    """What the sides of each row say of it: `colours` (A, `UNROLLED_COLUMNS`, 3), and how far from that they are themselves, `spread`
-    (A, `UNROLLED_COLUMNS`), CIE Lab; and how `sure` (A,) each row is of itself, 0 where only further ones say it."""
+    """What the sides of each row say of it.
+
+    colours : (A, `UNROLLED_COLUMNS`, 3).
+    spread : (A, `UNROLLED_COLUMNS`) how far the sides are from these colours, CIE Lab.
+    sure : (A,) how sure each row is of itself; 0 where only further ones say it.
+    """
 
     colours: NDArray[np.float32]
     spread: NDArray[np.float32]
@@ -180,8 +184,9 @@ def turned_rows(values: NDArray, by: NDArray[np.intp]) -> NDArray:
 def row_model(
     seen: NDArray[np.floating], weight: NDArray[np.floating], across: float = TRUNK_CROSSING_METRES
 ) -> RowModel:
-    """What is `seen` (A, `UNROLLED_COLUMNS`, 3) of the sides of each row, the middle column facing the viewer; `weight` (A,
-    `UNROLLED_COLUMNS`): how well; `across`: metres along the part that are as far as the other side."""
+    """What is `seen` (A, `UNROLLED_COLUMNS`, 3) of the sides of each row, the middle column facing the viewer. `weight`
+    (A, `UNROLLED_COLUMNS`) is how well it is seen. `across` is how many metres along the part are as far as the other
+    side."""
     sides = [_side(seen, weight * (side * COLUMN_SINES > 0)) for side in (-1, 1)]
     values, counts = (np.stack(each, 1) for each in zip(*sides, strict=True))  # (A, 2, 3 + 1), (A, 2)
     known, other = counts[..., None], OTHER_SIDE_WEIGHT * counts[:, ::-1, None]
@@ -229,8 +234,9 @@ def _on_both_sides(values: NDArray[np.floating]) -> NDArray[np.float32]:
 
 
 def _nearest_rows(values: NDArray[np.floating], count: NDArray[np.floating], across: float) -> NDArray[np.float32]:
-    """Values (A, 2, C) of a part's rows, those that few cells (A, 2) tell of as the nearest row has them that more do, of the same
-    side, or, where that is `across` further off, of the other: no garment fades into the next."""
+    """Values (A, 2, C) of a part's rows, of which those that few cells (A, 2) tell of are taken from another. That is
+    the nearest row of the same side of which more cells tell, or, where that is `across` further off, of the other
+    side. No garment fades into the next."""
     known = count >= min(MIN_ROW_CELLS, float(count.max()))
     rows = np.arange(len(values))
     places, away = np.zeros((2, len(values)), np.intp), np.full((2, len(values)), np.inf)

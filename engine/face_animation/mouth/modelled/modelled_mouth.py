@@ -48,18 +48,20 @@ INCISORS_SHARE = 0.25
 LIGHTEST_PERCENTILE = 80
 """Of the light on incisors, that which their colours are of."""
 ABOVE_LIP_EYE_DISTANCES, BELOW_LIP_EYE_DISTANCES = 0.03, 0.05
-"""Eye distances above and below the lower lip's inner edge between which lower teeth end: where a face opens its mouth farther or
-less far than its chin tells, they go along, and neither stand in the middle of a mouth nor leave it empty."""
+"""Eye distances above and below the lower lip's inner edge between which lower teeth end. A face may open its mouth
+farther or less far than its chin tells. Then they go along, and neither stand in the middle of a mouth nor leave it
+empty."""
 BARING_JAW_RADIANS = (0.12, 0.28)
 """Radians of the jaw up to which the lower lip hides the lower teeth, as it does when people smile, and from which on it lets them be seen."""
 BAG_DEPTH_FACTOR = 2.5
 """The bag than in the model: a tongue lies in it wherever the jaw is."""
 DEPTH_SHARE = 0.45
-"""Of depths behind the upper teeth, by which things are seen higher or lower: how far a head is bent forward or back is known to some degrees
-only, and in true depth these decide whether a tongue is seen at all. To the sides they count wholly: rows of teeth turn with the lips."""
+"""Share of depths behind the upper teeth by which things are seen higher or lower. How far a head is bent forward or
+back is known to some degrees only, and in true depth these decide whether a tongue is seen at all. To the sides they
+count wholly: rows of teeth turn with the lips."""
 MAX_CROWN_EYE_DISTANCES = 0.17
-"""Eye distances of the upper row that are seen below the middle of the upper lip, at most: where a lip is drawn up farther than its person's
-would be, the row goes along, and no more of its gum is bared."""
+"""Eye distances of the upper row that are seen below the middle of the upper lip, at most. Where a lip is drawn up
+farther than its person's would be, the row goes along, and no more of its gum is bared."""
 ROUNDED_NARROWING_SHARE, ROUNDED_CROWN_EYE_DISTANCES = 0.05, 0.6
 """Share of its width by which a mouth is narrower than at rest from which on its lips are rounded, and eye distances of the upper row that they
 cover for all of it: lips that say O are pushed forward over the teeth, though their edges are as high as in a smile."""

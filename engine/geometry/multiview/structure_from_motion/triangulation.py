@@ -39,8 +39,9 @@ def triangulate(
     Parameters
     ----------
     poses : rotations (C, 3, 3) and translations (C, 3) of the cameras.
-    views : (O,) the cameras of the observations, track by track; flat : (O, 2) what they see, on the plane at distance 1,
-        without distortion; starts : (T + 1,) where each track begins.
+    views : (O,) the cameras of the observations, track by track.
+    flat : (O, 2) what they see, on the plane at distance 1, without distortion.
+    starts : (T + 1,) where each track begins.
     max_error : how far an observation may be off on that plane.
     least_angle : radians that two of the rays which agree must have between them.
     """
