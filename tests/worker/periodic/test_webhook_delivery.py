@@ -288,15 +288,20 @@ def test_410_disables_at_once(context: Context, sender: WebhookSender, receive: 
 
 @ON_ANY
 def test_410_ends_all_for_an_address_of_a_job(context: Context, sender: WebhookSender, receive: Receive) -> None:
-    receiver = receive(answer=status(410))
+    receiver = receive(answer=status(500))
     lease = begun(context, webhook_url=receiver.url, webhook_events=["job.progress", "job.succeeded"])
+    moment = now()
     with context.database.write() as session:
         leases.report_progress(session, lease, {"stage": "x", "fraction": 0.5})
+    deliver(sender, moment)
+    assert [delivery.status for delivery in deliveries(context)] == ["pending"], "it is to be tried again"
+    receiver.answer = status(410)
+    with context.database.write() as session:
         leases.succeed(session, lease)
-    first = sender.look(now())
-    wait(first)
-    deliver(sender, now() + DAY)
+    deliver(sender, moment)
     assert [delivery.status for delivery in deliveries(context)] == ["failed", "failed"]
+    deliver(sender, moment + DAY)
+    assert len(receiver.calls) == 2, "what waited is not told any more"
 
 
 def test_the_address_of_a_job_is_signed_with_the_key_s_secret(
