@@ -119,7 +119,7 @@ class CharacterOptions(BaseModel):
 
     surface: Literal["auto", "hybrid", "relief", "shell"] = Field(
         "auto",
-        description="What the character is made of: the picture cut into parts that are given their depth (relief, the paper's way); the human template displaced to the outline, a shell that is whole from every side and where parts touch; or both (hybrid): trunk and hanging cloth of the relief, arms, legs and, where hair keeps to it, the head of the shell. auto: the hybrid; of who has an arm raised the relief with such a head, unless their legs pass before one another.",
+        description="What the character is made of. relief: the picture cut into parts that are given their depth, the paper's way. shell: the human template displaced to the outline, whole from every side and where parts touch. hybrid: trunk and hanging cloth of the relief, arms and legs of the shell, and its head where hair keeps to it. auto: the hybrid; where an arm is raised and no leg passes before the other, the relief with such a head.",
     )
 
     @model_validator(mode="after")

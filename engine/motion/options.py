@@ -11,7 +11,7 @@ MotionJoints = Annotated[
     dict[JointName, Annotated[str, Field(max_length=200)] | None],
     Field(
         max_length=100,
-        description='Which joint of the motion\'s file moves which of the character\'s, where that is not found by itself: {"Hips": "pelvis"}; null leaves one out.',
+        description='The joints of the motion\'s file that move the character\'s where they are not found by themselves: {"Hips": "pelvis"}. null leaves one out.',
     ),
 ]
 MotionClip = Annotated[

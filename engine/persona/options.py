@@ -62,8 +62,8 @@ class PersonaOptions(BaseModel):
     )
     light: Literal["own", "average", "left", "right"] = Field(
         "own",
-        description="The light on the face of the film or the still: the photo's own (for the puppet the mean of all photos), that mean, or as the"
-        " photos have it that are lit most from the picture's left or right.",
+        description="The light on the face of the film or the still. own: the photo's; the puppet has the mean of all photos. average: that mean."
+        " left, right: that of the photos that are lit most from this side of the picture.",
     )
     average_light: Annotated[tuple[FaceNumber, ...], Field(max_length=64)] = Field(
         (),

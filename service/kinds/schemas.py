@@ -21,14 +21,14 @@ class InputOut(BaseModel):
     required: bool
     many: bool
     library: str | None
-    """Where set, the input may also be the name of an item of that library, built-in or one's own: of `performances`
-    those that `GET /drivers` lists, or `auto`, by which what fits best is taken; of `motions` those of `GET /motions`."""
+    """Where set, the input may also be the name of an item of that library, built-in or one's own. Items of `performances`
+    are those that `GET /drivers` lists, or `auto`, which takes what fits best; those of `motions` are of `GET /motions`."""
     trimmed_by: str | None
     """Where set, the input may also be a moment of a driver, `name/moment`: the option of this name is set to it."""
     spared_by: str | None
     """Where set, the option of this name makes a required input one that may be left out."""
     spared_by_input: str | None
-    """The same of another input, which is given instead."""
+    """Where set, the input of this name, given instead, makes a required input one that may be left out."""
     artifact: str | None
     """Where set, the input may also be the id of a job of the same kind that has succeeded: its artifact of this name."""
     corrects: bool

@@ -38,7 +38,7 @@ class LinkOut(BaseModel):
     """What it opens, as JSON; the artifacts lie below it. It is in the answer that made the link and nowhere else: null
     ever after."""
     page: str | None
-    """The same for people."""
+    """What it opens, as a page for people; null where `url` is."""
     hint: str
     """The first characters of what is secret in the address."""
     artifacts: list[str] | None

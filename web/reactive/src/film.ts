@@ -30,7 +30,7 @@ export class Film {
     video.setAttribute('aria-hidden', 'true');
   }
 
-  /** Stand still at a frame of a file; resolves when that frame can be drawn: false if another cue came meanwhile. */
+  /** Stand still at a frame of a file. Resolves when that frame can be drawn; false if another cue came meanwhile. */
   async cue({ source, fps }: Strip, frame: number): Promise<boolean> {
     const mine = ++this.cues;
     this.halt();

@@ -1,6 +1,6 @@
 /**
- * What is shown when: the idle clip again and again, a state's clip when it is asked for, and between them a bridge,
- * which leads from the very frame that is shown to rest, where every clip begins.
+ * What is shown when: the idle clip again and again, a state's clip when it is asked for, and a bridge between them. A
+ * bridge leads from the very frame that is shown to rest, where every clip begins.
  *
  * All is drawn on one canvas, so that going over from one video to the next shows neither a gap nor a mixture.
  */

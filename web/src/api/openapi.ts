@@ -1611,7 +1611,7 @@ export interface components {
              */
             motion?: "idle" | "walk" | "run" | "jump" | "sit" | "wave" | "dance" | "bow";
             /**
-             * @description Which joint of the motion's file moves which of the character's, where that is not found by itself: {"Hips": "pelvis"}; null leaves one out.
+             * @description The joints of the motion's file that move the character's where they are not found by themselves: {"Hips": "pelvis"}. null leaves one out.
              * @default {}
              */
             motion_joints?: {
@@ -1657,7 +1657,7 @@ export interface components {
              */
             motion?: "idle" | "walk" | "run" | "jump" | "sit" | "wave" | "dance" | "bow";
             /**
-             * @description Which joint of the motion's file moves which of the character's, where that is not found by itself: {"Hips": "pelvis"}; null leaves one out.
+             * @description The joints of the motion's file that move the character's where they are not found by themselves: {"Hips": "pelvis"}. null leaves one out.
              * @default {}
              */
             motion_joints?: {
@@ -1796,7 +1796,7 @@ export interface components {
              */
             back_texture?: "see_through" | "mirror" | "inpaint";
             /**
-             * @description What the character is made of: the picture cut into parts that are given their depth (relief, the paper's way); the human template displaced to the outline, a shell that is whole from every side and where parts touch; or both (hybrid): trunk and hanging cloth of the relief, arms, legs and, where hair keeps to it, the head of the shell. auto: the hybrid; of who has an arm raised the relief with such a head, unless their legs pass before one another.
+             * @description What the character is made of. relief: the picture cut into parts that are given their depth, the paper's way. shell: the human template displaced to the outline, whole from every side and where parts touch. hybrid: trunk and hanging cloth of the relief, arms and legs of the shell, and its head where hair keeps to it. auto: the hybrid; where an arm is raised and no leg passes before the other, the relief with such a head.
              * @default auto
              * @enum {string}
              */
@@ -1889,7 +1889,7 @@ export interface components {
         /** @description What a user may choose about a check. */
         MotionOptions: {
             /**
-             * @description Which joint of the motion's file moves which of the character's, where that is not found by itself: {"Hips": "pelvis"}; null leaves one out.
+             * @description The joints of the motion's file that move the character's where they are not found by themselves: {"Hips": "pelvis"}. null leaves one out.
              * @default {}
              */
             motion_joints?: {
@@ -1977,7 +1977,7 @@ export interface components {
              */
             photo?: number | null;
             /**
-             * @description The light on the face of the film or the still: the photo's own (for the puppet the mean of all photos), that mean, or as the photos have it that are lit most from the picture's left or right.
+             * @description The light on the face of the film or the still. own: the photo's; the puppet has the mean of all photos. average: that mean. left, right: that of the photos that are lit most from this side of the picture.
              * @default own
              * @enum {string}
              */

@@ -1,4 +1,4 @@
-/** English: motions: which somebody moves by, and which joint of a file moves which of theirs. */
+/** English: the motion that somebody moves by, and the joints of a file that move theirs. */
 
 import type { MotionName } from '../types';
 

@@ -67,7 +67,7 @@ export class Character {
     return this.clips.find((clip) => clip.name === name);
   }
 
-  /** The motion's clip that stays where it is; else, of who comes out of no picture, the first, which is their own. */
+  /** The motion's clip that stays where it is. Who comes out of no picture has none, and plays the first, their own. */
   get calm(): AnimationClip | undefined {
     const inPlace = this.clips.find(({ name }) => name.endsWith(IN_PLACE));
     return inPlace ?? (this.clip(PICTURED) && this.clip('idle')) ?? this.clips[0];

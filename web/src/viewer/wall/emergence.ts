@@ -14,9 +14,11 @@ export class Emergence {
   private readonly flatness = { value: 1 };
 
   /**
-   * `eye`: from where the picture was taken; `plane`: the z of the picture; `away`: from the place on the floor where the
-   * person stands to their place in the picture's own space; `depths`: the z of whoever is furthest there, and nearest.
-   * All in metres of the room.
+   * All is in metres of the room.
+   * @param eye From where the picture was taken.
+   * @param plane The z of the picture.
+   * @param away From the place on the floor where the person stands to their place in the picture's own space.
+   * @param depths The z of whoever is furthest there, and nearest.
    */
   constructor(
     private readonly mesh: SkinnedMesh,

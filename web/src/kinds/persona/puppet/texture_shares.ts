@@ -15,8 +15,8 @@ export interface PuppetTextures {
 }
 
 /**
- * A share for each texture; together they are 1. An expression has as much of its texture as the least moved of its units has come;
- * of several that are more than one face together each has its part, and what is left is the neutral one's.
+ * A share for each texture; together they are 1. An expression has as much of its texture as the least moved of its units
+ * has come. Of several that are more than one face together each has its part. What is left is the neutral one's.
  */
 export function sharesOf(textures: readonly ExpressionTexture[], weights: FaceWeights): number[] {
   const shown = textures.map(({ units }) => {
