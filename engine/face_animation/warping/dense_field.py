@@ -15,8 +15,10 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.face_animation.warping.contour_rings import contour_rings, rings_end
+from engine.face_animation.warping.lip_edges import parted_lips, parting_edges
 from engine.face_animation.warping.round_cheeks import points_between
 from engine.face_animation.warping.warp_mesh import WarpMesh
+from engine.imaging.warping.constrained_delaunay import constrained_delaunay
 from engine.imaging.warping.delaunay import delaunay
 from engine.perception.landmarks import FACE_OVAL
 
@@ -89,7 +91,7 @@ def build_warp_mesh(
     diagonal = float(np.hypot(height, width))
     spacing = diagonal / VERTICES_ON_DIAGONAL
     used = np.arange(len(control)) if usable is None else np.flatnonzero(usable)
-    on_face = used[used < len(face)]
+    on_face, face = used[used < len(face)], parted_lips(face)
     around = contour_rings(face, shape), _grid_around(face, shape, spacing)
     vertices = np.concatenate([face[on_face, :2].astype(float), *around])
     triangles = delaunay(control[used])
@@ -120,7 +122,7 @@ def build_warp_mesh(
     entries = matrix != 0
     return WarpMesh(
         vertices.astype(np.float32),
-        delaunay(vertices),
+        constrained_delaunay(vertices, parting_edges(on_face)),
         np.concatenate([[0], np.cumsum(entries.sum(axis=1))]).astype(np.int32),
         np.nonzero(entries)[1].astype(np.int32),
         matrix[entries],

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array, diags_array, eye_array, vstack
 
+from engine.face_animation.warping.lip_edges import parting_edges
 from engine.geometry.mesh.adjacency import edges
-from engine.imaging.warping.delaunay import delaunay
+from engine.imaging.warping.constrained_delaunay import constrained_delaunay
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, eye_distance
 
 CHEEK_BAND_EYE_DISTANCES = 0.6
@@ -34,7 +35,7 @@ def points_between(face: NDArray[np.floating], usable: NDArray[np.integer]) -> t
     points, weights = np.asarray(face[usable, :2], np.float64), eye_array(len(usable), format="csr")
     apart = np.isin(usable, FOLDING_VERTICES)
     for _ in range(SUBDIVISION_ROUNDS):
-        triangles = delaunay(points)
+        triangles = constrained_delaunay(points, parting_edges(usable))
         depth = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in points]) / unit
         pairs = edges(triangles)
         step = points[pairs[:, 1]] - points[pairs[:, 0]]

@@ -22,6 +22,7 @@ from engine.face_animation.warping.dense_field import (
     disk_radii,
     interpolation,
 )
+from engine.face_animation.warping.lip_edges import parted_lips
 from engine.face_animation.warping.warp_mesh import WarpMesh
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.warping.fold_edges import folded_box
@@ -127,9 +128,9 @@ def test_the_fast_warp_is_the_plain_one(compared: NDArray, outside: NDArray) -> 
 
 
 def test_on_the_face_it_is_piecewise_linear_and_unsmoothed(mesh: WarpMesh, control: ControlPoints, offsets) -> None:
-    """Each vertex of the face's own mesh goes exactly where its control point goes."""
+    """Each vertex of the face's own mesh goes exactly where its control point goes, but that closed lips have a gap."""
     moved = mesh.offsets(offsets)
-    np.testing.assert_allclose(mesh.vertices[:MESH_SIZE], control.points[:MESH_SIZE], atol=1e-4)
+    np.testing.assert_allclose(mesh.vertices[:MESH_SIZE], parted_lips(control.points[:MESH_SIZE]), atol=1e-4)
     np.testing.assert_allclose(moved[:MESH_SIZE], offsets[:MESH_SIZE], atol=1e-5)
 
 
