@@ -74,9 +74,10 @@ def _name_schemas(app: FastAPI, document: dict[str, Any]) -> None:
     for name in DRAWN_BY_FASTAPI:
         schemas.pop(name, None)
     kinds = app.state.context.kinds
-    asked = [JobIn, RevisionIn, *(kind.options for kind in kinds.values())]
+    requests = [JobIn, RevisionIn, *(kind.options for kind in kinds.values())]
     _, definitions = models_json_schema(
-        [(ProblemDocument, "serialization"), *((model, "validation") for model in asked)], ref_template=SCHEMA_REFERENCE
+        [(ProblemDocument, "serialization"), *((model, "validation") for model in requests)],
+        ref_template=SCHEMA_REFERENCE,
     )
     schemas |= definitions["$defs"]
     schemas["JobIn"]["properties"]["kind"]["enum"] = list(kinds)

@@ -51,11 +51,11 @@ InSessions = Annotated[LiveSessions, Depends(_sessions)]
 
 @router.post("", status_code=201, operation_id="create_live", responses=responses(404, 413, 422, 503))
 async def create_live(
-    asked: LiveIn, response: Response, caller: Submitter, context: InContext, sessions: InSessions
+    requested: LiveIn, response: Response, caller: Submitter, context: InContext, sessions: InSessions
 ) -> LiveOut:
     """Begin a live portrait: a picture that follows a camera. Its frames are then sent by the WebSocket at `stream`."""
     sessions.require_room()
-    key, options = await run_sync(live_target, context, caller.owner, asked, sessions.under_way(caller.owner))
+    key, options = await run_sync(live_target, context, caller.owner, requested, sessions.under_way(caller.owner))
     pixels = int(context.settings.live_frame_megapixels * 1_000_000)
     session = sessions.begin(caller.owner, key, LiveOrder(Path("target"), options, pixels))
     response.headers["Location"] = f"/v1/live/{session.id}"

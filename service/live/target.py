@@ -18,19 +18,19 @@ OF_A_JOB = ("crop", "face_index", "landmarks", "strength", "follow", "head_3d")
 """Options of a portrait job that hold for its live portrait, too."""
 
 
-def live_target(context: Context, owner: str, asked: LiveIn, under_way: int) -> tuple[str, dict[str, Any]]:
+def live_target(context: Context, owner: str, requested: LiveIn, under_way: int) -> tuple[str, dict[str, Any]]:
     """The storage's key of the picture, and the options. `under_way` are the owner's live portraits.
 
     Raises 404, 422 and 429 problems.
     """
-    if (asked.image is None) == (asked.job is None):
+    if (requested.image is None) == (requested.job is None):
         raise Problem(422, "live_target_missing", "Name the picture: the id of an `image`, or of a portrait `job`.")
     given: dict[str, Any] = {}
     with context.database.write() as session:
         require_job(session, context.settings, owner, under_way)
-        image = asked.image
-        if asked.job is not None:
-            job = own_job(session, owner, asked.job)
+        image = requested.image
+        if requested.job is not None:
+            job = own_job(session, owner, requested.job)
             source = (job.sources or {}).get("image")
             if job.kind != "portrait" or not isinstance(source, dict) or "file" not in source:
                 raise Problem(422, "live_job_unsuitable", "The job has no picture of its own: name a portrait job.")
@@ -43,7 +43,7 @@ def live_target(context: Context, owner: str, asked: LiveIn, under_way: int) -> 
             raise Problem(422, "live_target_missing", "The file is no picture: name the id of one.")
         key = file.key
     try:
-        options = LiveOptions.model_validate({**given, **asked.options})
+        options = LiveOptions.model_validate({**given, **requested.options})
     except ValidationError as error:
         raise invalid(error, "invalid_options", "/options", LiveOptions) from error
     return key, options.model_dump(mode="json")

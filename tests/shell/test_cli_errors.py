@@ -24,7 +24,7 @@ def galatea(folder: Path, *command: str, **settings: str) -> subprocess.Complete
     )
 
 
-def complaint(done: subprocess.CompletedProcess[str]) -> str:
+def error_line(done: subprocess.CompletedProcess[str]) -> str:
     """The one line that a command left."""
     assert done.returncode == 2
     assert "Traceback" not in done.stderr
@@ -36,7 +36,7 @@ def complaint(done: subprocess.CompletedProcess[str]) -> str:
 @pytest.mark.parametrize("command", [("serve", "--port", "0"), ("worker",)], ids=["serve", "worker"])
 def test_a_database_that_is_not_there(tmp_path: Path, command: tuple[str, ...]) -> None:
     port = free_port()
-    said = complaint(galatea(tmp_path, *command, database_url=f"postgresql://galatea:s3cret@127.0.0.1:{port}/galatea"))
+    said = error_line(galatea(tmp_path, *command, database_url=f"postgresql://galatea:s3cret@127.0.0.1:{port}/galatea"))
     assert f"127.0.0.1:{port}/galatea cannot be reached" in said and "GALATEA_DATABASE_URL" in said
     assert "s3cret" not in said
 
@@ -44,15 +44,15 @@ def test_a_database_that_is_not_there(tmp_path: Path, command: tuple[str, ...]) 
 def test_a_database_that_refuses(tmp_path: Path, postgres: PostgresServer) -> None:
     url = postgres.new_database()
     done = galatea(tmp_path, "worker", database_url=url.rpartition("/")[0] + "/nothing")
-    assert "refuses" in complaint(done) and "nothing" in complaint(done)
+    assert "refuses" in error_line(done) and "nothing" in error_line(done)
 
 
 @pytest.mark.parametrize("command", [("serve", "--port", "0"), ("worker",)], ids=["serve", "worker"])
 def test_kinds_that_are_not_there(tmp_path: Path, command: tuple[str, ...]) -> None:
-    assert complaint(galatea(tmp_path, *command, worker_kinds="portrait,potrait")).startswith(
+    assert error_line(galatea(tmp_path, *command, worker_kinds="portrait,potrait")).startswith(
         "Error: GALATEA_WORKER_KINDS: there is no job kind potrait; there are portrait"
     )
-    said = complaint(galatea(tmp_path, *command, kinds="no_such_module:KIND"))
+    said = error_line(galatea(tmp_path, *command, kinds="no_such_module:KIND"))
     assert "GALATEA_KINDS: No module named 'no_such_module'" in said
 
 
@@ -70,9 +70,9 @@ def test_tables_of_a_newer_release(tmp_path: Path) -> None:
     with database.write() as session:
         session.execute(text("UPDATE alembic_version SET version_num = '9999'"))
     database.close()
-    assert "not of this release" in complaint(galatea(tmp_path, "worker"))
+    assert "not of this release" in error_line(galatea(tmp_path, "worker"))
 
 
 def test_a_data_folder_that_cannot_be_made(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
-    assert "Set GALATEA_DATA_DIR" in complaint(galatea(tmp_path / "file" / "data", "worker"))
+    assert "Set GALATEA_DATA_DIR" in error_line(galatea(tmp_path / "file" / "data", "worker"))

@@ -121,7 +121,7 @@ def _elastic(skin: Skin, rest: NDArray[np.float64], stiffness: NDArray[np.float6
         stiffness,
         _trust(skin),
         held=skin.regions["lower_feet"] | skin.regions["whole_hands"],
-        noise=np.where(skin.regions["face"], np.inf, POINT_NOISE_METRES),
+        point_sigma=np.where(skin.regions["face"], np.inf, POINT_NOISE_METRES),
         anchor=COARSE_FIT_WEIGHT,
         contact=skin.lip_contact,
     )

@@ -136,7 +136,7 @@ def stitch_front_and_back(
     of = np.concatenate([np.arange(count), np.arange(count), edge, inside])
     further_up = points[inside] - np.outer(up[inside], [0, 1, 0])
     bones, kept = strongest(np.concatenate([*weights, weights[1][edge], weights[1][inside]]))
-    sheets = ClosedMesh(
+    mesh = ClosedMesh(
         vertices=np.concatenate([points + deep, points - deep, (points - deep)[edge], further_up]),
         triangles=np.concatenate([triangles, triangles[:, ::-1] + count, strip]).astype(np.int32),
         front=np.repeat([True, False, True], [count, count, len(edge) + len(inside)]),
@@ -147,13 +147,13 @@ def stitch_front_and_back(
         weights=kept,
         places=np.full((len(of), 2), np.nan),
     )
-    return _with_solids(sheets, layers)
+    return _with_solids(mesh, layers)
 
 
-def _with_solids(sheets: ClosedMesh, layers: Sequence[Layer]) -> ClosedMesh:
+def _with_solids(mesh: ClosedMesh, layers: Sequence[Layer]) -> ClosedMesh:
     """The mesh together with the parts that are no sheets."""
     solid = [(k, layer.solid) for k, layer in enumerate(layers) if layer.solid is not None]
-    meshes = [sheets]
+    meshes = [mesh]
     for (k, limb), places in zip(solid, places_on_the_picture([limb for _, limb in solid]), strict=True):
         count = len(limb.vertices)
         bones, weights = strongest(limb.weights)

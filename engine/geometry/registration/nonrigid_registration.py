@@ -45,8 +45,8 @@ class ElasticSurface:
     stiffness : (V,) by how much more than others the hinges at a vertex keep their bend.
     trust : (V,) in [0, 1]: what points near a vertex count.
     held : (V,) bool, those that stay where they are at first; none by default.
-    noise : (V,) or one for all, metres by which points may scatter before they count less; as many as they like by
-    default.
+    point_sigma : (V,) or one for all, metres by which points may scatter before they count less; as many as they like
+        by default.
     anchor : what it counts that the surface stays where it is at rest, where all points together count 1. Bending alone
         lets a limb without points swing about the joint at which the points end.
     contact : (C, V) sparse, by default none: each row is a point of the surface minus another that it touches, in weights of
@@ -59,7 +59,7 @@ class ElasticSurface:
     stiffness: NDArray[np.float64]
     trust: NDArray[np.float64]
     held: NDArray[np.bool_] | None = None
-    noise: NDArray[np.float64] | float = np.inf
+    point_sigma: NDArray[np.float64] | float = np.inf
     anchor: float = 0.0
     contact: sp.csr_array | None = None
 
@@ -124,10 +124,10 @@ def lay_on_points(
     system = _SameSparsity()
     trust = surface.trust
     for number, step in enumerate(steps):
-        if np.isfinite(surface.noise).any() and number >= len(steps) - WEIGHED_STEPS:
+        if np.isfinite(surface.point_sigma).any() and number >= len(steps) - WEIGHED_STEPS:
             matched = np.asarray(surface.triangles)[surface.matched]
             scatter = point_noise(vertices, matched, points, normals, MIN_MATCH_NORMAL_COSINE)
-            trust = surface.trust / (1 + (scatter / surface.noise) ** 2)
+            trust = surface.trust / (1 + (scatter / surface.point_sigma) ** 2)
         for _ in range(ROUNDS_PER_STEP):
             matrix, right = _matched_points(surface, trust, vertices, points, normals, step.gate)
             if landmarks is not None:

@@ -56,7 +56,7 @@ class Calibration:
 
 
 @dataclass(frozen=True)
-class _Seen:
+class _Observation:
     """A look at its `time`, seconds, on show for a `span`; calm where its `unrest` is less than 1."""
 
     time: float
@@ -70,7 +70,7 @@ class RestCalibration:
     be where it was: faces are laid on each other."""
 
     def __init__(self) -> None:
-        self._seen: deque[_Seen] = deque()
+        self._seen: deque[_Observation] = deque()
         self._waited = 0.0
 
     def __call__(self, look: FaceCrop, time: float) -> Calibration:
@@ -82,7 +82,7 @@ class RestCalibration:
             moved = _way(last.look, look) / span if span else 0.0
         unrest = _unrest(look, moved)
         worst = max(unrest, key=lambda obstacle: unrest[obstacle])
-        self._seen.append(_Seen(time, span, unrest[worst], look))
+        self._seen.append(_Observation(time, span, unrest[worst], look))
         self._waited += span
         while self._seen[0].time < time - REMEMBERED_SECONDS:
             self._seen.popleft()

@@ -107,7 +107,7 @@ def test_noise_crumples_nothing_and_what_is_measured_well_is_followed() -> None:
     noise = np.where(fine[:, 1] > 0, 0.012, 0.0005)
     random = np.random.default_rng(4)
     points = fine * (0.205 + random.normal(0, noise))[:, None]
-    believing = replace(_surface(vertices * 0.2, triangles), noise=0.0015)
+    believing = replace(_surface(vertices * 0.2, triangles), point_sigma=0.0015)
     laid, plain = (lay_on_points(of, points, fine, STEPS) for of in (believing, _surface(vertices * 0.2, triangles)))
     upper = vertices[:, 1] > 0.2
     roughness = [np.linalg.norm(of[upper], axis=1).std() for of in (laid, plain)]

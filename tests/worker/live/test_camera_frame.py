@@ -10,7 +10,7 @@ from PIL import Image
 
 from worker.live.camera_frame import UnreadableFrame, read_frame
 
-MOST = 640 * 480
+MAX_PIXELS = 640 * 480
 
 
 def encoded(format: str, size: tuple[int, int] = (320, 240)) -> bytes:
@@ -21,7 +21,7 @@ def encoded(format: str, size: tuple[int, int] = (320, 240)) -> bytes:
 
 @pytest.mark.parametrize("format", ["JPEG", "WEBP"])
 def test_a_frame_comes_in_its_colours(format: str) -> None:
-    rgb = read_frame(encoded(format), MOST)
+    rgb = read_frame(encoded(format), MAX_PIXELS)
     assert rgb.shape == (240, 320, 3)
     np.testing.assert_allclose(rgb.reshape(-1, 3).mean(axis=0), (200, 40, 90), atol=4)
 
@@ -40,4 +40,4 @@ def test_a_frame_comes_in_its_colours(format: str) -> None:
 )
 def test_what_is_no_frame_is_not_read(data: bytes) -> None:
     with pytest.raises(UnreadableFrame):
-        read_frame(data, MOST)
+        read_frame(data, MAX_PIXELS)

@@ -6,7 +6,7 @@ import { words as personaWords } from '../words';
 
 const words = personaWords.correct;
 /** As many as the service takes. */
-const MOST = 64;
+const MAX_PHOTOS = 64;
 
 interface Props {
   faces: Faces;
@@ -19,7 +19,7 @@ interface Props {
 export function AverageLightField({ faces, isUsed, value, onChange }: Props) {
   const used = faces.sheet.faces.flatMap((_face, number) => (isUsed(number) ? [number] : []));
   const toggled = (number: number): readonly number[] =>
-    value.includes(number) ? value.filter((one) => one !== number) : [...value, number].sort((one, other) => one - other).slice(0, MOST);
+    value.includes(number) ? value.filter((one) => one !== number) : [...value, number].sort((one, other) => one - other).slice(0, MAX_PHOTOS);
   return (
     <div class="field acting-photo">
       <h4>{words.averageLight}</h4>
