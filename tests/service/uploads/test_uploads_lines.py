@@ -107,6 +107,18 @@ def test_a_piece_with_a_checksum_is_kept_whole_or_not_at_all(running: Running) -
     assert add(running, address, 0, media.bytes(), Upload_Checksum=checksum).status_code == 204
 
 
+def test_a_half_piece_that_is_taken_over_is_not_called_damaged(running: Running) -> None:
+    media = Media(400_000)
+    address = create(running, media.size)
+    checksum = "sha1 " + base64.b64encode(hashlib.sha1(media.bytes()).digest()).decode()
+    with line(running, address, 0, media.size, Upload_Checksum=checksum) as dead:
+        dead.sendall(media.bytes(0, 300_000))
+        until_taken(running, dead)
+        assert standing(running, address) == 0
+        answer = dead.recv(4000)
+        assert answer.startswith(b"HTTP/1.1 423") and b"upload_taken_over" in answer
+
+
 def test_what_was_acknowledged_outlives_the_service(start: Start) -> None:
     media = Media(40 * MEGABYTE)
     running = start(worker="false")
