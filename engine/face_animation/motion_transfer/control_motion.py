@@ -42,6 +42,7 @@ from engine.face_animation.motion_transfer.lids_and_lips import (
     hold_lids,
     lid_ratio,
 )
+from engine.face_animation.motion_transfer.lids_below_brows import keep_lids_below_brows
 from engine.face_animation.motion_transfer.pose_refinement import refine_pose
 from engine.face_animation.motion_transfer.turned_expression import even_out_turned
 from engine.face_animation.mouth.closing import ClosingLips
@@ -159,6 +160,7 @@ class MotionTransfer:
             placed = self._corrected(frames, face[..., :2] + plane_share(target)[:, None] * plane)
             rigid = solid[:, :MESH_SIZE, :2]
             placed = rigid + self._even @ (placed - rigid)
+            keep_lids_below_brows(placed, rigid, control.bare)
             close_lids(placed, rigid, ratio)
             hold_lids(placed, rigid, self._lids)
             offsets[:, MESH_SIZE:] = self._around_face(frames, motion, held, proxy, solid[..., :2], placed)
@@ -187,7 +189,7 @@ class MotionTransfer:
         self._lips.close(acted, upright, self._mouth)
         keep_lips_off_skin(acted, target, philtrum_compression(upright, rest))
         ratio = np.maximum(ratio, 0)
-        expression = constrain_lids_and_lips(acted, target, ratio) - target
+        expression = constrain_lids_and_lips(acted, target, ratio, self._control.bare) - target
         look = self._eyes * gaze_offsets(rest + motion.expression, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
         return expression, look.astype(np.float32), ratio
 

@@ -88,14 +88,17 @@ def _blinking_alike(gaps: NDArray[np.floating]) -> NDArray[np.floating]:
 
 
 def constrain_lids_and_lips(
-    positions: NDArray[np.floating], target: NDArray[np.floating], ratio: NDArray[np.floating]
+    positions: NDArray[np.floating],
+    target: NDArray[np.floating],
+    ratio: NDArray[np.floating],
+    bare: NDArray[np.floating],
 ) -> NDArray[np.float64]:
     """Put lids and lips where they belong.
 
     Parameters
     ----------
     positions : (N, 478, 3) the target's mesh with the expression on, before the head moves, pixels.
-    target : (478, 3) its mesh at rest. ratio : (N, 14) from `lid_ratio`, 1 at rest.
+    target : (478, 3) its mesh at rest. ratio : (N, 14) from `lid_ratio`, 1 at rest. bare : (478,) how far each vertex may move by itself, in [0, 1].
 
     Returns
     -------
@@ -108,7 +111,7 @@ def constrain_lids_and_lips(
     out[:, upper] = wanted
     skin, edge = np.array(LID_SKIN_VERTEX_PAIRS).T
     index = {int(v): i for i, v in enumerate(upper)}
-    out[:, skin] += 0.5 * moved[:, [index[int(v)] for v in edge]]
+    out[:, skin] += 0.5 * bare[skin, None] * moved[:, [index[int(v)] for v in edge]]
     top, bottom = np.array(INNER_LIP_PAIRS).T
     down = target[CHIN_VERTEX] - target[FOREHEAD_VERTEX]
     down = down / np.linalg.norm(down)

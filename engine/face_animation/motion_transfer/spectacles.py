@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS, LID_SKIN_VERTEX_PAIRS
+from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS
 from engine.face_animation.smoothstep import smoothstep
 from engine.perception.face_wear import face_wear
 from engine.perception.head_pose import canonical_face
@@ -37,7 +37,6 @@ def spectacles_share(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDAr
     )
     free = {
         *np.ravel(LID_EDGE_VERTEX_PAIRS),
-        *np.ravel(LID_SKIN_VERTEX_PAIRS),
         *RIGHT_EYE,
         *LEFT_EYE,
         *RIGHT_IRIS,

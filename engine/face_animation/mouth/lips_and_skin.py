@@ -71,8 +71,8 @@ def keep_lips_off_skin(faces: NDArray[np.floating], rest: NDArray[np.floating], 
         out = way * _down(rest)
         usual = np.diff(rest[columns, :2] @ out, axis=1)
         along = faces[:, columns, :2] @ out
-        moved = _in_order(along, np.minimum(usual, usual * _kept_share(along, usual, share)[..., None])) - along
-        moved[..., 0] = _with_neighbours(moved[..., 0])
+        moved = in_order(along, np.minimum(usual, usual * _kept_share(along, usual, share)[..., None])) - along
+        moved[..., 0] = with_neighbours(moved[..., 0])
         faces[:, columns, :2] += moved[..., None] * out
         faces[:, np.array(lips), :2] += moved[:, :, :1, None] * out
 
@@ -86,18 +86,21 @@ def _kept_share(
     return np.asarray(np.maximum(least[:, None], np.minimum(EVEN_SHARE * left, MAX_EVEN_SHARE)), float)
 
 
-def _in_order(along: NDArray[np.floating], least: NDArray[np.floating]) -> NDArray[np.floating]:
+def in_order(
+    along: NDArray[np.floating], least: NDArray[np.floating], gives: NDArray[np.floating] | None = None
+) -> NDArray[np.floating]:
     """Places (..., K) along a way, moved as little as it takes to be `least` (..., K - 1) apart, the last one not at all:
-    each makes room for those before it, as long as there is any."""
+    each makes room for those before it, as long as there is any, and as far as it `gives` way (..., K), in [0, 1]."""
     kept = along.copy()
+    give = np.ones(along.shape[-1]) if gives is None else gives
     for k in range(1, along.shape[-1] - 1):
-        kept[..., k] = np.maximum(kept[..., k], kept[..., k - 1] + least[..., k - 1])
+        kept[..., k] += give[..., k] * np.maximum(kept[..., k - 1] + least[..., k - 1] - kept[..., k], 0)
     for k in range(along.shape[-1] - 2, -1, -1):
         kept[..., k] = np.minimum(kept[..., k], kept[..., k + 1] - least[..., k])
     return kept
 
 
-def _with_neighbours(moves: NDArray[np.floating]) -> NDArray[np.floating]:
+def with_neighbours(moves: NDArray[np.floating]) -> NDArray[np.floating]:
     """How far the columns (N, 9) of a lip move back where each draws those beside it along: no less than by themselves."""
     drawn = cv2.filter2D(moves, -1, NEIGHBOUR_WEIGHTS[None], borderType=cv2.BORDER_REPLICATE)
     return np.asarray(np.where(np.abs(drawn) > np.abs(moves), drawn, moves))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from engine.face_animation.motion_transfer.lids_and_lips import (
     INNER_LIP_PAIRS,
     LID_EDGE_VERTEX_PAIRS,
+    LID_SKIN_VERTEX_PAIRS,
     MAX_GAP_IRIS_DIAMETERS,
     MAX_GAP_RATIO,
     MIN_GAP_LIMIT,
@@ -26,6 +27,7 @@ from engine.perception.landmarks import eye_opening
 UPPER, LOWER = np.array(LID_EDGE_VERTEX_PAIRS).T
 LEFT_LIDS = [*UPPER[7:], *LOWER[7:]]
 TOP, BOTTOM = np.array(INNER_LIP_PAIRS).T
+BARE = np.ones(478)
 
 
 @pytest.fixture(scope="module")
@@ -102,31 +104,31 @@ def test_a_wink_and_unequal_open_eyes_stay_so(driver: NDArray, right: float, lef
 def test_a_closed_driver_closes_the_target(driver: NDArray, target: NDArray) -> None:
     """Whatever offsets were carried over, and however much larger the target's eyes are: the gap is nought."""
     carried = (shut(driver, 0.15) - driver) * 1.1
-    out = constrain_lids_and_lips((target + carried)[None], target, lid_ratio(shut(driver, 0.15)[None], driver))
+    out = constrain_lids_and_lips((target + carried)[None], target, lid_ratio(shut(driver, 0.15)[None], driver), BARE)
     assert gap(out).max() < 1e-6
     assert eye_opening(out[0]).max() < 1e-6
 
 
 def test_at_rest_nothing_changes(target: NDArray) -> None:
-    out = constrain_lids_and_lips(target[None], target, np.ones((1, 14)))
+    out = constrain_lids_and_lips(target[None], target, np.ones((1, 14)), BARE)
     np.testing.assert_allclose(out[0], target, atol=1e-4)
 
 
 def test_an_open_eye_keeps_its_own_gap_wherever_the_face_goes(target: NDArray) -> None:
     """Ratio 1 and an expression that shifts lids and brows: the gap is the target's own."""
     moved = smiling(target, 0.1) + np.array([3.0, -5.0, 0.0], np.float32)
-    out = constrain_lids_and_lips(moved[None], target, np.ones((1, 14)))
+    out = constrain_lids_and_lips(moved[None], target, np.ones((1, 14)), BARE)
     np.testing.assert_allclose(gap(out)[0], gap(target), atol=1e-3)
 
 
 @pytest.mark.parametrize("ratio", [0.25, 0.5, 1.4])
 def test_gaps_are_carried_as_ratios(target: NDArray, ratio: float) -> None:
-    out = constrain_lids_and_lips(target[None], target, np.full((1, 14), ratio))
+    out = constrain_lids_and_lips(target[None], target, np.full((1, 14), ratio), BARE)
     np.testing.assert_allclose(gap(out)[0], ratio * gap(target), rtol=1e-4)
 
 
 def test_a_closing_lid_moves_and_the_lower_one_stays(target: NDArray) -> None:
-    out = constrain_lids_and_lips(target[None], target, np.zeros((1, 14)))[0]
+    out = constrain_lids_and_lips(target[None], target, np.zeros((1, 14)), BARE)[0]
     np.testing.assert_allclose(out[LOWER], target[LOWER], atol=1e-4)
     below = out[UPPER] - target[UPPER]
     down = (target[152] - target[10]) / np.linalg.norm(target[152] - target[10])
@@ -137,7 +139,7 @@ def test_lid_skin_follows_between_lid_and_brow(target: NDArray) -> None:
     from engine.face_animation.motion_transfer.lids_and_lips import LID_SKIN_VERTEX_PAIRS
 
     skin, edge = np.array(LID_SKIN_VERTEX_PAIRS).T
-    out = constrain_lids_and_lips(target[None], target, np.zeros((1, 14)))[0]
+    out = constrain_lids_and_lips(target[None], target, np.zeros((1, 14)), BARE)[0]
     way = np.linalg.norm((out - target)[skin], axis=1) / np.linalg.norm((out - target)[edge], axis=1)
     np.testing.assert_allclose(way, 0.5, atol=1e-4)
     brows = [70, 63, 105, 66, 107, 336, 296, 334, 293, 300]
@@ -149,14 +151,14 @@ def test_lips_never_cross(target: NDArray, seed: int) -> None:
     """Random offsets as large as the lips are thick: the lower lip is never above the upper one."""
     rng = np.random.default_rng(seed)
     positions = target + rng.normal(0, 15, (4, *target.shape)).astype(np.float32)
-    out = constrain_lids_and_lips(positions, target, np.ones((4, 14)))
+    out = constrain_lids_and_lips(positions, target, np.ones((4, 14)), BARE)
     down = (target[152] - target[10]) / np.linalg.norm(target[152] - target[10])
     assert ((out[:, BOTTOM] - out[:, TOP]) @ down).min() > -1e-4
 
 
 def test_lips_that_do_not_cross_are_left_alone(target: NDArray) -> None:
     wide = opened(target, 0.3)
-    out = constrain_lids_and_lips(wide[None], target, np.ones((1, 14)))[0]
+    out = constrain_lids_and_lips(wide[None], target, np.ones((1, 14)), BARE)[0]
     np.testing.assert_allclose(out[TOP], wide[TOP], atol=1e-4)
     np.testing.assert_allclose(out[BOTTOM], wide[BOTTOM], atol=1e-4)
 
@@ -166,7 +168,7 @@ def test_crossing_lips_meet_half_way(target: NDArray) -> None:
     down = (target[152] - target[10]) / np.linalg.norm(target[152] - target[10])
     crossed[TOP] = target[TOP] + 10 * down
     crossed[BOTTOM] = target[TOP] + 4 * down
-    out = constrain_lids_and_lips(crossed[None], target, np.ones((1, 14)))[0]
+    out = constrain_lids_and_lips(crossed[None], target, np.ones((1, 14)), BARE)[0]
     np.testing.assert_allclose(out[TOP], target[TOP] + 7 * down, atol=1e-3)
     np.testing.assert_allclose(out[BOTTOM], out[TOP], atol=1e-3)
 
@@ -219,3 +221,13 @@ def test_lids_that_were_raised_too_far_come_down_and_others_stay(target: NDArray
     np.testing.assert_array_equal(placed[1], before[1])
     still = np.setdiff1d(np.arange(len(target)), UPPER)
     np.testing.assert_array_equal(placed[0, still], before[0, still])
+
+
+def test_skin_behind_a_frame_does_not_go_with_its_lid(target: NDArray) -> None:
+    skin = np.array(LID_SKIN_VERTEX_PAIRS)[:, 0]
+    bare = BARE.copy()
+    bare[skin] = 0
+    half = np.full((1, 14), 0.5)
+    out = constrain_lids_and_lips(target[None], target, half, bare)[0]
+    np.testing.assert_array_equal(out[skin], target[skin])
+    assert np.abs(constrain_lids_and_lips(target[None], target, half, BARE)[0][skin] - target[skin]).max() > 1

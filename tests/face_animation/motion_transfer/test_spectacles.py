@@ -8,7 +8,7 @@ from made_face import placed
 from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.control_points import place_control_points
-from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS
+from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS, LID_SKIN_VERTEX_PAIRS
 from engine.face_animation.motion_transfer.spectacles import spectacles_share
 from engine.perception.landmarks import LIPS_OUTER
 
@@ -40,6 +40,7 @@ def test_where_a_frame_lies_the_skull_alone_moves() -> None:
     share = spectacles_share(picture(worn=True), FACE)
     assert share[list(UNDER_RIM)].min() > 0.95
     assert not share[np.ravel(LID_EDGE_VERTEX_PAIRS)].any(), "lids shut behind it"
+    assert share[np.array(LID_SKIN_VERTEX_PAIRS)[:, 0]].min() > 0.95, "the frame may lie there"
     assert not share[list(LIPS_OUTER)].any()
 
 
