@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections import Counter
 from pathlib import Path
 
@@ -44,6 +45,35 @@ def test_every_folder_of_tests_within_a_room_s_is_of_something_within_the_room(p
         str(folder) for folder in within if not (house / folder).is_dir() and not (house / f"{folder}.py").is_file()
     ]
     assert strange == []
+
+
+@pytest.mark.parametrize(
+    ("place", "houses"), [("benchmarks", ["benchmarks"]), ("web/unit", ["web/src", "web"])], ids=["benchmarks", "page"]
+)
+def test_folders_of_other_tests_are_those_of_what_they_test(place: str, houses: list[str]) -> None:
+    folders = {file.parent.relative_to(TESTS / place) for file in (TESTS / place).rglob("*test*.*")}
+    folders = {folder for folder in folders if "__pycache__" not in folder.parts}
+    assert [str(one) for one in folders if not any((ROOT / house / one).is_dir() for house in houses)] == []
+
+
+def private_imports(source: str) -> list[str]:
+    """What a file takes of another that begins with an underscore, `__future__` and the like aside."""
+    taken = []
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.ImportFrom):
+            taken += [*(node.module or "").split("."), *(name.name for name in node.names)]
+        elif isinstance(node, ast.Import):
+            taken += [part for name in node.names for part in name.name.split(".")]
+        elif isinstance(node, ast.Attribute) and not (isinstance(node.value, ast.Name) and node.value.id == "self"):
+            taken.append(node.attr)
+    allowed = {"_exit", "_replace", "_asdict", "_fields"}  # of Python's own `os` and named tuples
+    return [name for name in taken if name.startswith("_") and not name.startswith("__") and name not in allowed]
+
+
+def test_tests_take_no_private_names() -> None:
+    taken = {str(file.relative_to(ROOT)): private_imports(file.read_text()) for file in TESTS.rglob("*.py")}
+    assert {file: names for file, names in taken.items() if names} == {}
+    assert private_imports("from a._b import c, _d\nimport e\ne._f(self._g)") == ["_b", "_d", "_f"]
 
 
 def test_no_two_files_of_tests_have_one_name() -> None:
