@@ -14,10 +14,10 @@ from service.loopback import is_loopback
 PROXY = {"x-forwarded-for": "203.0.113.5"}
 
 
-def refusal(peer: str = "127.0.0.1", trusted: str = "", **headers: str) -> str | None:
+def refusal(peer: str = "127.0.0.1", trusted: str = "", path: str = "/", **headers: str) -> str | None:
     networks = [ip_network(trusted)] if trusted else []
     guard = Guard(None, networks)  # type: ignore[arg-type]
-    problem = guard.refusal(Headers({name.replace("_", "-"): value for name, value in headers.items()}), peer)
+    problem = guard.refusal(Headers({name.replace("_", "-"): value for name, value in headers.items()}), peer, path)
     return problem.code if problem else None
 
 
@@ -40,6 +40,13 @@ def test_names_that_were_made_to_point_here_are_not(host: str) -> None:
 )
 def test_pages_of_other_origins_are_not(origin: str) -> None:
     assert refusal(host="127.0.0.1:8000", origin=origin) == "origin_not_allowed"
+
+
+def test_only_what_lies_under_the_public_address_is_for_pages_of_any_origin() -> None:
+    asked = {"host": "127.0.0.1:8000", "origin": "http://evil.example"}
+    assert refusal(**asked, path="/v1/public/abc/file.mp4") is None
+    for path in ("/v1/jobs", "/v1/public", "/v1/jobs/v1/public/abc", "/x/v1/public/abc"):
+        assert refusal(**asked, path=path) == "origin_not_allowed"
 
 
 @pytest.mark.parametrize("header", ["x_forwarded_for", "x_forwarded_host", "forwarded", "x_real_ip", "via"])
