@@ -2,11 +2,11 @@
 
     python -m benchmarks.avatar_eyes FOLDER OUT [--sheet OUT.png]
 
-FOLDER is what `python -m benchmarks.scan_studio` made of a subject, OUT what `python -m benchmarks.avatar` made of it. Both are drawn
-without light from those true cameras of the head's film from which the tracker sees the true face from the front; what the tracker
-gets wrong of both alike is no error. Prints, in millimetres: how much wider apart the avatar's lids are, in the mean over an eye and
-at the most; how much larger its irises are; and by how much these stand elsewhere between the corners of the eye. Medians over
-frames and both eyes.
+FOLDER is what `python -m benchmarks.scan_studio` made of a subject, OUT what `python -m benchmarks.avatar` made of it.
+Both are drawn without light from those true cameras of the head's film from which the tracker sees the true face from
+the front; what the tracker gets wrong of both alike is no error. Prints, in millimetres, how much wider apart the
+avatar's lids are, in the mean over an eye and at the most. Also how much larger its irises are, and by how much these
+stand elsewhere between the corners of the eye. Medians over frames and both eyes.
 """
 
 from __future__ import annotations

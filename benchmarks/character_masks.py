@@ -2,11 +2,12 @@
 
     python -m benchmarks.character_masks [--only WORD]
 
-The cut-outs of the test media are laid into places in which nobody is, on white paper, and before a plain wall on which they cast a
-shadow; scanned, rigged and dressed people are drawn into the same places. What is found as of any user's picture is held against the
-true alpha above one half. "F" is the boundary F-score (Perazzi and others, A Benchmark Dataset and Evaluation Methodology for
-Video Object Segmentation, CVPR 2016), with a tolerance of 0.4% of the person's height. "Gaps" is how much is found of what of the
-background the limbs enclose or nearly enclose, and "shadow" how much of the cast shadow was taken for the person.
+The cut-outs of the test media are laid into places in which nobody is, on white paper, and before a plain wall on which
+they cast a shadow. Scanned, rigged and dressed people are drawn into the same places. What is found as of any user's
+picture is held against the true alpha above one half. "F" is the boundary F-score (Perazzi and others, A Benchmark
+Dataset and Evaluation Methodology for Video Object Segmentation, CVPR 2016), with a tolerance of 0.4% of the person's
+height. "Gaps" is how much is found of what of the background the limbs enclose or nearly enclose, and "shadow" how much
+of the cast shadow was taken for the person.
 """
 
 from __future__ import annotations

@@ -126,8 +126,8 @@ class Works(Requests[J]):
         q: str = "",
         latest: bool = False,
     ) -> AsyncGenerator[J]:
-        """Jobs, newest first, page by page as they are params for; `q` are words of title, kind, and the names of files,
-        drivers and motions; with `latest`, of each work the newest of its versions alone."""
+        """Jobs, newest first, page by page as they are params for. `q` are words of title, kind, and the names of
+        files, drivers and motions. With `latest` there is of each work the newest of its versions alone."""
         params: dict[str, Any] = {"status": [str(one) for one in status], "kind": list(kind), "limit": 100}
         for name, moment in (("created_after", created_after), ("created_before", created_before)):
             if moment is not None:

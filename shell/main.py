@@ -125,7 +125,7 @@ def migrate(version: str, down: bool) -> None:
     """Bring the database's tables to the newest version, or to another, up or down.
 
     The service does so by itself when it starts. Going down is for going back to an older release: stop everything,
-    make a backup, then name that release's version; what the older tables have no room for is lost, and said before.
+    make a backup, then name that release's version. What the older tables have no room for is lost, and said before.
     """
     from alembic.util import CommandError
 

@@ -2,10 +2,11 @@
 
     python -m benchmarks.avatar_figures.texture FOLDER [--size 4096] [--body 75] [--head 50] [--sheet OUT.png]
 
-FOLDER is what `python -m benchmarks.scan_studio` made of a subject. The cameras are those of the person: the sway of the body is
-taken out, that of the arms, motion blur, exposure and balance are not. Prints CIELAB root mean square errors of the textured
-person, drawn without light, against the frames, each in its own exposure; the energies of labels and of best views; how well
-gains undo the exposure; seconds and peak memory. The sheet shows eight sides, the face from near, and frames.
+FOLDER is what `python -m benchmarks.scan_studio` made of a subject. The cameras are those of the person: the sway of
+the body is taken out, that of the arms, motion blur, exposure and balance are not. Prints CIELAB root mean square
+errors of the textured person, drawn without light, against the frames, each in its own exposure. Also the energies of
+labels and of best views, how well gains undo the exposure, seconds and peak memory. The sheet shows eight sides, the
+face from near, and frames.
 """
 
 from __future__ import annotations

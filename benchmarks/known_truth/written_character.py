@@ -1,7 +1,7 @@
 """A character's GLB read back by other means than it was written by, posed and drawn.
 
-trimesh reads the surface, the picture on it and the tree of joints, and poses that; the skin, which it leaves out, is read by
-the letter of the specification (Khronos, glTF 2.0, 3.6 and 3.7.3); OpenCV draws the outline.
+trimesh reads the surface, the picture on it and the tree of joints, and poses that. It leaves out the skin, which is
+read by the letter of the specification (Khronos, glTF 2.0, 3.6 and 3.7.3). OpenCV draws the outline.
 """
 
 from __future__ import annotations

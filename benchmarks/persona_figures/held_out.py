@@ -1,6 +1,6 @@
 """How like a photograph that was held out the texture for its expression is, against simpler ways of mixing photographs.
 
-Of each collection, duplicates left out, a tenth at a time is held out and the persona learnt of the rest; each
+Of each collection, duplicates left out, a tenth at a time is held out and the persona learnt of the rest. Each
 photograph held out is laid on the frame by its own mesh, and asks for its own expression. What is compared is the band
 finer than four pixels of a frame 194 wide, over the bare skin that the photograph shows, beside the lips' inside. The
 tone of its greys is fitted first, and a smooth flow leads it to the photograph (the paper's warp to the reference):

@@ -62,8 +62,12 @@ Warn = Callable[[str, str], None]
 
 @dataclass(frozen=True)
 class ClipLandmarks:
-    """Of those frames of a clip that were placed (`placed`, their numbers): the landmarks that each shows, `seen`, in pixels of
-    the clip's own size, and where the person is, `masks`, (h, w) bool, hands and feet included."""
+    """What was found in those frames of a clip that were placed.
+
+    placed : their numbers.
+    seen : the landmarks that each shows, in pixels of the clip's own size.
+    masks : (h, w) bool, where the person is, hands and feet included.
+    """
 
     placed: NDArray[np.int64]
     seen: tuple[FrameLandmarks, ...]
@@ -72,8 +76,14 @@ class ClipLandmarks:
 
 @dataclass(frozen=True)
 class ClipScan:
-    """What one clip gave: the `cameras` of those of its chosen frames that were placed (`placed`, their numbers), of the clip's
-    own size, and the person's `masks` there; the person's `dense` cloud and `landmarks`, in the cameras' world, metres."""
+    """What one clip gave.
+
+    placed : numbers of those of its chosen frames that were placed.
+    cameras : theirs, of the clip's own size.
+    masks : (h, w) bool, the person there.
+    dense : the person's cloud in the cameras' world, metres.
+    landmarks : the person's, in the same world.
+    """
 
     placed: NDArray[np.int64]
     cameras: tuple[Camera, ...]

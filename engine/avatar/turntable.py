@@ -28,8 +28,8 @@ BACKGROUND_COLOURS = ((232, 234, 236), (178, 182, 187))
 def turntable(
     mesh: SkinnedMesh, pose: Clip, size: tuple[int, int], seconds: float, fps: float
 ) -> Iterator[NDArray[np.uint8]]:
-    """Frames (h, w, 3) of a camera that goes once round the avatar, which stands in the first pose of `pose`; the first frame
-    shows it from the front, and the one after the last would be the first. `size` (width, height) in pixels."""
+    """Frames (h, w, 3) of a camera that goes once round the avatar, which stands in the first pose of `pose`. The first
+    frame shows it from the front, and the one after the last would be the first. `size` (width, height) in pixels."""
     count = max(1, round(seconds * fps))
     standing = Clip(
         pose.name,

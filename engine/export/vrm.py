@@ -100,8 +100,9 @@ def write_vrm(
 
     `quality` and `synthetic` are as of `engine.export.glb.write_glb`.
 
-    Raises ValueError where the skeleton lacks one of `REQUIRED_BONES`, `meta` names no author, or expressions do not fit the
-    morph targets, or lack those by which the eyes should look about; also where the model has levels of detail.
+    Raises ValueError where the skeleton lacks one of `REQUIRED_BONES`, or `meta` names no author. Also where
+    expressions do not fit the morph targets, or lack those by which the eyes should look about, and where the model has
+    levels of detail.
     """
     if not meta.name or not meta.authors:
         raise ValueError("a VRM needs a name and an author")

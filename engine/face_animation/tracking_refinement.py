@@ -44,8 +44,11 @@ CANDIDATE_FRAMES = 1024
 
 @dataclass(frozen=True)
 class DriverObservations:
-    """The driver's face where it is looked at: in `frames` (K,), the neutral one first; `seen` (K, 478, 2) float32 is
-    what a tracker sees there by itself, pixels of the crop, NaN where it sees no face."""
+    """The driver's face where it is looked at.
+
+    frames : (K,) of the driver, the neutral one first.
+    seen : (K, 478, 2) float32, what a tracker sees there by itself, pixels of the crop, NaN where it sees no face.
+    """
 
     frames: NDArray[np.int64]
     seen: NDArray[np.float32]

@@ -58,7 +58,7 @@ class Clip:
 
 def open_clip(path: Path, limits: Limits) -> Clip:
     """Let a video in. The limits are checked on what the headers claim, then on what the packets show, before a frame
-    is decoded; then the first frame is, for it carries how the clip is turned and how it stands for light.
+    is decoded. Then the first frame is, for it carries how the clip is turned and how it stands for light.
 
     Raises `InputError`: what `admit_video`, `check_video`, `open_video` raise, and `video_too_short`.
     """

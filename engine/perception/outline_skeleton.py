@@ -57,8 +57,12 @@ EYE_OFFSET_RADII, EAR_OFFSET_RADII, MOUTH_OFFSET_RADII = 0.35, 0.8, 0.45
 
 @dataclass(frozen=True)
 class MedialAxis:
-    """The axis of an outline: its N `points` (N, 2), x and y; the `radius` (N,) of the largest disk within the outline around each;
-    `graph` (N, N): how far neighbours are apart."""
+    """The axis of an outline.
+
+    points : (N, 2) on it, x and y.
+    radius : (N,) of the largest disk within the outline around each.
+    graph : (N, N) how far neighbours are apart.
+    """
 
     points: NDArray[np.float64]
     radius: NDArray[np.float64]

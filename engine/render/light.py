@@ -66,8 +66,12 @@ def dome(zenith: NDArray[np.floating], horizon: NDArray[np.floating], nadir: NDA
 
 @dataclass(frozen=True)
 class Shadow:
-    """What one lamp sees: `depth` (S, S) float32 along its rays, and `view` (4, 3) float32 that takes a point to
-    (x, y, depth) of that map: rows right, down and away from the lamp, and the offset."""
+    """What one lamp sees.
+
+    depth : (S, S) float32 along its rays.
+    view : (4, 3) float32 that takes a point to (x, y, depth) of that map: rows right, down and away from the lamp, and
+        the offset.
+    """
 
     depth: NDArray[np.float32]
     view: NDArray[np.float32]

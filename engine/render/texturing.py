@@ -49,8 +49,8 @@ class PictureWindow(NamedTuple):
 def corner_table(
     points: NDArray[np.float32], uv: NDArray[np.float32], shade: NDArray[np.float32] | None
 ) -> NDArray[np.float32]:
-    """(V, 5) or, with `shade` (V,), (V, 6): what a triangle needs of its corners: x and y in pixels; one over the distance,
-    u, v and the shade, each over the distance, which are linear on the screen. `points` (V, 3) as
+    """(V, 5) or, with `shade` (V,), (V, 6) what a triangle needs of its corners. That is x and y in pixels, one over
+    the distance, and u, v and the shade over the distance: these are linear on the screen. `points` (V, 3) as
     `Camera.project` gives them."""
     table = np.empty((len(points), 5 if shade is None else 6), np.float32)
     table[:, :2] = points[:, :2]

@@ -58,8 +58,8 @@ def claim(session: Session, job_id: str, owner: str, seconds: float) -> Lease | 
 def claim_next(session: Session, kind: str, owner: str, seconds: float) -> Lease | None:
     """Take the queued job of a kind whose turn it is; None if none is queued.
 
-    The highest priority comes first; among equals the key of which the fewest jobs run, so that a long list of one
-    key does not hold up the others; then whoever came first.
+    The highest priority comes first. Among equals it is the key of which the fewest jobs run, so that a long list of
+    one key does not hold up the others. Then it is whoever came first.
     """
     while (job_id := session.scalar(_in_turn(kind))) is not None:
         if (lease := claim(session, job_id, owner, seconds)) is not None:

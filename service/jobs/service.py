@@ -75,8 +75,8 @@ def revise(
     uploaded: Mapping[str, Sequence[File]],
     key: str | None,
 ) -> tuple[Job, bool]:
-    """Accept a revision: a job with other options, or with other files in place of what the work found, which reuses
-    the stages that they leave as they were; all else is the parent's.
+    """Accept a revision: a job with other options, or with other files in place of what the work found. It reuses the
+    stages that these leave as they were; all else is the parent's.
 
     `uploaded` are files that came with the request, by the names of corrections. Returns the job, and whether an
     earlier request with the same key had made it. Raises `Problem`.

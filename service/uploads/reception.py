@@ -1,8 +1,8 @@
 """One piece of an upload on its way to disk.
 
-The record's `received` is the truth. It grows only when the bytes up to there are on disk to stay, and what lies in
-the spool beyond it does not count: it is cut off when the next piece comes. A piece without a checksum is recorded
-every few seconds while it comes in, so that little has to be sent again after a crash; a piece with one only as a
+The record's `received` is the truth. It grows only when the bytes up to there are on disk to stay, and what lies in the
+spool beyond it does not count: it is cut off when the next piece comes. A piece without a checksum is recorded every
+few seconds while it comes in, so that little has to be sent again after a crash. A piece with one is recorded only as a
 whole. The last bytes are recorded together with the finished file, or not at all.
 """
 

@@ -57,8 +57,8 @@ def publish(context: Context, lease: Lease, path: Path) -> tuple[int, int] | Non
 
 
 def publish_all(context: Context, lease: Lease, out: Path, published: Mapping[str, tuple[int, int]]) -> bool:
-    """Publish everything in `out` that is not published yet and end the job as succeeded, all by one change; what it was made
-    of is erased, where the operator wants that.
+    """Publish everything in `out` that is not published yet and end the job as succeeded, all by one change. What it
+    was made of is erased, where the operator wants that.
 
     Returns False if the lease was lost: then nothing is published. Raises `FileRefused`, OSError.
     """

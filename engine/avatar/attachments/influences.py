@@ -11,8 +11,8 @@ from engine.geometry.mesh.closest_points import closest_points
 from engine.geometry.rigging.skinning import MAX_VERTEX_INFLUENCES
 
 INFLUENCE_SMOOTHING_ROUNDS = 300
-"""Rounds in which a vertex' influences become the mean of those around, a hand's breadth and more: a coat's tail that lies between
-both legs follows what they do together, and is not folded between them when they close."""
+"""Rounds in which a vertex' influences become the mean of those around, a hand's breadth and more. A coat's tail that
+lies between both legs follows what they do together, and is not folded between them when they close."""
 
 
 def influences(

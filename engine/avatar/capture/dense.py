@@ -69,8 +69,12 @@ CLOUD_PIECE_GAP_METRES, PIECE_SHARE = 0.02, 0.01
 
 @dataclass(frozen=True)
 class DenseCloud:
-    """What stereo measured: the `cloud`; how many views saw each point (N,) uint8 `support`, 0 where silhouettes alone tell of
-    it; and the `cameras` of all views, moved with the person's sway, lens's distortion included."""
+    """What stereo measured.
+
+    cloud : the points.
+    support : (N,) uint8, how many views saw each point, 0 where silhouettes alone tell of it.
+    cameras : of all views, moved with the person's sway, lens's distortion included.
+    """
 
     cloud: PointCloud
     support: NDArray[np.uint8]

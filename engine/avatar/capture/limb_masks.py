@@ -1,7 +1,7 @@
 """Hands, arms and legs in the masks of a person: what networks lose first, and what colours cannot tell from a dark floor.
 
-Where they are is known in space, by landmarks on which views agree: that marks them in every frame, also in those that show them
-blurred, small or from behind, and colours near by tell how far they reach.
+Where they are is known in space, by landmarks on which views agree. That marks them in every frame, also in those that
+show them blurred, small or from behind. Colours near by tell how far they reach.
 """
 
 from __future__ import annotations
@@ -44,8 +44,12 @@ MIN_LIMB_LENGTH_PIXELS = 6
 
 @dataclass(frozen=True)
 class Limb:
-    """`lines` (L, 2, 3) within a limb, in space; how far it may `reach` beyond, in lengths of all of them; what share of them must
-    be `lost` in a mask for it to be looked for."""
+    """A limb in space.
+
+    lines : (L, 2, 3) within it.
+    reach : how far it may go beyond them, in lengths of all of them.
+    lost : the share of them that must lack in a mask for it to be looked for.
+    """
 
     lines: NDArray[np.float64]
     reach: float = LIMB_REACH_LENGTHS

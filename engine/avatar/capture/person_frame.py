@@ -31,8 +31,12 @@ SAME_FRONT_RADIANS = np.radians(40)
 
 @dataclass(frozen=True)
 class PersonFrame:
-    """The `change` from a film's own frame to the person's; `height` of the person in the film's own unit, by silhouettes;
-    `on_floor`: whether the floor was found, or the person's lowest points had to do."""
+    """A person's own frame.
+
+    change : from a film's own frame to the person's.
+    height : of the person in the film's own unit, by silhouettes.
+    on_floor : whether the floor was found, or the person's lowest points had to do.
+    """
 
     change: Similarity
     height: float

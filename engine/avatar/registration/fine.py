@@ -76,9 +76,10 @@ def without_details(skin: Skin, vertices: NDArray[np.float64]) -> NDArray[np.flo
 def face_landmarks(
     skin: Skin, vertices: NDArray[np.float64], face: NDArray[np.floating], lids: float = 1.0
 ) -> SurfaceLandmarks | None:
-    """The inner face landmarks that are known, each counting less the farther it is from the skin's `vertices` (S, 3), and those of
-    the lids' rims `lids` times as much; None where they are not those of this face. They tell where a place is across the face:
-    how deep it is the surface knows better, for landmarks of contours slide along as the view turns."""
+    """The inner face landmarks that are known, or None where they are not those of this face. Each counts less the
+    farther it is from the skin's `vertices` (S, 3), and those of the lids' rims `lids` times as much. They tell where a
+    place is across the face: how deep it is the surface knows better, for landmarks of contours slide along as the view
+    turns."""
     known = np.flatnonzero(np.isfinite(face).all(1))
     known = known[known >= FIRST_INNER_FACE_POINT]
     at = skin.face_points[known]

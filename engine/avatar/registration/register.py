@@ -48,8 +48,8 @@ EYES_NOT_MEASURED = Notice(
 
 @dataclass(frozen=True)
 class Scan:
-    """What one clip gave: a cloud in its own world, metres, and the landmarks there; of a head's, whether it is `sized` as the
-    body's is, or its scale is to be found; of a body's, the person's `silhouettes`."""
+    """What one clip gave: a cloud in its own world, metres, and the landmarks there. Of a head's it says whether it is
+    `sized` as the body's is, or its scale is to be found; of a body's, the person's `silhouettes`."""
 
     cloud: PointCloud
     landmarks: SpatialLandmarks

@@ -25,8 +25,8 @@ MAX_HEAD_CORRECTION_DEGREES = 70.0
 
 
 def turn_head(fitted: FittedBody, figure: Figure) -> FittedBody:
-    """The fit with its head turned as the figure's face is; as it was where there is no face, or none to be believed, as in
-    profile, where the network makes up the half that is not seen."""
+    """The fit with its head turned as the figure's face is. It is as it was where there is no face, or none to be
+    believed: of one in profile the network makes up the half that is not seen."""
     if figure.face is None or in_profile(figure):
         return fitted
     fit, human = fitted.fit, load_human()

@@ -40,8 +40,9 @@ LEG_EDGE_PIXELS = 3
 
 
 def with_cloth(labels: Labels, rgb: NDArray[np.uint8], template: PosedTemplate, rig: Rig) -> Labels:
-    """Labels with the cloth that goes round both legs, and where it hangs, the legs that come out from under it: what goes round
-    both is one piece with the trunk, and neither of them is apart there. `rgb` (h, w, 3): the picture on their grid."""
+    """Labels with the cloth that goes round both legs, and where it hangs, the legs that come out from under it. What
+    goes round both is one piece with the trunk, and neither of them is apart there. `rgb` (h, w, 3): the picture on
+    their grid."""
     unseen = [limb for limb in not_seen(labels) if limb in ARM_LABELS]
     region, _ = find_regions(labels, [int(limb) for limb in labels.apart], template, rig, unseen)
     cloth = around_legs(region, labels, template, rig)

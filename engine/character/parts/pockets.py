@@ -1,8 +1,8 @@
 """Hands that were not found: what shows around them, and whether they are hidden, in a pocket or behind the tail of a coat.
 
-Beyond the paper. Colours part what shows there, the arm's from the cloth's; where skin and cloth are alike it counts whether the
-cloth goes on where the hand would be, and how sure of its fingers the body's network is. The template has the hand that the picture
-lacks.
+Beyond the paper. Colours part what shows there, the arm's from the cloth's. Where skin and cloth are alike it counts
+whether the cloth goes on where the hand would be, and how sure of its fingers the body's network is. The template has
+the hand that the picture lacks.
 """
 
 from __future__ import annotations

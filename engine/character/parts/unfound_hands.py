@@ -18,8 +18,8 @@ from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.perception.body import BODY_LANDMARKS
 
 HIP_DEPTH_TRUNK_SHARE, WRIST_HIP_WIDTH_RATIO, MAX_HIP_DISTANCE_TRUNK_LENGTHS = 0.7, 1.5, 0.5
-"""Where a wrist is at the hip: how far down the trunk, at least; how much further from the middle than the hip's joint; and
-how far from that joint, at most, in lengths of the trunk."""
+"""Where a wrist is at the hip. It is so far down the trunk, at least; so much further from the middle than the hip's
+joint; and so far from that joint, at most, in lengths of the trunk."""
 MIN_HIP_OFFSET_TRUNK_LENGTHS = 0.15
 """How far the hip's joint is from the middle, at least, in lengths of the trunk: seen from the side it is nowhere
 aside."""

@@ -57,8 +57,9 @@ def unseen_limbs(labels: Labels, template: PosedTemplate, rig: Rig) -> list[Unse
 def with_limbs_hidden(
     fitted: FittedBody, camera: PictureCamera, labels: Labels, warn: Callable[[str, str], None]
 ) -> FittedBody:
-    """The fit with limbs that are not seen turned, and stretched if need be, as little as it takes to hide them behind the person;
-    as it was where nothing does, as at the picture's edge. `camera`: the grid's. Warns of `limb_unseen`."""
+    """The fit with limbs that are not seen turned, and stretched if need be, as little as it takes to hide them behind
+    the person. It is as it was where nothing does that, as at the picture's edge. `camera`: the grid's. Warns of
+    `limb_unseen`."""
     labels = labels.layered
     human, inner = load_human(), _inner(labels)
     part = vertex_parts(human.rig)

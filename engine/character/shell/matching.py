@@ -49,8 +49,8 @@ def match_outlines(
     """The vertices (N,), and the points of the outlines (N,) that they are drawn to: for each point the outermost vertex of the
     part's rim on its normal, within reach.
 
-    `template` and `pictured` (V, 3): vertices as they were and as they are; `normals` (V, 3) of these, z towards the viewer;
-    `inwards`: how far within the outline, as a share of the person's height, a vertex may be.
+    `template` and `pictured` (V, 3) are vertices as they were and as they are, `normals` (V, 3) those of the latter, z
+    towards the viewer. `inwards` is how far within the outline, as a share of the person's height, a vertex may be.
     """
     rim = np.flatnonzero((np.abs(normals[:, 2]) < MAX_RIM_NORMAL_DEPTH) & ~mesh.eye & ~mesh.ear)
     along = np.arange(

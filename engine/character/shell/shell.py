@@ -60,8 +60,12 @@ class Shell:
 
 @dataclass(frozen=True)
 class Shape:
-    """What a shell is made of, (V, 3) each: the template `straight` in T-pose, in its shoes if it wears any, metres; as the fit has
-    it, `template`, and `pictured`, as in `Shell`."""
+    """What a shell is made of, (V, 3) each.
+
+    straight : the template in T-pose, in its shoes if it wears any, metres.
+    template : as the fit has it.
+    pictured : as in `Shell`.
+    """
 
     straight: NDArray[np.float64]
     template: NDArray[np.float64]

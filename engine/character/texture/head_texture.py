@@ -49,8 +49,8 @@ DARKEST_FACE_SHARE = 0.4
 HAIR_COLOUR_RATIO = 0.7
 """How much nearer to hair than to skin a colour must be."""
 MAX_BACKGROUND_SHARE, BACKGROUND_SHARE_SLOPE, BACKGROUND_BAND_PIXELS = 0.2, 0.1, 8.0
-"""How much of a colour at the outline may be the background's; how much more for each pixel of the grid inward, where
-that is less likely; and how far inward it is not possible."""
+"""How much of a colour at the outline may be the background's, how much more for each pixel of the grid inward, where
+that is less likely, and how far inward it is not possible."""
 HAIR_MID_LEVEL = 128.0
 """The level on which what is fine about hair is looked at."""
 FULL_STRAND_COVERAGE, MIN_STRAND_COVERAGE = 0.1, 0.3
@@ -202,8 +202,8 @@ def _mixed(
 
 
 def _covered(rgb: NDArray[np.uint8], hair: NDArray[np.bool_], head: Head, long: bool) -> NDArray[np.float32]:
-    """The head (h, w, 3) all over with hair: colours that hardly change, which are interpolated, and on them, patch by
-    patch, what is fine about it, or where little of it is seen, streaks. Patches alone would carry on whatever shade a
+    """The head (h, w, 3) all over with hair. Colours hardly change, and are interpolated. On them is, patch by patch,
+    what is fine about hair, or where little of it is seen, streaks. Patches alone would carry on whatever shade a
     little hair has at its edge."""
     shade = _interpolated(rgb, hair, head.scale)
     fine = np.clip(HAIR_MID_LEVEL + rgb.astype(np.float32) - shade, 0, 255).astype(np.uint8)

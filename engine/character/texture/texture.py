@@ -1,7 +1,8 @@
 """The character's colours: one texture of the picture's own pixels, of what is hidden, and of the back.
 
-The paper's section 5: the front by projection; front regions behind limbs filled by PatchMatch; the back a mirrored copy of
-the front, on which the face gives way to what surrounds it (hair, a hat). Beyond it, what only fronts have gives way, too.
+The paper's section 5. The front is made by projection, and its regions behind limbs are filled by PatchMatch. The back
+is a mirrored copy of the front, on which the face gives way to what surrounds it (hair, a hat). Beyond it, what only
+fronts have gives way, too.
 """
 
 from __future__ import annotations

@@ -308,7 +308,7 @@ def shade(
     strength: float = 1.0,
 ) -> None:
     """Equation 3: multiply the warped target (H, W, 3), in place, by the warped ratio where its region allows, with a
-    `strength` from 0 to 1; each channel as far as the target's own skin darkens in the shade.
+    `strength` from 0 to 1. Each channel is multiplied as far as the target's own skin darkens in the shade.
 
     `landing` is the region's origin on the driver's neutral crop. `origin` (H, W, 2) is the frame's inverse map, in
     pixels of the target enlarged by `scale`. `within` are points (V, 2) of the frame around which its face ends, if

@@ -40,8 +40,9 @@ def gaze_offsets(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) ->
 
 
 def conjugate(looks: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Looks (N, 2, 2) of two eyes that move together, as `gaze_offsets` has them: both go the mean of what each was seen to do, and only what
-    they differ by beyond `MIN_VERGENCE_EYE_WIDTHS` remains: whoever crosses their eyes means it."""
+    """Looks (N, 2, 2) of two eyes that move together, as `gaze_offsets` has them. Both go the mean of what each was
+    seen to do. Only what they differ by beyond `MIN_VERGENCE_EYE_WIDTHS` remains: whoever crosses their eyes means
+    it."""
     across_picture = looks * INWARD_SIGNS
     together = across_picture.mean(axis=1, keepdims=True)
     apart = across_picture - together

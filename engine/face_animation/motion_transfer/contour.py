@@ -94,8 +94,8 @@ def contour_spots(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> N
 
 
 def beside_contour(mesh: NDArray[np.floating], seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(478,) whether each vertex of a mesh (478, 2 or 3) lies beside the cheeks' contour and is none of its own; only where
-    the contour's vertices are `seen` (478,): elsewhere others are the picture's outline."""
+    """(478,) whether each vertex of a mesh (478, 2 or 3) lies beside the cheeks' contour and is none of its own. That
+    is so only where the contour's vertices are `seen` (478,): elsewhere others are the picture's outline."""
     cheeks = np.isin(np.arange(len(FACE_OVAL)), CHEEK_CONTOUR_EDGES)
     beside = _nearest(mesh, seen, cheeks)[2] < CONTOUR_MARGIN_EYE_DISTANCES * eye_distance(mesh[:, :2])
     beside[list(FACE_OVAL)] = False

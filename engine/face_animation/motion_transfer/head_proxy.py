@@ -29,8 +29,8 @@ NECK_FADE_CHIN_LENGTHS = (0.9, 1.7)
 SHOULDER_FADE_CHIN_LENGTHS, SHOULDER_SIDE_CHIN_LENGTHS = (0.6, 1.0), (0.7, 1.2)
 """Lengths from eyes to chin: where shoulders begin beside the neck, below the eyes, and how far aside they do."""
 CONTOUR_REACH_CHIN_LENGTHS, CONTOUR_SPREAD_CHIN_LENGTHS, CONTOUR_POINT_REACH_CHIN_LENGTHS = 0.5, 0.15, 0.3
-"""Lengths from eyes to chin: as far from the contour what it does beyond the head has faded; how far along it points
-beside it take part in each other's, and how far from it they do so fully."""
+"""Lengths from eyes to chin. So far from the contour what it does beyond the head has faded. So far along it points
+beside it take part in each other's, and so far from it they do so fully."""
 RIM_TO_SKULL_FACE_WIDTHS, RIM_TO_OUTLINE_FACE_WIDTHS = 0.3, 0.12
 """Outside the face's skin its rim passes over into the skull, in depth, and into the skull's outline, in motion, within these shares of the
 face's width."""

@@ -29,8 +29,8 @@ CLOSED_GAP_SHARE = 0.3
 OPEN_GAP_SHARE = 0.6
 """Share of its usual gap above which an eye's gap is carried as it is."""
 BLINK_DIFFERENCE_SHARES = (0.25, 0.5)
-"""Differences between the two eyes' gaps, as shares of their usual ones, up to which both blink alike, and from which on one winks:
-of eyes that close together a tracker sees one a frame behind the other."""
+"""Differences between the two eyes' gaps, as shares of their usual ones, up to which both blink alike, and from which
+on one winks. Of eyes that close together a tracker sees one a frame behind the other."""
 BLINK_GAP_SHARES = (0.7, 0.9)
 """Mean share of their usual gaps below which eyes are closing, and above which each is as open as it is seen to be."""
 SHUT_GAP_SHARES = (0.2, 0.35)

@@ -89,8 +89,9 @@ def _kept_share(
 def in_order(
     along: NDArray[np.floating], least: NDArray[np.floating], gives: NDArray[np.floating] | None = None
 ) -> NDArray[np.floating]:
-    """Places (..., K) along a way, moved as little as it takes to be `least` (..., K - 1) apart, the last one not at all:
-    each makes room for those before it, as long as there is any, and as far as it `gives` way (..., K), in [0, 1]."""
+    """Places (..., K) along a way, moved as little as it takes to be `least` (..., K - 1) apart, the last one not at
+    all. Each makes room for those before it as long as there is any, and as far as it `gives` way (..., K), in [0,
+    1]."""
     kept = along.copy()
     give = np.ones(along.shape[-1]) if gives is None else gives
     for k in range(1, along.shape[-1] - 1):

@@ -1,7 +1,7 @@
 """Motions that are loops: their last pose leads into their first.
 
-Few files say so. It shows at the seam: every joint goes on from the last frame into the first as it goes on anywhere
-else, and the hips are as high again; where they are over the ground does not matter. What begins and ends at rest, such
+Few files say so. It shows at the seam. Every joint goes on from the last frame into the first as it goes on anywhere
+else, and the hips are as high again. Where they are over the ground does not matter. What begins and ends at rest, such
 as a bow, comes back to its first pose, too, and is done once.
 """
 

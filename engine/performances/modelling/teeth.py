@@ -34,8 +34,8 @@ class Dentition:
 
 @dataclass(frozen=True)
 class Arch:
-    """Where a row of teeth stands: the front of the arch (y of the gum line, z of the front), metres; `up` is 1
-    where the crowns point up (lower jaw), -1 where they point down."""
+    """Where a row of teeth stands: the front of the arch (y of the gum line, z of the front), metres. `up` is 1 where
+    the crowns point up (lower jaw), -1 where they point down."""
 
     gum: float
     front: float

@@ -38,8 +38,8 @@ Reason = Literal[
 
 @dataclass(frozen=True)
 class Choice:
-    """What somebody has said of faces, by their numbers: to keep them whatever speaks against it, or to leave them out; the first and
-    the last of the `years` that are meant, and which `look` is."""
+    """What somebody has said of faces, by their numbers: to keep them whatever speaks against it, or to leave them out.
+    Also the first and the last of the `years` that are meant, and which `look` is."""
 
     keep: Collection[int] = ()
     leave_out: Collection[int] = ()

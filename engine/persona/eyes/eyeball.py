@@ -1,7 +1,7 @@
 """An eyeball behind the lids of a face, and how it turns.
 
-A face mesh's lids lie flatter than people's, and their corners reach beyond a true eyeball: so the ball is larger than people's, as large as fills the
-opening, and turns by less, so that its iris travels as far.
+A face mesh's lids lie flatter than people's, and their corners reach beyond a true eyeball. So the ball is larger than
+people's, as large as fills the opening. It turns by less, so that its iris travels as far.
 """
 
 from __future__ import annotations

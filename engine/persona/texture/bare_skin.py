@@ -98,8 +98,8 @@ class BareSkin:
 
     @cached_property
     def _areas(self) -> tuple[NDArray[np.bool_], ...]:
-        """In the coarse frame (h, w) what the frame covers; skin for certain; what is about the face, above the mouth; the middle of the
-        face, from the brows down; and the brows."""
+        """Areas of the coarse frame (h, w): what the frame covers, skin for certain, what is about the face above the
+        mouth, the middle of the face from the brows down, and the brows."""
         frame, (height, width) = self.frame, self.frame.size
         places = frame.places[:478, :2]
         brows = np.split(fiducials(frame.places[:478])[BROW_POINTS, :2], 2)

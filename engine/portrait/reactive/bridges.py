@@ -65,8 +65,12 @@ class BridgeSegment:
 
 @dataclass(frozen=True)
 class ExitBridges:
-    """Ways out of one clip: the poses that bridges begin at by their `frames`, each bridge's length, and for each frame
-    of the clip the exit `at` it; -1 where it is at rest, or as good as."""
+    """Ways out of one clip.
+
+    frames : those of the clip with whose poses bridges begin.
+    lengths : of the bridges, frames.
+    at : for each frame of the clip the exit; -1 where it is at rest, or as good as.
+    """
 
     frames: tuple[int, ...]
     lengths: tuple[int, ...]

@@ -71,8 +71,8 @@ def meeting_rims(template: Template, skin: Skin, blink: str) -> MeetingRims:
 def before_the_eye(
     eyeball: NDArray[np.float64], rest: NDArray[np.float64], moved: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """The displacements `moved` (N, 3) of vertices at `rest` (N, 3) so that neither with all of them, nor with half, any lies in an
-    eyeball (E, 3): morph targets move along straight lines, which cut a sphere."""
+    """The displacements `moved` (N, 3) of vertices at `rest` (N, 3) so that none lies in an eyeball (E, 3), neither
+    with all of them nor with half: morph targets move along straight lines, which cut a sphere."""
     half = before_eyeball(eyeball, rest + moved / 2, 0.0)
     out = 2 * (half - rest)
     return np.asarray(before_eyeball(eyeball, rest + out) - rest)

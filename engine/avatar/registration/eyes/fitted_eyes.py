@@ -204,8 +204,8 @@ def _lids(
     """The skin (S, 3) of the whole template `vertices` (V, 3) with the `rims` of its lids at their `places`, and nothing of the lids
     within an eyeball.
 
-    Lids between their rims and the skin about them keep the folds that they had before, but for a smooth displacement: the fit
-    crumples them where an eye is opened wider, and between them points are of the eye.
+    Lids between their rims and the skin about them keep the folds that they had before, but for a smooth displacement.
+    The fit crumples them where an eye is opened wider, and between them points are of the eye.
     """
     fitted = vertices[skin.vertices].copy()
     own = head(before[skin.vertices])
