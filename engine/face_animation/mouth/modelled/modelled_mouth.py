@@ -41,8 +41,8 @@ LIP_SOFTNESS_EYE_DISTANCES, MIN_LIP_SOFTNESS_PIXELS = 0.012, 0.8
 """Eye distances, and pixels, over which the inside passes into the lips: their edges are round, and the mesh's have corners."""
 AMBIENT_LIGHT_SHARE, TEETH_AMBIENT_LIGHT_SHARE = 0.75, 0.52
 """Of the light on a surface, that it has wherever it faces; and on teeth, whose crowns are told apart by it."""
-TONGUE_FALLOFF_EYE_DISTANCES, TEETH_FALLOFF_EYE_DISTANCES = 0.9, 0.45
-"""Eye distances behind the upper teeth at which a third of the light is left, on the tongue and on teeth: cheeks are beside these."""
+TEETH_FALLOFF_EYE_DISTANCES = 0.45
+"""Eye distances behind the upper teeth at which a third of the light is left on teeth: cheeks are beside them. Ramps of the other parts have theirs."""
 INCISORS_SHARE = 0.25
 """Of the teeth, which are the foremost."""
 LIGHTEST_PERCENTILE = 80
@@ -139,7 +139,7 @@ class ModelledMouth:
         raised = min(
             float(front[INNER_UPPER_LIP_VERTEX, 1]) + MAX_CROWN_EYE_DISTANCES - self._at.edge, 0.0
         ) - covered_crown(self._at, front)
-        bag = mouth_bag(lips, BAG_DEPTH_FACTOR)
+        bag = mouth_bag(lips, BAG_DEPTH_FACTOR, self._at.width)
         moved = np.concatenate(
             [AFFINE_FRAME + np.array([0, raised, 0]), jaw.moved(AFFINE_FRAME), tongue_jaw.moved(AFFINE_FRAME), bag]
         )
@@ -173,9 +173,8 @@ class ModelledMouth:
         teeth = np.arange(len(vertices)) < self._ends[1]
         ambient = np.where(teeth, TEETH_AMBIENT_LIGHT_SHARE, AMBIENT_LIGHT_SHARE)
         facing = ambient + (1 - ambient) * np.clip(-normals[:, 2], 0, 1)
-        reach = np.where(teeth, TEETH_FALLOFF_EYE_DISTANCES, TONGUE_FALLOFF_EYE_DISTANCES)
-        deep = np.exp(-np.maximum(vertices[:, 2] - self._at.depth, 0) / reach)
-        shade = facing * deep
+        deep = np.exp(-np.maximum(vertices[:, 2] - self._at.depth, 0) / TEETH_FALLOFF_EYE_DISTANCES)
+        shade = np.where(teeth, facing * deep, facing)
         shade[: len(self._light)] *= self._light
         row = slice(0, self._ends[1])
         before = vertices[row, 2] <= np.quantile(vertices[row, 2], INCISORS_SHARE)

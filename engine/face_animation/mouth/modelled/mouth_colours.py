@@ -16,16 +16,16 @@ from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 
 ENAMEL_COLOUR, DENTINE_COLOUR = np.array([216, 209, 197.0]), np.array([198, 185, 162.0])
 GUM_COLOUR, TONGUE_COLOUR = np.array([176, 96, 95.0]), np.array([196, 110, 108.0])
-LINING_COLOUR, THROAT_COLOUR = np.array([140, 60, 58.0]), np.array([66, 24, 23.0])
+LINING_COLOUR, THROAT_COLOUR = np.array([140, 60, 58.0]), np.array([52, 19, 18.0])
 """Colours (sRGB) of mouths whose skin has the luminance `USUAL_SKIN_LUMINANCE`."""
 USUAL_SKIN_LUMINANCE = 165.0
 SKIN_LIGHT_RANGE = (0.35, 1.25)
 LIP_HUE_SHARE = 0.5
 """Of the person's lips in what is flesh."""
-TONGUE_LIT_SHARE, TONGUE_DARK_SHARE, TONGUE_SIDES_SHARE = 0.15, 0.6, 0.3
+TONGUE_LIT_SHARE, TONGUE_DARK_SHARE, TONGUE_SIDES_SHARE = 0.12, 0.7, 0.45
 """Of the tongue's length from its tip, that is in the light, and from which on it is not; and of its half width, from which on it turns to the
 cheeks."""
-TONGUE_BACK_DARKNESS, TONGUE_SIDES_DARKNESS = 0.75, 0.2
+TONGUE_BACK_DARKNESS, TONGUE_SIDES_DARKNESS = 1.0, 0.9
 """Of the way from the lining's colour to the throat's, that of the tongue's back, and of its sides: as what is behind them, since an outline would
 make it a block."""
 MAX_TEETH_LEVEL = 250.0

@@ -27,6 +27,8 @@ OVERBITE_EYE_DISTANCES, OVERJET_EYE_DISTANCES = 0.03, 0.05
 """Eye distances by which lower teeth end above the upper ones' edges, and lie behind them, where the jaw is closed."""
 TONGUE_SIZE_SHARES = (1.0, 0.5, 0.45)
 """Of the template's tongue, along x, y and z from its tip: so that it lies within the row of teeth, and its root within a face without a neck."""
+TONGUE_ARCH_EYE_DISTANCES = 0.08
+"""Eye distances by which the middle of its back is higher than its sides, as of a tongue at rest: the template's is flat, and seen from the front a block."""
 TONGUE_JAW_SHARE = 0.7
 """Of the jaw's angle, by which the tongue lies lower where it opens: its back is lifted off the floor of the mouth."""
 TONGUE_SECTIONS = 8
@@ -121,6 +123,7 @@ def tongue(at: RestingMouth) -> MouthPart:
     places = tip + (places - tip) * TONGUE_SIZE_SHARES
     depth = (places[:, 2] - places[:, 2].min()) / np.ptp(places[:, 2])
     aside = np.abs(places[:, 0]) / _half_width(places[:, 0], depth)
+    places[:, 1] -= TONGUE_ARCH_EYE_DISTANCES * (1 - np.minimum(aside, 1) ** 2) * np.sin(np.pi * depth)
     shift = np.array([at.middle, at.edge - OVERBITE_EYE_DISTANCES, at.depth + OVERJET_EYE_DISTANCES])
     uv = np.column_stack([depth, aside]).astype(np.float32)
     return MouthPart(places + shift, triangulate(finer.quads), uv, np.ones(len(uv), np.float32))
@@ -148,15 +151,17 @@ def _tongue(template: Template) -> tuple[NDArray[np.integer], Subdivision]:
     return known, catmull_clark(index.reshape(quads.shape), len(known))
 
 
-def mouth_bag(lips: NDArray[np.floating], deeper: float = 1.0) -> NDArray[np.float64]:
+def mouth_bag(lips: NDArray[np.floating], deeper: float = 1.0, width: float = 0.0) -> NDArray[np.float64]:
     """(V, 3) the vertices of the bag behind inner `lips` (20, 3), in the order of `LIPS_INNER`: rings, and its end; so many times `deeper`
-    than a face without a neck has room for."""
+    than a face without a neck has room for. Behind lips that are narrower than `width`, rounded as they are, it is as wide as that: the tongue is,
+    too."""
     lips = np.asarray(lips, np.float64)
     middle = lips.mean(axis=0)
+    wider = max(1.0, width / max(float(np.ptp(lips[:, 0])), 1e-6))
     up = _up(len(lips))
     rings = []
     for depth, higher, share in BAG_RINGS:
-        ring = middle + (lips - middle) * (share, 1, 1)
+        ring = middle + (lips - middle) * (share * (wider if depth > 0 else 1), 1, 1)
         ring[:, 1] += higher * up
         ring[:, 2] += deeper * depth
         rings.append(ring)

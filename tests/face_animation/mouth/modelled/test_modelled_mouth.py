@@ -21,6 +21,7 @@ from engine.face_animation.mouth.modelled.mouth_parts import (
     OVERJET_EYE_DISTANCES,
     modelled_teeth,
     mouth_bag,
+    tongue,
 )
 from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
 from engine.perception.expression.features import frontalise
@@ -242,3 +243,26 @@ def test_crowns_are_told_apart_by_their_shade(mouth: ModelledMouth) -> None:
     line = frame[int(crown.max()) - 3, int(face[13, 0]) - 16 : int(face[13, 0]) + 17].astype(int).sum(axis=1)
     dips = [k for k in range(1, len(line) - 1) if line[k] < line[k - 1] - 2 and line[k] <= line[k + 1]]
     assert any(abs(k - 16) <= 2 for k in dips), "between the two in the middle"
+
+
+def test_a_tongue_is_arched_and_ends_in_the_dark() -> None:
+    """The middle of its back is higher than what is halfway to its sides; and there it is as dark as the bag behind."""
+    part = tongue(resting_mouth(front(0.0), front(0.0)))
+    back = (part.uv[:, 0] > 0.35) & (part.uv[:, 0] < 0.65)
+    middle, aside = (
+        part.vertices[back & (part.uv[:, 1] > low) & (part.uv[:, 1] < low + 0.2), 1] for low in (-0.1, 0.6)
+    )
+    assert middle.min() < aside.min() - 0.02, "y is down"
+    colours = mouth_colours(picture((200, 150, 130)), seen(front(0.0)))
+    along = colours.tongue[0].astype(float).sum(axis=-1)
+    assert along[-1] < 0.35 * along[0] and abs(along[-1] - colours.bag[8, -1].astype(float).sum()) < 30
+
+
+def test_rounded_lips_narrow_the_opening_alone() -> None:
+    """The bag behind them is as wide as the mouth, so that its walls do not cut off the tongue."""
+    lips = front(0.3)[list(LIPS_INNER)]
+    rounded = lips * (0.5, 1, 1)
+    width = float(np.ptp(lips[:, 0]))
+    bag = mouth_bag(rounded, width=width)
+    np.testing.assert_array_equal(bag[: len(lips)], rounded)
+    assert np.ptp(bag[len(lips) : 2 * len(lips), 0]) >= width
