@@ -307,7 +307,7 @@ def make_shell_character(
     back: BackTexture,
 ) -> Character:
     """The shell painted, bound in T-pose and brought down to a number of triangles."""
-    texture = paint_shell(figure.rgb, silhouette, labels, shell, back)
+    texture = paint_shell(figure.rgb, silhouette, labels.bare, shell, back)
     character = bind_shell(shell, figure, silhouette, fitted, texture)
     return replace(character, mesh=fewer_triangles(character, triangles))
 
@@ -323,12 +323,13 @@ def make_hybrid_character(
 ) -> Character:
     """Both surfaces painted, bound in T-pose, put together and brought down to a number of triangles."""
     own, trunk = hybrid.labels, hybrid.trunk
-    limbs = np.isin(own.labels, own.apart)
+    held = np.zeros(own.labels.shape, np.bool_) if own.held is None else own.held >= 0
+    limbs = np.isin(own.labels, own.apart) | held
     around = dilate_mask(trunk.pixels(np.arange(len(trunk.vertices)), limbs.shape), TRUNK_MARGIN_PIXELS)
     below = np.isin(own.labels, LEG_LABELS) & dilate_mask(own.labels == TRUNK_LABEL, TRUNK_MARGIN_PIXELS)
     hidden = limbs & around & ~below & ~hybrid.at_shoulders()  # at the waist nothing is behind legs
     hidden |= (own.labels == TRUNK_LABEL) & (hybrid.strange | dilate_mask(hidden, MIXED_BORDER_PIXELS))
-    arms = np.isin(own.labels, ARM_LABELS)
+    arms = np.isin(own.labels, ARM_LABELS) | held
     gone, behind, before = (_in_the_picture(one, silhouette) for one in (limbs & ~around, hidden, arms))
     alone = replace(silhouette, alpha=silhouette.alpha * (1 - gone))
     seen = mirrored_behind(figure.rgb, behind > 0, (silhouette.alpha > OPAQUE_ALPHA) & (gone == 0) & (before == 0))
@@ -337,7 +338,9 @@ def make_hybrid_character(
     shown = limbs_alone(hybrid)
     relief = _made_of(figure, alone, fitted, own, trunk, tiles, _left_for_a_relief(triangles, shown))
     filled: BackTexture = "inpaint" if back == "inpaint" else "mirror"
-    texture = paint_shell(figure.rgb, silhouette, labels, hybrid.shell, filled, shown.mesh.triangles, hybrid.strange)
+    texture = paint_shell(
+        figure.rgb, silhouette, labels.bare, hybrid.shell, filled, shown.mesh.triangles, hybrid.strange
+    )
     texture = with_the_trunks_colours(texture, hybrid, tiles, figure, silhouette)
     shell = bind_shell(shown, figure, silhouette, fitted, texture)
     character = together(shell, relief)

@@ -41,7 +41,7 @@ class Hybrid:
     shell : the whole shell, its limbs where they are to the trunk.
     limbs : which of it is shown.
     trunk : the relief.
-    labels : what each pixel shows, as the trunk is made of them.
+    labels : what each pixel shows of the body, as the trunk is made of them.
     strange : (h, w) bool, pixels that have not the colours of what they are labelled as.
     """
 
@@ -66,6 +66,7 @@ def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
     """Both surfaces of a person: `figure` and `silhouette` as they were found, the `fitted` template, and the `labels` of its parts."""
     mesh, human = template_mesh(), load_human()
     camera = silhouette.camera(fitted.picture_camera())
+    labels = labels.bare
     own = trunk_labels(labels)
     strange = strange_colours(silhouette.rgb, own.labels)
     template = pose_template(fitted, camera, human)
@@ -86,9 +87,9 @@ def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
         limbs = with_head(limbs, mesh, fitted)
         pictured, trunk = joined_at_the_neck(mesh, pictured, limbs, trunk, seen)
     shown = cut_off(mesh, limbs).triangles
-    pictured = drawn_to_the_outline(pictured, limbs, shown, trunk, silhouette.soft)
+    pictured = drawn_to_the_outline(pictured, limbs, shown, trunk, silhouette.soft, own.held)
     covering = Piece("trunk", trunk.vertices, trunk.triangles, trunk.bones.astype(np.intp), trunk.weights)
-    pieces = props_of(mesh, pictured, silhouette, [covering])
+    pieces = props_of(mesh, pictured, silhouette, [covering], own.held)
     shell = shell_of(mesh, replace(shape, pictured=pictured), silhouette, fitted, pieces)
     return Hybrid(shell, limbs, trunk, own, strange)
 

@@ -14,6 +14,7 @@ from scipy.spatial import cKDTree
 from engine.character.hybrid.limbs import Limbs
 from engine.character.shell.outlines import border_points
 from engine.character.surface.front_and_back import ClosedMesh
+from engine.imaging.masks.mask_distance import dilate_mask
 from engine.render.rasteriser import rasterise
 
 FINE_SCALE = 3
@@ -22,6 +23,8 @@ MAX_WARP_PIXELS, MIN_FACING_COSINE = 6.0, 0.6
 """Pixels of the grid that a silhouette is drawn at most, and cosine between its normal and that of the outline there."""
 WARP_SIGMA_PIXELS, FULL_WARP_WEIGHT = 4.0, 0.02
 """Pixels of the grid over which the warp is one; and how much of the silhouette is about a place that goes with it wholly."""
+HELD_MARGIN_PIXELS = 3
+"""Pixels of the grid around what is held in which the outline is not the body's."""
 WARP_ROUNDS = 3
 """Times that silhouettes are compared."""
 
@@ -32,19 +35,26 @@ def drawn_to_the_outline(
     triangles: NDArray[np.int32],
     trunk: ClosedMesh,
     soft: NDArray[np.float32],
+    held: NDArray[np.int8] | None = None,
 ) -> NDArray[np.float64]:
     """The shell's vertices (V, 3) as `pictured`, those of its limbs moved in the picture so that limbs, whose `triangles` (T, 3) are shown, and
-    trunk have the outline of the mask `soft` (h, w), from 0 to 1."""
+    trunk have the outline of the mask `soft` (h, w), from 0 to 1. What is `held` (h, w), -1 where nothing is, draws nothing."""
     size = (soft.shape[1] * FINE_SCALE, soft.shape[0] * FINE_SCALE)
     mask = cv2.resize(soft, size, interpolation=cv2.INTER_LINEAR) > 0.5
     outline, facing = border_points(mask)
+    beside = np.ones(mask.shape, np.bool_)
+    if held is not None:
+        around = dilate_mask(held >= 0, HELD_MARGIN_PIXELS).astype(np.uint8)
+        beside = cv2.resize(around, size, interpolation=cv2.INTER_NEAREST_EXACT) == 0
+        x, y = outline.astype(int).T
+        outline, facing = outline[beside[y, x]], facing[beside[y, x]]
     tree, moved = cKDTree(outline), pictured.copy()
     own = limbs.limb >= 0
     for _ in range(WARP_ROUNDS):
         seen = _silhouette(moved, triangles, trunk, (size[1], size[0]))
         points, normals = border_points(seen >= 0)
         x, y = points.astype(int).T
-        limb = (seen[y, x] >= 0) & (seen[y, x] < len(triangles))
+        limb = (seen[y, x] >= 0) & (seen[y, x] < len(triangles)) & beside[y, x]
         points, normals = points[limb], normals[limb]
         if not len(points):
             return moved

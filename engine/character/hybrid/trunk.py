@@ -45,10 +45,16 @@ def trunk_labels(labels: Labels) -> Labels:
     return replace(labels, labels=found, apart=apart, parting=np.zeros_like(labels.parting), behind=None)
 
 
+def before_the_trunk(labels: Labels) -> NDArray[np.bool_]:
+    """The pixels (h, w) that limbs have, or what hands hold."""
+    limbs = np.isin(labels.labels, LIMB_LABELS)
+    return np.asarray(limbs if labels.held is None else limbs | (labels.held >= 0))
+
+
 def trunk_region(labels: Labels, template: PosedTemplate, rig: Rig) -> Region:
     """The trunk's pixels with the head's, in one piece, and the template's triangles that are theirs. `labels`: of `trunk_labels`."""
     part = vertex_parts(rig)[template.triangles]
-    limbs = np.isin(labels.labels, LIMB_LABELS)
+    limbs = before_the_trunk(labels)
     own = np.asarray((~np.isin(part, LIMB_LABELS)).any(1), np.bool_)
     if labels.cloth is not None and labels.cloth.hangs:
         own = own | _within_cloth(labels, template, part)
@@ -64,7 +70,7 @@ def trunk_region(labels: Labels, template: PosedTemplate, rig: Rig) -> Region:
 def soft_beside_limbs(layer: Layer, labels: Labels) -> NDArray[np.float32]:
     """The trunk's mask (h, w) about limbs, smoothed: its border is where that is 0.5, between the pixels; 1 elsewhere."""
     smooth = cv2.GaussianBlur(layer.mask.astype(np.float32), (0, 0), TRUNK_BORDER_SMOOTHING_PIXELS / 2)
-    beside = dilate_mask(np.isin(labels.labels, LIMB_LABELS), TRUNK_BEHIND_LIMBS_PIXELS)
+    beside = dilate_mask(before_the_trunk(labels), TRUNK_BEHIND_LIMBS_PIXELS)
     return np.where(beside, smooth, 1).astype(np.float32)
 
 

@@ -19,6 +19,7 @@ from engine.character.parts.colour_ownership import owned_by_colour
 from engine.character.parts.crossed_labels import ArmLabels, Behind
 from engine.character.parts.free_cloth import FreeCloth
 from engine.character.parts.hair_behind_arms import hair_behind_arms
+from engine.character.parts.held_things import held_things
 from engine.character.parts.labels import (
     ARM_LABELS,
     LEG_LABELS,
@@ -50,6 +51,7 @@ class Labels:
     hidden : (h, w) int8 the arm whose hand is in a pocket there, or behind other cloth, -1 elsewhere.
     behind : of crossed arms the one that the other hides.
     cloth : what goes round both legs.
+    held : (h, w) int8 the arm whose hand holds what is there, labelled as its; -1 elsewhere, None where nothing is held.
     """
 
     labels: NDArray[np.int8]
@@ -59,6 +61,14 @@ class Labels:
     hidden: NDArray[np.int8]
     behind: Behind | None = None
     cloth: FreeCloth | None = None
+    held: NDArray[np.int8] | None = None
+
+    @property
+    def bare(self) -> Labels:
+        """The same of the body alone: what is held is no part of it."""
+        if self.held is None:
+            return self
+        return replace(self, labels=np.where(self.held >= 0, -1, self.labels).astype(np.int8))
 
     @property
     def layered(self) -> Labels:
@@ -104,7 +114,7 @@ def label_parts(
     seen = side_maps(template.vertices, template.triangles, (mask.shape[0], mask.shape[1]), "front")
     projected = np.where(seen.mask, part_of[seen.raster.triangle], -1)
     rest = interpolate(template.rest, template.triangles, seen.raster)
-    hidden = np.full(mask.shape, -1, np.int8)
+    hidden, held = (np.full(mask.shape, -1, np.int8) for _ in range(2))
 
     def before(labels: NDArray[np.integer]) -> int | None:
         return leg_before(labels, template, rig)
@@ -127,7 +137,9 @@ def label_parts(
         rough, plain = labelled_shoulders(rgb, rough, template, rig)
         if (leg := before(rough)) is not None:
             rough = as_the_template(rough, projected, leg)
-        rough = without_specks(owned_by_colour(rgb, rough.astype(np.int8)), known, plain)
+        held = held_things(rgb, rough, template, rig)
+        bare = owned_by_colour(rgb, np.where(held >= 0, -1, rough).astype(np.int8))
+        rough = without_specks(np.where(held >= 0, held, bare), known, plain)
         for hand in hints.unfound:
             own = template_hand(template.vertices, template.triangles, rig, hand.arm, (mask.shape[0], mask.shape[1]))
             if (found := parted(rgb, rough, own, hand)) is not None:
@@ -135,7 +147,10 @@ def label_parts(
                 hidden[found.hidden] = hand.arm
     labels = corrected(rough.astype(np.int8))
     hidden[labels != rough] = -1  # whoever paints there has seen what is there
+    held[labels != held] = -1
     whole = _with_occlusion(labels, projected, rest, hidden, before(labels))
+    if (held >= 0).any():
+        whole = replace(whole, held=held)
     if crossed is None or crossed.behind.limb not in whole.apart:
         return whole
     behind = crossed.behind

@@ -74,10 +74,11 @@ class Shape:
 
 def make_shell(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Shell:
     """The shell of a person: `figure` and `silhouette` as they were found, the `fitted` template, and the `labels` of its parts."""
+    labels = labels.bare
     mesh, shape = template_mesh(), shaped(figure, silhouette, fitted, labels)
     skirt = skirt_of(mesh, shape.pictured, labels)
     pieces = [] if skirt is None else [skirt]
-    pieces += props_of(mesh, shape.pictured, silhouette, pieces)
+    pieces += props_of(mesh, shape.pictured, silhouette, pieces, labels.held)
     return shell_of(mesh, shape, silhouette, fitted, pieces)
 
 

@@ -19,6 +19,7 @@ from engine.character.shell.skirt import skirt_of
 from engine.character.shell.template_mesh import template_mesh
 from engine.geometry.mesh.surface import area_vectors
 from engine.geometry.mesh.welding import is_closed
+from engine.render.rasteriser import rasterise
 from tests.character.shell.test_displacement import SHAPE, arms_down, covered, labels_of, on_grid
 
 
@@ -98,3 +99,22 @@ def test_what_is_beside_a_hand_is_a_closed_piece_in_it(body: NDArray[np.float64]
     assert piece.kind == "LeftHand" and is_closed(piece.triangles) and volume(piece) > 0
     assert (piece.bones[:, 0] == template_mesh().names.index("LeftHand")).all() and (piece.weights[:, 0] == 1).all()
     assert props_of(template_mesh(), body, silhouette_of(mask), []) == []
+
+
+def test_what_is_held_is_a_ball_of_its_own_depth_whose_front_is_before_the_hand(body: NDArray[np.float64]) -> None:
+    mesh, radius = template_mesh(), 20
+    palm = body[mesh.share("LeftHand") > 0.9].mean(0)
+    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
+    ball = np.hypot(x - palm[0], y - palm[1]) < radius
+    held = np.where(ball, BODY_PARTS.index("left_arm"), -1).astype(np.int8)
+    (piece,) = props_of(mesh, body, silhouette_of(covered(body) | ball), [], held)
+    assert piece.kind == "LeftHand" and is_closed(piece.triangles) and volume(piece) > 0
+    assert (piece.bones[:, 0] == mesh.names.index("LeftHand")).all()
+    assert 1.3 * radius < np.ptp(piece.vertices[:, 2]) < 2 * radius
+    nearest = [
+        np.where((seen := rasterise(places * [1, 1, -1], triangles, SHAPE)).triangle >= 0, -seen.depth, -np.inf)
+        for places, triangles in ((piece.vertices, piece.triangles), (body, mesh.triangles))
+    ]
+    assert (nearest[0] > nearest[1])[ball].mean() > 0.8
+    volumes = 4 / 3 * np.pi * radius**3
+    assert 0.6 * volumes < volume(piece) < 1.1 * volumes
