@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import OPAQUE_ALPHA, Silhouette
+from engine.character.hybrid.hips import at_hips, hips_behind
 from engine.character.hybrid.hybrid import Hybrid
 from engine.character.hybrid.trunk import LIMB_LABELS
 from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, TRUNK_LABEL
@@ -61,7 +62,7 @@ def with_the_trunks_colours(
     share = np.clip((mesh.parts[:, TRUNK_LABEL] - TRUNK_WEIGHT_THRESHOLD) / (1 - TRUNK_WEIGHT_THRESHOLD), 0, 1)
     facing = -vertex_normals(shell.pictured, mesh.triangles)[:, 2]
     joint = (hybrid.limbs.near > 0).astype(np.float64)
-    values = np.column_stack([shell.pictured, facing, share, joint]).astype(np.float32)
+    values = np.column_stack([shell.pictured, facing, share, joint, at_hips(hybrid)]).astype(np.float32)
     shown = np.asarray((hybrid.limbs.limb >= 0)[mesh.triangles].all(1), np.bool_)
     y, x = np.nonzero((raster.triangle >= 0) & shown[raster.triangle])
     corners = mesh.triangles[raster.triangle[y, x]]
@@ -87,12 +88,15 @@ def with_the_trunks_colours(
     )  # whatever is seen there, the limb's or the trunk's, is on the surface in which both meet
     person = nearest_colours(figure.rgb, _within_the_outline(silhouette))
     before = np.clip(0.5 + at[:, 3] / (2 * MAX_SIDE_COSINE), 0, 1)
+    of_hips = at[:, 6] * (1 - before)
+    behind_hips = hips_behind(figure.rgb, hybrid.labels, silhouette, at[of_hips > 0, :2])
     of_front, of_back = at[:, 4] * (1 - certain) * before, at[:, 4] * (1 - before)
     seen_share = np.clip((at[:, 3] - MIN_PICTURED_COSINE) / (FULLY_PICTURED_COSINE - MIN_PICTURED_COSINE), 0, 1)
     mixed = texture[y, x].astype(np.float32)
     for weight, colours in (
         (of_front, front),
         (of_back, back),
+        (of_hips, _sampled(behind_hips, pixel)),
         (seen_share * certain, picture),
         (seen_share * at_joint, _sampled(person, pixel)),
     ):

@@ -248,8 +248,8 @@ def _behind(
     beneath = complete_labels(within, np.where(limbs, -1, labels.labels))
     if surfaces.along is not None:
         within &= ~(surfaces.along & limbs)
-    shown = labels.labels == torso
-    others = (labels.labels >= 0) & ~shown & ~np.isin(labels.labels, LEG_LABELS)
+    shown = np.isin(labels.labels, (torso, *LEG_LABELS))
+    others = (labels.labels >= 0) & ~shown
     masks = within & (beneath == torso), shown, others, labels.labels == head
     trunk, shown, others, above = (enlarged_mask(one, size) & own for one in masks)
     return with_trunk_back(rgb, trunk, shown, others, above, scale)

@@ -1,0 +1,93 @@
+"""Backs of hips: level with what is seen in front, and the leg's own further down."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from engine.character.figure.figure import Figure
+from engine.character.figure.silhouette import Silhouette
+from engine.character.fit.template_fit import FittedBody, load_human
+from engine.character.hybrid.hips import at_hips, hips_behind
+from engine.character.hybrid.hybrid import Hybrid, make_hybrid
+from engine.character.parts.label_map import Labels
+from engine.character.parts.labels import LEG_LABELS, TRUNK_LABEL
+from engine.character.shell.template_mesh import template_mesh
+from tests.character.hybrid.test_hybrid import figure_and_outline
+
+Seen = tuple[Figure, FittedBody, Silhouette, Labels]
+SHIRT, TROUSERS = (40, 160, 60), (40, 50, 150)
+
+
+@pytest.fixture(scope="module")
+def seen() -> Seen:
+    return figure_and_outline()
+
+
+@pytest.fixture(scope="module")
+def hybrid(seen: Seen) -> Hybrid:
+    figure, fitted, silhouette, labels = seen
+    return make_hybrid(figure, silhouette, fitted, labels)
+
+
+def test_a_hem_is_as_high_behind_as_in_front(seen: Seen) -> None:
+    _, _, silhouette, labels = seen
+    legs = np.flatnonzero(np.isin(labels.labels, LEG_LABELS).any(1))
+    hem = int(legs[0]) + 12  # below where the template's legs begin
+    to_picture = (hem - silhouette.to_grid[1, 2]) / silhouette.to_grid[1, 1]
+    height, width = silhouette.alpha.shape
+    rows = np.arange(height)[:, None, None]
+    rgb = np.broadcast_to(np.where(rows < to_picture, SHIRT, TROUSERS), (height, width, 3)).astype(np.uint8).copy()
+    rgb[silhouette.alpha < 0.5] = 255
+    places = np.array([[210.0, hem - 30], [210.0, hem + 30]])
+    behind = hips_behind(rgb, labels, silhouette, places)
+    margin = 3 / silhouette.to_grid[1, 1]
+    body = silhouette.alpha > 0.99
+    for first, last, colour in (
+        (to_picture - 25, to_picture - margin, SHIRT),
+        (to_picture + margin, to_picture + 25, TROUSERS),
+    ):
+        band = body & (rows[..., 0] > first) & (rows[..., 0] < last)
+        band &= np.isin(_in_picture(labels, silhouette), (TRUNK_LABEL, *LEG_LABELS))
+        assert band.sum() > 500
+        off = np.abs(behind[band].astype(int) - colour).max(1)
+        assert (off < 12).mean() > 0.98
+    np.testing.assert_array_equal(hips_behind(rgb, labels, silhouette, places[:0]), rgb)
+
+
+def _in_picture(labels: Labels, silhouette: Silhouette) -> np.ndarray:
+    """The label (H, W) of each pixel of the picture."""
+    height, width = silhouette.alpha.shape
+    y, x = np.mgrid[:height, :width]
+    column, row = (
+        np.clip(np.rint(at * silhouette.to_grid[k, k] + silhouette.to_grid[k, 2]), 0, labels.labels.shape[1 - k] - 1)
+        for k, at in enumerate((x, y))
+    )
+    return labels.labels[row.astype(int), column.astype(int)]
+
+
+def test_thighs_go_over_to_their_own_further_down_and_lifted_ones_are_so_from_the_hip(
+    seen: Seen, hybrid: Hybrid
+) -> None:
+    mesh = template_mesh()
+    level = at_hips(hybrid)
+    assert level.min() >= 0 and level.max() == 1
+    assert not level[~np.isin(hybrid.limbs.limb, LEG_LABELS)].any()
+    knees = mesh.share("LeftLeg", "RightLeg") > 0.5
+    assert not level[knees].any()
+    space = load_human().space
+    rise = space.mean[mesh.ids][:, 1]
+    left = hybrid.limbs.limb == LEG_LABELS[0]
+    order = np.argsort(rise[left])
+    assert (np.diff(level[left][order]) >= 0).all(), "the higher, the more"
+    lifted = hybrid.shell.pictured.copy()
+    thigh = mesh.share("LeftUpLeg", "LeftLeg") > 0.5
+    joint = lifted[thigh & (rise > np.quantile(rise[thigh], 0.97))].mean(0)
+    turn = Rotation.from_euler("x", 80, degrees=True)
+    lifted[thigh] = turn.apply(lifted[thigh] - joint) + joint
+    raised = at_hips(replace(hybrid, shell=replace(hybrid.shell, pictured=lifted)))
+    assert not raised[left].any()
+    np.testing.assert_array_equal(raised[~left], level[~left])
