@@ -33,7 +33,7 @@ CHEEK_BELOW_EYE_VERTICES = ((117, 118, 119, 120, 100, 101), (346, 347, 348, 349,
 LAYER_MARGIN_EYE_WIDTHS = 0.5
 """Around the opening, in eye widths: how far the eyeball's layer reaches behind the lids."""
 LASH_LINE_EYE_WIDTHS = 0.05
-"""Width of the line of lashes on a lid that closes, in eye widths."""
+"""Width of the line of lashes in the middle of a lid that closes, in eye widths."""
 MIN_EYE_WIDTH_PIXELS = 14.0
 """Pixels; smaller eyes move with the face's warp alone."""
 WHITE_LIGHT_RANGE = (0.8, 1.5)

@@ -19,6 +19,10 @@ FULL_GAZE_CHANGE = 0.03
 """Change of the gaze, in eye widths, from which the eyeball's layer is fully drawn."""
 SHUT_SHARE = 0.1
 """Share of the picture's opening under which an eye is shut."""
+LASH_LINE_POLYNOMIAL_DEGREE, LASH_LINE_POINTS, MIN_LASH_LINE_PIXELS = 3, 25, 1.5
+"""Of the curve from corner to corner that lashes are on, the points at which it is drawn, and how wide it is in its middle at least."""
+LASH_LINE_SAMPLES, MIN_LASH_SOFTNESS_PIXELS = 4, 0.4
+"""To a pixel, along each axis, at which it is drawn, and pixels by which its edges are soft at least."""
 CLOSING_GAP_SHARES = (0.75, 0.3)
 """Shares of the picture's opening at which a lid begins to take its own colours, and has."""
 GLINT_MOTION_SHARE = 0.3
@@ -138,17 +142,23 @@ def lid_closing_share(eye: Eyeball, mesh: NDArray[np.floating], side: int) -> fl
 
 
 def _lash_line(opening: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
-    """The upper lid's edge, as wide as lashes are in its middle, (h, w) in [0, 1]."""
-    line = opening[:9]
-    width = float(np.linalg.norm(opening[8] - opening[0]))
-    out = np.array([[0, -0.5]]) * LASH_LINE_EYE_WIDTHS * width * np.sin(np.linspace(0, np.pi, 9))[:, None] ** 0.5
-    band = np.concatenate([line + out, (line - out)[::-1]])
-    mask = np.zeros(shape, np.uint8)
-    cv2.fillPoly(mask, [np.round(band * 16).astype(np.int32)], 255, cv2.LINE_AA, 4)
-    cv2.polylines(mask, [np.round(line * 16).astype(np.int32)], False, 255, 1, cv2.LINE_AA, 4)
-    return np.asarray(
-        cv2.GaussianBlur(mask, (0, 0), max(LASH_LINE_EYE_WIDTHS * width / 4, 0.4)), np.float32
-    ) / np.float32(255)
+    """The upper lid's edge, as wide as lashes are in its middle and tapered to both corners, (h, w) in [0, 1]: the smooth curve through most of its points, each
+    of which is tracked by itself."""
+    across = (opening[8] - opening[0]).astype(float)
+    width = max(float(np.linalg.norm(across)), 1.0)
+    axes = np.array([across, (-across[1], across[0])]) / width
+    along, height = ((opening[:9] - opening[0]) @ axes.T / width).T
+    curve = np.polynomial.Polynomial.fit(along, height, LASH_LINE_POLYNOMIAL_DEGREE)
+    t = np.linspace(0, 1, LASH_LINE_POINTS)
+    half = max(LASH_LINE_EYE_WIDTHS * width, MIN_LASH_LINE_PIXELS) / width / 2 * np.sin(np.pi * t)
+    band = np.concatenate([np.stack([t, curve(t) + half], axis=1), np.stack([t, curve(t) - half], axis=1)[::-1]])
+    finer = LASH_LINE_SAMPLES
+    places = finer * (opening[0] + width * band @ axes) + (finer - 1) / 2
+    mask = np.zeros((finer * shape[0], finer * shape[1]), np.uint8)
+    cv2.fillPoly(mask, [np.round(places * 16).astype(np.int32)], 255, cv2.LINE_8, 4)
+    mask = np.asarray(cv2.resize(mask, shape[::-1], interpolation=cv2.INTER_AREA), np.uint8)
+    soft = cv2.GaussianBlur(mask, (0, 0), max(LASH_LINE_EYE_WIDTHS * width / 4, MIN_LASH_SOFTNESS_PIXELS))
+    return np.asarray(soft, np.float32) / np.float32(255)
 
 
 def _departure(eye: Eyeball, opening: NDArray[np.float32], look: NDArray[np.floating]) -> float:

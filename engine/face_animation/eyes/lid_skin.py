@@ -53,8 +53,12 @@ EDGE_SHADE_SHARE = 0.16
 """By how much a lid is darker at its edge."""
 BALL_LIGHT_SHARE = 0.12
 """By how much it is lighter in its middle, over the eyeball."""
-CREASE_PLACE_SHARE, CREASE_WIDTH_SHARE, CREASE_SHADE_SHARE = 0.36, 0.07, 0.16
-"""Where the crease above it is, as a share of the way from the skin above to its edge, how wide, and by how much it is darker there."""
+CREASE_PLACE_SHARE, CREASE_WIDTH_SHARE, CREASE_SHADE_SHARE = 0.36, 0.14, 0.08
+"""Where the crease above it is, as a share of the way from the skin above to its edge, how wide, and by how much it is darker there: soft, for a line would be
+an outline."""
+SEAM_COVER_EYE_WIDTHS = 0.05
+"""Eye widths around the line where lids meet, and beyond its ends, that are of the lid's colour: the tracker's eye and the picture's differ by as much, and what is
+left of the picture's beside the line are specks of white and lash."""
 _STRIP_TRIANGLES = np.array([t for k in range(8) for t in ((k, k + 1, 9 + k), (k + 1, 10 + k, 9 + k))], np.int32)
 
 
@@ -86,11 +90,32 @@ def draw_lid(
         (int(high[1] - low[1]), int(high[0] - low[0])),
         outside=-1.0,
     )
+    part = frame[low[1] : high[1], low[0] : high[0]]
     down = field[..., 1]
     seen = cv2.remap(skin, field[..., 0], down * (len(skin) - 1), cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     t = np.clip(down[..., None] / COLOUR_BLEND_SHARE, 0, 1)
-    part = frame[low[1] : high[1], low[0] : high[0]]
     part[:] = np.clip(part + share * t * t * (3 - 2 * t) * (seen - part) + 0.5, 0, 255).astype(np.uint8)
+    _cover_seam(frame, skin, points[9:], share)
+
+
+def _cover_seam(frame: NDArray[np.uint8], skin: NDArray[np.float32], edge: NDArray[np.floating], share: float) -> None:
+    """Give what is around the edge (9, 2) of a lid, from corner to corner, a `share` of the colours of its `skin` (h, w, 3) there, in place."""
+    across = edge[-1] - edge[0]
+    width = max(float(np.linalg.norm(across)), 1.0)
+    reach = SEAM_COVER_EYE_WIDTHS * width
+    low = np.maximum(np.floor(edge.min(axis=0) - 3 * reach).astype(int), 0)
+    high = np.minimum(np.ceil(edge.max(axis=0) + 3 * reach).astype(int) + 1, frame.shape[1::-1])
+    if (high - low).min() < 2:
+        return
+    mask = np.zeros((int(high[1] - low[1]), int(high[0] - low[0])), np.uint8)
+    line = np.round((edge - low) * 16).astype(np.int32)
+    cv2.polylines(mask, [line], False, 255, max(round(2 * reach), 1), cv2.LINE_AA, 4)
+    soft = np.asarray(cv2.GaussianBlur(mask, (0, 0), max(reach / 2, 0.5)), np.float32)[..., None] / 255
+    xs, ys = np.meshgrid(np.arange(low[0], high[0]), np.arange(low[1], high[1]))
+    along = ((xs - edge[0, 0]) * across[0] + (ys - edge[0, 1]) * across[1]) / width**2
+    colours = skin[-1, np.clip(np.rint(along * (skin.shape[1] - 1)), 0, skin.shape[1] - 1).astype(int)]
+    part = frame[low[1] : high[1], low[0] : high[0]]
+    part[:] = np.clip(part + share * soft * (colours - part) + 0.5, 0, 255).astype(np.uint8)
 
 
 def _strip(mesh: NDArray, side: int) -> NDArray:

@@ -133,3 +133,15 @@ def test_a_face_at_the_picture_s_edge_is_drawn_as_far_as_it_goes() -> None:
     for side in (0, 1):
         draw_lid(frame, np.full((4, 9, 3), 50, np.float32), face[:, :2], side, 1.0)
     assert frame.min() < 100
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_no_white_is_left_beside_the_line_where_lids_meet(side: int) -> None:
+    """Of a picture whose eye is larger than the mesh's, above, below and beyond the corners."""
+    closed = shut(FACE, 0.02)
+    frame = np.full((SIZE[1], SIZE[0], 3), SKIN, np.uint8)
+    outer, inner = ((33, 133), (263, 362))[side]
+    line = closed[[outer, *UPPER_LID_STRIPS[side][1], inner], :2]
+    cv2.polylines(frame, [line.round().astype(np.int32)], False, (255, 255, 255), 3)
+    draw_lid(frame, lid_skins(painted(FACE, SIZE), FACE)[side], closed[:, :2], side, 1.0)
+    assert frame.min(axis=2).max() <= max(SKIN), "no lighter than skin"
