@@ -23,6 +23,7 @@ from engine.face_animation.mouth.modelled.mouth_parts import (
 )
 from engine.face_animation.mouth.modelled.resting_mouth import RestingMouth
 from engine.face_animation.mouth.modelled.skull import skull_camera
+from engine.face_animation.smoothstep import smoothstep
 from engine.geometry.mesh.adjacency import edge_table
 from engine.geometry.mesh.surface import vertex_normals
 from engine.perception.landmarks import (
@@ -43,6 +44,9 @@ AMBIENT_LIGHT_SHARE, TEETH_AMBIENT_LIGHT_SHARE = 0.75, 0.52
 """Of the light on a surface, that it has wherever it faces; and on teeth, whose crowns are told apart by it."""
 TEETH_FALLOFF_EYE_DISTANCES = 0.45
 """Eye distances behind the upper teeth at which a third of the light is left on teeth: cheeks are beside them. Ramps of the other parts have theirs."""
+LIT_GAP_EYE_DISTANCES, MIN_INSIDE_LIGHT_SHARE = (0.05, 0.55), 0.3
+"""Eye distances between the lips up to which hardly any light falls on the tongue and what is around it, and from which on all; and what is left of it. Teeth are
+before it: a tongue as light behind lips that hardly part is a plug."""
 INCISORS_SHARE = 0.25
 """Of the teeth, which are the foremost."""
 LIGHTEST_PERCENTILE = 80
@@ -115,9 +119,11 @@ class ModelledMouth:
         shape, corner = (y1 - y0, x1 - x0), np.array([x0, y0], np.float32)
         points = self.places(face) - (x0, y0, 0)
         inside = np.zeros((*shape, 3), np.uint8)
-        inside[:] = self._textures[-1][COLOUR_RAMP_PIXELS[1] // 2, -1]
-        draw_surface(inside, False, self._surface, points.astype(np.float32), Scratch(), SAMPLES_PER_PIXEL, self._shade)
+        inside[:] = self._textures[-1][COLOUR_RAMP_PIXELS[1] // 2, -1]  # the dark
         unit = float(eye_distance(face))
+        shade = self._shade.copy()
+        shade[self._ends[1] :] *= inside_light(face)
+        draw_surface(inside, False, self._surface, points.astype(np.float32), Scratch(), SAMPLES_PER_PIXEL, shade)
         if self._softness > 0:
             inside = np.asarray(cv2.GaussianBlur(inside, (0, 0), self._softness * unit))
         lit = inside * mouth_light(face, corner, shape)[..., None]
@@ -196,6 +202,13 @@ def covered_crown(at: RestingMouth, front: NDArray[np.floating]) -> float:
     """Eye distances of the upper row that the lips of a face that rests as `at` says and is `front` (478, 2 or 3) from the front cover, being rounded."""
     width = float(np.linalg.norm(front[INNER_MOUTH_CORNER_VERTICES[1], :2] - front[INNER_MOUTH_CORNER_VERTICES[0], :2]))
     return ROUNDED_CROWN_EYE_DISTANCES * max(1 - width / max(at.width, 1e-6) - ROUNDED_NARROWING_SHARE, 0.0)
+
+
+def inside_light(face: NDArray[np.floating]) -> float:
+    """The share of the light that falls on what is behind the teeth of a face (478, 2): more where its lips are further apart."""
+    gap = float(np.linalg.norm(face[INNER_LOWER_LIP_VERTEX, :2] - face[INNER_UPPER_LIP_VERTEX, :2]))
+    lit = float(smoothstep(gap / float(eye_distance(face)), *LIT_GAP_EYE_DISTANCES))
+    return MIN_INSIDE_LIGHT_SHARE + (1 - MIN_INSIDE_LIGHT_SHARE) * lit
 
 
 def shown_share(face: NDArray[np.floating], appearing: float) -> float:

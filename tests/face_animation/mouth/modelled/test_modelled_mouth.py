@@ -12,6 +12,7 @@ from engine.face_animation.mouth.modelled.modelled_mouth import (
     BARING_JAW_RADIANS,
     ModelledMouth,
     covered_crown,
+    inside_light,
     jaw_behind_lips,
 )
 from engine.face_animation.mouth.modelled.mouth_colours import mouth_colours
@@ -266,3 +267,9 @@ def test_rounded_lips_narrow_the_opening_alone() -> None:
     bag = mouth_bag(rounded, width=width)
     np.testing.assert_allclose(bag[: len(lips)], rounded, atol=1e-12)
     assert np.ptp(bag[len(lips) : 2 * len(lips), 0]) >= width
+
+
+def test_the_further_lips_part_the_more_light_falls_behind_them() -> None:
+    """Between lips that hardly do is no plug as light as a tongue in a wide mouth."""
+    light = [inside_light(seen(front(angle))) for angle in (0.0, 0.05, 0.15, 0.6)]
+    assert light == sorted(light) and light[0] < 0.35 and light[-1] > 0.95
