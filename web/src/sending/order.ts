@@ -6,7 +6,7 @@ import { keepSent } from './pending';
 import { uploadFile, type PauseControl } from '../api/upload';
 
 /** How often, and after how many milliseconds, it is asked again. */
-const [MOST_TURNS, BREATH_MS] = [5, 1500];
+const [MAX_RETRIES, BREATH_MS] = [5, 1500];
 
 export type Sending =
   /** How much has arrived of what is this to the order; of several files, of all of them. */
@@ -43,7 +43,7 @@ async function patiently<T>(ask: () => Promise<T>, signal: AbortSignal): Promise
     try {
       return await ask();
     } catch (error) {
-      if (!(error instanceof Problem) || error.code !== 'rate_limited' || turn === MOST_TURNS || signal.aborted) throw error;
+      if (!(error instanceof Problem) || error.code !== 'rate_limited' || turn === MAX_RETRIES || signal.aborted) throw error;
       await new Promise((wake) => setTimeout(wake, BREATH_MS));
     }
   }

@@ -3,7 +3,7 @@
 /** Metres: what the service takes. */
 export const [SHORTEST, TALLEST] = [0.8, 2.4];
 /** More than this is centimetres. */
-const MOST_METRES = 3;
+const MAX_METRES = 3;
 
 /** In metres; null where nothing is written, NaN where it is no height of a person. */
 export function heightIn(text: string): number | null {
@@ -12,6 +12,6 @@ export function heightIn(text: string): number | null {
   const [, digits, unit] = /^(\d+(?:[.,]\d*)?)\s*(cm|m)?$/.exec(written) ?? [];
   if (digits === undefined) return NaN;
   const value = Number(digits.replace(',', '.'));
-  const metres = unit === 'cm' || (unit === undefined && value > MOST_METRES) ? value / 100 : value;
+  const metres = unit === 'cm' || (unit === undefined && value > MAX_METRES) ? value / 100 : value;
   return metres >= SHORTEST && metres <= TALLEST ? Math.round(metres * 1000) / 1000 : NaN;
 }

@@ -26,7 +26,7 @@ import { type Draft, usePersonaDraft } from './draft';
 import { PersonaOptionFields } from './option_fields';
 import { personaOrder, type Source } from './order';
 import type { Options } from '../generic/fields';
-import { LEAST_PHOTOS, MOST_FILES } from './types';
+import { MIN_PHOTOS, MAX_FILES } from './types';
 import { words as personaWords } from './words';
 import './styles/studio.css';
 
@@ -92,7 +92,7 @@ export default function PersonaStudio({ kind }: StudioProps) {
           {draft.from === 'photos' ? (
             <PhotosPanel
               words={words.collection}
-              least={LEAST_PHOTOS}
+              least={MIN_PHOTOS}
               photos={draft.photos}
               others={draft.others}
               refused={refused.photos === true}
@@ -207,7 +207,7 @@ function missingIn(draft: Draft, refused: { photos?: boolean; performer?: boolea
   } else {
     if (refused.photos) return words.wrongPhotos;
     if (!draft.photos.length) return words.needPhotos;
-    if (draft.photos.length > MOST_FILES) return words.tooMany(MOST_FILES);
+    if (draft.photos.length > MAX_FILES) return words.tooMany(MAX_FILES);
   }
   return draft.agreed || !needsConsent(draft) ? '' : words.needConsent;
 }

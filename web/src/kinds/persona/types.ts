@@ -8,9 +8,9 @@ export type PersonaOptions = Partial<Schemas['PersonaOptions']>;
 export const personaOptions = (of: Job): PersonaOptions => of.options as PersonaOptions;
 
 /** As many photos that can be used are needed, at least. */
-export const LEAST_PHOTOS = 15;
-/** And of who performs, where any are given. */
-export const LEAST_PERFORMER_PHOTOS = 8;
+export const MIN_PHOTOS = 15;
+/** As many photos of who performs are needed, at least, where any are given. */
+export const MIN_PERFORMER_PHOTOS = 8;
 
 /** Why a face is of no use, in the order in which they are told: first what somebody has to say of. */
 export const reasons = ['uncertain', 'left_out', 'covered', 'turned', 'blurred', 'tiny', 'duplicate', 'other_years', 'other_look', 'somebody_else'] as const;
@@ -41,7 +41,7 @@ export const picturesOf = ({ tile, columns, faces }: FaceSheet): PictureSheet =>
 export const examplesIn = (job: Job): readonly number[] => (job.error?.found as { examples?: number[] } | undefined)?.examples ?? [];
 
 /** Files of one order: as many as the service takes of photos. */
-export const MOST_FILES = 800;
+export const MAX_FILES = 800;
 
 /** Expressions of the collection's own (gallery.json), side by side in gallery.jpg. */
 export interface Gallery {

@@ -13,7 +13,7 @@ export type Places = readonly { readonly frame: number; readonly place: readonly
 export type Landmarks = Readonly<Record<string, Places>>;
 
 /** Frames in which a joint has to be shown: one alone does not say how far away it is. */
-export const LEAST_PLACES = 2;
+export const MIN_LANDMARK_FRAMES = 2;
 
 /** What is chosen in the folded options. */
 const choices = ['body_frames', 'head_frames', 'texture_size', 'triangles', 'levels', 'vrm', 'vrm_author', 'size', 'fps', 'seconds'];
@@ -45,7 +45,7 @@ const same = (a: unknown, b: unknown): boolean => JSON.stringify(a) === JSON.str
 
 /** Joints that are shown in frames enough. */
 export const placedIn = (landmarks: Landmarks): Landmarks =>
-  Object.fromEntries(Object.entries(landmarks).filter(([, places]) => places.length >= LEAST_PLACES));
+  Object.fromEntries(Object.entries(landmarks).filter(([, places]) => places.length >= MIN_LANDMARK_FRAMES));
 
 /** `sent`: the ids of the files that were sent. */
 export function changesOf(before: RevisionDraft, now: RevisionDraft, sent: Readonly<Record<string, string>> = {}): Changes {

@@ -7,7 +7,7 @@ import { words as avatarWords } from '../words';
 
 const words = avatarWords.correct;
 /** Of a clip: what the service needs. */
-const LEAST_FRAMES = 12;
+const MIN_FRAMES = 12;
 
 interface Props {
   sheet: FrameSheet;
@@ -21,7 +21,7 @@ interface Props {
 
 export function FramesField({ sheet, url, title, leftOut, onChange }: Props) {
   const { frames, seconds } = sheet;
-  const mayLeaveOut = frames.filter((frame) => !leftOut.includes(frame)).length > LEAST_FRAMES;
+  const mayLeaveOut = frames.filter((frame) => !leftOut.includes(frame)).length > MIN_FRAMES;
   const toggle = (frame: number): void => {
     const next = leftOut.includes(frame) ? leftOut.filter((one) => one !== frame) : [...leftOut, frame];
     onChange(next.sort((one, other) => one - other));
@@ -49,7 +49,7 @@ export function FramesField({ sheet, url, title, leftOut, onChange }: Props) {
       </div>
       <div class="actions">
         <p class="hint" role="status">
-          {leftOut.length > 0 && words.leftOut(leftOut.length)} {!mayLeaveOut && words.tooFew(LEAST_FRAMES)}
+          {leftOut.length > 0 && words.leftOut(leftOut.length)} {!mayLeaveOut && words.tooFew(MIN_FRAMES)}
         </p>
         {leftOut.length > 0 && (
           <button type="button" class="button quiet" onClick={() => onChange([])}>

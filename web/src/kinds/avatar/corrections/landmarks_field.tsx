@@ -6,7 +6,7 @@ import { later } from '../../../widgets/lazy';
 import { fileUrl, isFileId } from '../../../works/inputs';
 import type { FrameSheet } from '../types';
 import { words as avatarWords } from '../words';
-import { LEAST_PLACES, type Landmarks, placedIn } from './changes';
+import { MIN_LANDMARK_FRAMES, type Landmarks, placedIn } from './changes';
 import { landmarkName } from './landmarks';
 
 const LandmarkDialog = later(() => import('./landmark_dialog'));
@@ -23,7 +23,7 @@ export function LandmarksField({ job, sheet, value, onChange }: Props) {
   const [open, setOpen] = useState(false);
   const needed = job.error?.correctable?.includes('landmarks') ?? false;
   const doubtful = (job.error?.found as { doubtful?: string[] } | undefined)?.doubtful ?? [];
-  const once = Object.keys(value).filter((joint) => (value[joint]?.length ?? 0) < LEAST_PLACES);
+  const once = Object.keys(value).filter((joint) => (value[joint]?.length ?? 0) < MIN_LANDMARK_FRAMES);
   const placed = Object.keys(placedIn(value)).length;
   const url = job.artifacts[sheet.sheet]?.url;
   const { body } = job.inputs;

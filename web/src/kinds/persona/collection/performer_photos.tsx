@@ -1,7 +1,7 @@
 /** Photos of who performs: they tell what that face is like at rest. */
 
 import type { Collected } from '../../../studio/collection';
-import { LEAST_PERFORMER_PHOTOS } from '../types';
+import { MIN_PERFORMER_PHOTOS } from '../types';
 import { words as personaWords } from '../words';
 import { PhotosPanel } from './photos_panel';
 import { useGiving } from './use_giving';
@@ -25,7 +25,7 @@ export function PerformerPhotos({ photos, refused, onAdded, onRefused, onRemoved
       <div class="performer">
         <PhotosPanel
           words={words}
-          least={LEAST_PERFORMER_PHOTOS}
+          least={MIN_PERFORMER_PHOTOS}
           photos={photos}
           others={0}
           refused={refused}

@@ -4,7 +4,7 @@ import { FaceButtons } from '../faces/face_buttons';
 import { groupsOf } from '../faces/face_groups';
 import { groupTitle } from '../faces/face_list';
 import type { Faces } from '../faces/use_faces';
-import { LEAST_PHOTOS } from '../types';
+import { MIN_PHOTOS } from '../types';
 import { words as personaWords } from '../words';
 import { isUsed, type RevisionDraft, toggled } from './changes';
 
@@ -42,7 +42,7 @@ export function FacesField({ faces, before, value, onChange }: Props) {
       ))}
       <div class="actions">
         <p class="hint" role="status">
-          {[words.count(used), used < LEAST_PHOTOS && words.tooFew(LEAST_PHOTOS), decided > 0 && words.changed(decided)].filter(Boolean).join(' ')}
+          {[words.count(used), used < MIN_PHOTOS && words.tooFew(MIN_PHOTOS), decided > 0 && words.changed(decided)].filter(Boolean).join(' ')}
         </p>
         {decided > 0 && (
           <button type="button" class="button quiet" onClick={() => onChange({ keep: [], leaveOut: [] })}>

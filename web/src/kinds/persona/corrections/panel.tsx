@@ -12,7 +12,7 @@ import { SubmitRow } from '../../../studio/submit_row';
 import { isFileId } from '../../../works/inputs';
 import { useFaces } from '../faces/use_faces';
 import { PersonaOptionFields } from '../option_fields';
-import { examplesIn, LEAST_PHOTOS } from '../types';
+import { examplesIn, MIN_PHOTOS } from '../types';
 import { words as personaWords } from '../words';
 import { actsByPhoto, CompositeField, USUAL_COMPOSITE } from '../composite_field';
 import { isStill } from '../../../performances/performance';
@@ -48,7 +48,7 @@ export default function PersonaPanel({ job, onProblem }: CorrectionsProps) {
   const examples = examplesIn(job);
   // whose faces there are is not known as long as it is not known who is meant
   const sorted = faces !== null && examples.length === 0 && draft.example === before.example;
-  const tooFew = sorted && usedCount(faces, before, draft) < LEAST_PHOTOS;
+  const tooFew = sorted && usedCount(faces, before, draft) < MIN_PHOTOS;
   const playsStill = draft.performance !== 'held' && draft.performance.by === 'file' && isStill(draft.performance.file);
   const playsFile = draft.performance === 'held' ? isFileId(job.inputs.driver) : draft.performance.by === 'file';
   return (
@@ -111,7 +111,7 @@ export default function PersonaPanel({ job, onProblem }: CorrectionsProps) {
           <SendingBar files={personaWords.files} step={sending.step} paused={sending.paused} onPause={sending.pause} onStop={sending.stop} />
         ) : (
           <SubmitRow
-            hint={tooFew ? words.tooFew(LEAST_PHOTOS) : again ? '' : strings.redo.unchanged}
+            hint={tooFew ? words.tooFew(MIN_PHOTOS) : again ? '' : strings.redo.unchanged}
             disabled={sending.busy || !again || tooFew}
             label={strings.redo.send}
           />
