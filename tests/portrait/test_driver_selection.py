@@ -39,6 +39,11 @@ def appearance(rgb: NDArray[np.uint8]) -> Appearance:
     return appearance_of_face(rgb, find_faces(rgb)[0])
 
 
+def target_of(rgb: NDArray[np.uint8]) -> TargetFace:
+    size = (rgb.shape[1], rgb.shape[0])
+    return TargetFace(rgb, None, find_faces(rgb)[0], np.zeros((1, 4), np.float32), size, np.eye(2, 3))
+
+
 def best(face: Appearance, among: dict[str, Appearance]) -> str:
     return max(among, key=lambda name: score_driver(face, among[name])["total"])
 
@@ -89,6 +94,20 @@ def test_a_picture_without_colour_has_a_palette_without() -> None:
         score_driver(appearance(grey), library_appearances()["idle"])["palette"]
         < score_driver(appearance(face), library_appearances()["idle"])["palette"]
     )
+
+
+def test_lightness_counts_half_of_what_hue_does() -> None:
+    """Exposure says little about a palette."""
+    driver = library_appearances()["idle"]
+    face = replace(driver, expressions=driver.expressions[:1])
+
+    def score(*away: float) -> float:
+        return score_driver(replace(face, palette=face.palette + np.array(away, np.float32)), driver)["palette"]
+
+    assert score(0, 0, 0) == 1
+    assert score(24, 0, 0) == pytest.approx(score(0, 12, 0), abs=1e-3)
+    assert score(0, 12, 0) == pytest.approx(score(0, 0, -12), abs=1e-3)
+    assert score(0, 24, 0) < score(24, 0, 0) < 1
 
 
 def test_a_driver_that_turns_too_far_for_a_turned_face_loses() -> None:
@@ -142,15 +161,28 @@ def test_a_driver_that_cannot_be_used_is_passed_over(tmp_path: Path) -> None:
     with VideoWriter(VideoTarget(blank, (64, 64), 10)) as writer:
         for _ in range(5):
             writer.write(np.full((64, 64, 3), 90, np.uint8))
-    rgb = moment("idle", 0)
-    size = (rgb.shape[1], rgb.shape[0])
-    target = TargetFace(rgb, None, find_faces(rgb)[0], np.zeros((1, 4), np.float32), size, np.eye(2, 3))
+    target = target_of(moment("idle", 0))
     with Run() as run:
         chosen = choose_driver(target, Candidates({"broken": broken, "blank": blank, "idle": video("idle")}), run)
     assert chosen.name == "idle" and set(chosen.scores) == {"idle"}
     assert [notice.code for notice in run.notices] == ["driver_passed_over"] * 2
     with pytest.raises(InputError, match="None of the drivers"), Run() as run:
         choose_driver(target, Candidates({"blank": blank}), run)
+
+
+@pytest.mark.parametrize("draw", [True, False])
+def test_of_drivers_that_fit_as_well_the_one_that_is_named_first_is_taken(draw: bool) -> None:
+    target = target_of(moment("sadness", performance("sadness").poster_frame))
+    face = appearance(target.rgb)
+    totals = {other: score_driver(face, driver)["total"] for other, driver in library_appearances().items()}
+    apart = {(a, b): totals[b] - totals[a] for a in totals for b in totals}
+    worse, better = next(pair for pair, by in apart.items() if (0.001 < by < 0.009 if draw else by > 0.011))
+    with Run() as run:
+        first, second = (
+            choose_driver(target, Candidates({one: video(one) for one in order}), run).name
+            for order in ((worse, better), (better, worse))
+        )
+    assert (first, second) == (worse if draw else better, better)
 
 
 def test_a_driver_that_is_chosen_is_followed_by_the_face_by_which_it_was(tmp_path: Path) -> None:

@@ -40,6 +40,18 @@ def test_the_frame_that_all_are_measured_by_stays_though_a_blink_is_beside_it(aw
     assert beyond[-1] > 43 or beyond[0] < 38, "on the other side the lid takes its time"
 
 
+@pytest.mark.parametrize("away", [-3, 6])
+def test_a_blink_that_is_far_enough_from_that_frame_is_as_slow_as_any(away: int) -> None:
+    """At 30 frames a second a lid falls in 3 of them, and rises in 6."""
+    seen = np.ones((80, 1))
+    seen[40] = CLOSED_GAP_SHARE
+    held = held_openness(seen, 40 + away, 30.0)[:, 0]
+    assert held[40 + away] == 1 and held[40] == pytest.approx(CLOSED_GAP_SHARE)
+    steps = np.diff(held) * 30.0 / (1 - CLOSED_GAP_SHARE)
+    assert steps.min() > -1 / FALLS_SECONDS - 1e-9
+    assert steps.max() < 1 / RISES_SECONDS + 1e-9
+
+
 def test_lids_of_meshes_go_down_earlier_and_up_later_and_nothing_else_moves() -> None:
     face = placed(60)
     meshes = np.repeat(face[None], 20, axis=0)

@@ -10,6 +10,7 @@ import pytest
 
 from service.clock import now
 from service.context import Context
+from service.figures import counters
 from service.ids import new_id
 from service.job_records import artifacts
 from service.jobs import leases
@@ -81,6 +82,25 @@ def test_without_the_lease_nothing_is_published_and_nothing_left(context: Contex
     assert not publish_all(context, lease, out, {})
     assert shown(context, lease) == {}
     assert stored(context) == 0
+
+
+def test_only_seconds_that_can_be_believed_are_counted(context: Context, lease: Lease, out: Path) -> None:
+    """A job's process may be in a stranger's hands: what it says of its stages must not spoil the figures for good."""
+    stages = '{"read": 1.5, "draw": 0, "before": -3, "ever": 1e9, "never": NaN, "endless": Infinity}'
+    (out / "report.json").write_text(f'{{"stages": {stages}}}')
+    assert publish_all(context, lease, out, {})
+    with context.database.read() as session:
+        counted = list(counters.all_counters(session))
+    assert {labels[1]: value for name, labels, value in counted if name == "galatea_stage_seconds"} == {
+        "read": 1.5,
+        "draw": 0.0,
+    }
+
+
+@pytest.mark.parametrize("report", ["", "[]", "{}", '{"stages": 3}', '{"stages": {"a": "b"}}', "[" * 100_000])
+def test_a_report_that_says_nothing_ends_no_job(context: Context, lease: Lease, out: Path, report: str) -> None:
+    (out / "report.json").write_text(report)
+    assert publish_all(context, lease, out, {})
 
 
 @pytest.mark.parametrize("what", ["link", "folder", "pipe", "name"])
