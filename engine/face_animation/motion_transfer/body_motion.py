@@ -21,7 +21,7 @@ from engine.face_animation.motion_transfer.head_proxy import (
 )
 from engine.face_animation.motion_transfer.head_room import soft_limit
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.landmarks import CHIN_VERTEX, MESH_SIZE
+from engine.perception.landmarks import CHIN_VERTEX, FACE_OVAL, MESH_SIZE
 
 NECK_ROOM_FACE_LENGTHS = (0.35, (0.18, 0.25))
 """How far a head goes from its place on the shoulders, in lengths from eyes to chin: to either side; up and down."""
@@ -32,6 +32,8 @@ MAX_BODY_POINT_HEAD_SHARE = 0.6
 HAIR_START_FACE_LENGTHS, HAIR_ROOM_FACE_LENGTHS = 0.3, 0.1
 """Lengths from eyes to chin: from the face's rim to where hair is followed fully, and how
 far away its points are still believed: further away they have slipped."""
+HELD_CUT_SHARES = (0.4, 0.8)
+"""Shares of a head's width that the upper border cuts, up to which its hair comes down with it, and from which on it stays at the border."""
 MIN_TRUSTED_POINTS = 5.0
 """With fewer trusted points of the body, or of the hair, what they say fades."""
 
@@ -136,3 +138,16 @@ def keep_at_borders(
         if np.isfinite(border):
             held = body * (1 - np.clip((points[:, 0] - border) / (inwards * max(abs(float(face) - border), 1.0)), 0, 1))
             offsets[..., 0] = np.where(inwards * offsets[..., 0] > 0, (1 - held) * offsets[..., 0], offsets[..., 0])
+
+
+def keep_hair_at_border(
+    offsets: NDArray[np.floating], points: NDArray[np.floating], mesh: NDArray[np.floating], top: float, cut: float
+) -> None:
+    """Keep hair that the picture's upper border at the height `top` cuts there, where a head comes down, in place: offsets (N, P, 2) of points (P, 2) around the
+    face of a mesh (478, 2 or 3). From the face's top on they become less, and none at the border: hair is drawn out. Nothing has to be
+    made up beyond the border, and to both sides all goes with its head. `cut` : the share of the head's width that is cut (`cut_above`); a head of
+    which little is cut comes down whole.
+    """
+    face = float(mesh[list(FACE_OVAL), 1].min())
+    held = smoothstep(cut, *HELD_CUT_SHARES) * (1 - np.clip((points[:, 1] - top) / max(face - top, 1.0), 0, 1))
+    offsets[..., 1] = np.where(offsets[..., 1] > 0, (1 - held) * offsets[..., 1], offsets[..., 1])

@@ -17,6 +17,7 @@ from engine.face_animation.motion_transfer.body_motion import (
     body_shift,
     hair_share,
     keep_at_borders,
+    keep_hair_at_border,
     tracked_body,
     tracked_hair,
 )
@@ -222,6 +223,7 @@ class MotionTransfer:
         beyond = 0.0 if faces is None else proxy.contour @ (faces[:, oval] - solid[:, oval])
         moved = np.asarray(share * above + (1 - share) * below + beyond, np.float32)
         keep_at_borders(moved, points, target, self._control.borders)
+        keep_hair_at_border(moved, points, target, *self._control.hair_cut)
         return moved
 
 

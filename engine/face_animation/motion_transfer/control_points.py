@@ -14,7 +14,13 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.contour import beside_contour, rim_distance
 from engine.face_animation.motion_transfer.fringe import fringe_share
-from engine.face_animation.motion_transfer.head_room import MIN_PERSON_ALPHA, PICTURE_BORDER_SHARE, face_room, head_room
+from engine.face_animation.motion_transfer.head_room import (
+    MIN_PERSON_ALPHA,
+    PICTURE_BORDER_SHARE,
+    cut_above,
+    face_room,
+    head_room,
+)
 from engine.face_animation.motion_transfer.spectacles import spectacles_share
 from engine.face_animation.warping.contour_rings import contour_rings, rings_end
 from engine.geometry.mesh.surface import area_vectors, summed_at_corners
@@ -48,6 +54,7 @@ class ControlPoints:
     room : (2, 2) how far the head may go, pixels, see `head_room`.
     face_room : (2, 2) how far its face may, pixels, see `face_room`.
     borders : (3,) where the picture ends to the left, to the right and below, pixels; at infinity where a side cuts nobody, see `body_borders`.
+    hair_cut : the height at which the picture ends above, pixels, and the share of the head's width that it cuts there, see `cut_above`.
     bare : (478,) how far each point of the face may move by itself, in [0, 1]: not where hair hangs before it, see `fringe`, nor a frame of
         `spectacles`.
     """
@@ -58,6 +65,7 @@ class ControlPoints:
     room: NDArray[np.float64]
     face_room: NDArray[np.float64]
     borders: NDArray[np.float64]
+    hair_cut: tuple[float, float]
     bare: NDArray[np.float64]
 
     @property
@@ -115,7 +123,8 @@ def place_control_points(
         face_room(within, (shown.right - shown.left, shown.bottom - shown.top)),
     )
     bare = np.ones(MESH_SIZE) if rgb is None else (1 - fringe_share(rgb, mesh)) * (1 - spectacles_share(rgb, mesh))
-    return ControlPoints(points, len(grid), usable, room, of_face, body_borders(mesh, person, shown), bare)
+    hair_cut = float(shown.top), cut_above(within, person[shown.pixels])
+    return ControlPoints(points, len(grid), usable, room, of_face, body_borders(mesh, person, shown), hair_cut, bare)
 
 
 def body_borders(mesh: NDArray[np.floating], person: NDArray[np.floating], shown: Window) -> NDArray[np.float64]:

@@ -68,12 +68,25 @@ def head_room(mesh: NDArray[np.floating], person: NDArray[np.floating]) -> NDArr
     before, behind = low, np.array([width - 1, height - 1]) - high
     edge = max(1, round(PICTURE_BORDER_SHARE * min(person.shape)))
     sides = person[rows, :edge], person[rows, -edge:], person[:edge, columns].T
-    left, right, above = (float(np.mean(side.max(axis=1) > MIN_PERSON_ALPHA)) for side in sides)
+    left, right, above = (_cut_share(side) for side in sides)
     cut = np.array([[right, 0.0], [left, above]])  # a move leaves the border behind that lies opposite
     cut_room = CUT_HAIR_SHARE * np.array([behind, before])
     free = np.array([before, behind])
     room = np.maximum(np.minimum(free, cut * cut_room + (1 - cut) * free), least)
     return np.asarray(room * [[-1], [1]], float)
+
+
+def cut_above(mesh: NDArray[np.floating], person: NDArray[np.floating]) -> float:
+    """The share of a head's width, above the face of a mesh (478, 2 or 3), that the upper border of a `person` (H, W) cuts."""
+    across = mesh[list(FACE_OVAL), 0]
+    left, right = np.clip((across.min(), across.max()), 0, person.shape[1] - 1).astype(int)
+    edge = max(1, round(PICTURE_BORDER_SHARE * min(person.shape)))
+    return _cut_share(person[:edge, left : right + 1].T)
+
+
+def _cut_share(side: NDArray[np.floating]) -> float:
+    """The share of the places (N, K), K deep, along a border at which a person is cut."""
+    return float(np.mean(side.max(axis=1) > MIN_PERSON_ALPHA))
 
 
 def face_room(mesh: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np.float64]:

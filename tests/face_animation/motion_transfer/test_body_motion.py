@@ -11,12 +11,13 @@ from engine.face_animation.motion_transfer.body_motion import (
     body_share,
     body_shift,
     keep_at_borders,
+    keep_hair_at_border,
     tracked_body,
     tracked_hair,
 )
 from engine.face_animation.motion_transfer.head_motion import split_motion
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy, move_head
-from engine.perception.landmarks import MESH_SIZE
+from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
 
 FACE = placed(40.0, (150.0, 120.0))
 
@@ -105,3 +106,21 @@ def test_a_side_that_cuts_the_body_keeps_it() -> None:
         keep_at_borders(offsets, points, FACE, np.array([left, np.inf, 600.0]))
     np.testing.assert_allclose(inwards[0, :, 0], [0, 4, 8, 8], atol=1e-6)
     np.testing.assert_array_equal(outwards[0, :, 0], -8)
+
+
+def test_hair_that_is_cut_is_drawn_out_from_the_border_and_goes_aside_with_its_head() -> None:
+    top, face = 10.0, float(FACE[list(FACE_OVAL), 1].min())
+    points = np.array([[300, top], [300, (top + face) / 2], [300, face], [300, face + 50]])
+    offsets = np.tile([12.0, 20.0], (1, 4, 1))
+    keep_hair_at_border(offsets, points, FACE, top, 1.0)
+    np.testing.assert_allclose(offsets[0, :, 0], 12)
+    np.testing.assert_allclose(offsets[0, :, 1], [0, 10, 20, 20])
+    upwards = np.tile([0.0, -20.0], (1, 4, 1))
+    keep_hair_at_border(upwards, points, FACE, top, 1.0)
+    np.testing.assert_allclose(upwards[..., 1], -20)
+
+
+def test_a_head_of_which_little_is_cut_comes_down_whole() -> None:
+    offsets = np.tile([0.0, 20.0], (1, 1, 1))
+    keep_hair_at_border(offsets, np.array([[300.0, 10.0]]), FACE, 10.0, 0.3)
+    np.testing.assert_allclose(offsets[..., 1], 20)

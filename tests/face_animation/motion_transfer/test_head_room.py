@@ -16,6 +16,7 @@ from engine.face_animation.motion_transfer.head_room import (
     MAX_STRETCH_RATIO,
     MAX_TURN_RADIANS,
     MIN_TURN_RADIANS,
+    cut_above,
     face_room,
     head_room,
     hold_back,
@@ -41,6 +42,15 @@ def test_a_head_that_nothing_cuts_may_go_as_far_as_its_face_stays_in_the_picture
     oval = face[list(FACE_OVAL), :2]
     np.testing.assert_allclose(room[0], -oval.min(axis=0), atol=1e-4)
     np.testing.assert_allclose(room[1], np.array([339, 299]) - oval.max(axis=0), atol=1e-4)
+
+
+def test_what_of_a_head_is_cut_above_is_told_across_its_face(face: NDArray) -> None:
+    left, right = (int(edge(face[list(FACE_OVAL), 0])) for edge in (np.min, np.max))
+    person = np.zeros((300, 300), np.float32)
+    person[40:, 80:220] = 1
+    assert cut_above(face, person) == 0
+    person[:, left : (left + right) // 2] = 1
+    assert cut_above(face, person) == pytest.approx(0.5, abs=0.03)
 
 
 def test_hair_that_the_border_cuts_comes_down_by_a_part_of_it(face: NDArray) -> None:
