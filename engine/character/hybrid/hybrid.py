@@ -19,9 +19,9 @@ from engine.character.hybrid.head import hair_keeps_to_the_head, joined_at_the_n
 from engine.character.hybrid.limbs import Limbs, cut_off, joined_in_depth, limbs_of
 from engine.character.hybrid.outline_warp import drawn_to_the_outline
 from engine.character.hybrid.trunk import soft_beside_limbs, trunk_labels, trunk_layer
-from engine.character.parts.colour_ownership import strange_colours
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS
+from engine.character.parts.strange_colours import strange_colours
 from engine.character.shell.piece import Piece
 from engine.character.shell.props import props_of
 from engine.character.shell.shell import Shell, shaped, shell_of
