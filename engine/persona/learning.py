@@ -28,8 +28,8 @@ MOUTH_OPENING = 0.25
 MIN_BELIEVED = 0.45
 """Of what a photograph shows from the brows down, the share that can be believed: of less, hands, beards and spectacles cover it, or a
 light of its own, or it is painted. Caps leave more."""
-BROW_VERTICES = (105, 334)
-"""Vertices at the tops of the arches."""
+BROW_TOP_VERTICES = (105, 334)
+"""Vertices at the tops of the brows' arches."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ def learn_persona(
 
 def believed_share(frame: TextureFrame, seen: Appearance, shown: NDArray[np.float32]) -> NDArray[np.float64]:
     """(N,) how much of what each photograph shows of the face, from the brows down and beside the lips' inside, can be believed."""
-    below = np.arange(frame.size[0])[:, None] > frame.places[list(BROW_VERTICES), 1].min()
+    below = np.arange(frame.size[0])[:, None] > frame.places[list(BROW_TOP_VERTICES), 1].min()
     inner = frame.face & below & ~_between_lips(frame)
     believed, there = seen.weights[:, inner].sum(axis=1), shown[:, inner].sum(axis=1)
     return np.asarray(believed / np.maximum(there, 1e-6), np.float64)
