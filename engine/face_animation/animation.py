@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions
+from engine.face_animation.creases.corner_seams import CornerSeams
 from engine.face_animation.creases.fine_details import shade
 from engine.face_animation.creases.own_folds import OwnFolds
 from engine.face_animation.eyes.eyes_and_lids import EyesAndLids
@@ -122,7 +123,10 @@ class FaceAnimation:
         self._landing = target.rig.details.origin(track.in_crop(neutral))
         moves = set(options.follow) - {"head"}
         self._creases = min(options.strength, 1.0) if parts.details and moves else 0.0
-        self._folds = OwnFolds(face.rgb, face.mesh) if parts.details and "mouth" in options.follow else None
+        self._eased: list[OwnFolds | CornerSeams] = []
+        if parts.details and "mouth" in options.follow:
+            folds = OwnFolds(face.rgb, face.mesh)
+            self._eased = [folds, CornerSeams(face.rgb, face.mesh, folds)]
 
     def frames(self, ratios: Iterable[NDArray[np.float32]]) -> Iterator[NDArray[np.uint8]]:
         """The target acting out the whole driver: one (H, W, 3) uint8 frame for each of its frames, (H, W, 4) where alpha
@@ -168,8 +172,8 @@ class FaceAnimation:
             frame, origin, MIN_FOLD_DISTANCE_PIXELS, self._rig.mesh.vertices + moved[:, :2], self._rig.mesh.triangles
         )
         face = self.face(motion) - corner
-        if self._folds is not None:
-            self._folds.ease(frame, origin, 2, face)
+        for own in self._eased:
+            own.ease(frame, origin, 2, face)
         if self._creases > 0:
             shade(frame, self._rig.details, self._landing, ratio, origin, 2, face, self._creases)
         if self._eyes is not None:

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.compiled import njit
+from engine.face_animation.creases.carried_change import add_carried
 from engine.face_animation.creases.fine_details import NOSE_VERTICES
 from engine.face_animation.smoothstep import smoothstep
 from engine.perception.landmarks import (
@@ -67,6 +67,15 @@ class OwnFolds:
         self._width = mouth_width(mesh)
         self._change = _folds(np.asarray(patch, np.uint8), points.astype(np.float32), unit * shrink)
 
+    def within(self, low: NDArray[np.integer], high: NDArray[np.integer]) -> NDArray[np.float32]:
+        """(h, w, 3) what the picture is lighter by without folds, grey levels, from the pixel `low` (x, y) up to `high`, which is the first beyond it."""
+        x, y = (
+            ((np.arange(low[k], high[k]) + 0.5 - self._corner[k]) * self._shrink - 0.5).astype(np.float32)
+            for k in range(2)
+        )
+        at = np.meshgrid(x, y)
+        return np.asarray(cv2.remap(self._change, *at, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT), np.float32)
+
     def share(self, face: NDArray[np.floating]) -> float:
         """How far a face (478, 2 or 3) has left the smile of its picture, [0, 1]."""
         return float(smoothstep(1 - mouth_width(face) / self._width, *NARROW_MOUTH_SHARES))
@@ -84,7 +93,15 @@ class OwnFolds:
         right, bottom = np.clip(np.ceil(face[:, :2].max(axis=0)).astype(int) + 1, 0, (width, height)).tolist()
         there = (slice(top, bottom), slice(left, right))
         place = np.float32(1 / scale), *(np.float32(at) for at in self._corner), np.float32(self._shrink)
-        _add(frame[there], self._change, np.float32(share), origin[there], *place)
+        add_carried(frame[there], self._change, np.float32(share), origin[there], *place)
+
+
+def wears_no_moustache(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:
+    """[0, 1] whether the upper lip of a face at `mesh` (478, 2 or 3) of a picture (H, W, 3) is skin, by its light."""
+    light = cv2.GaussianBlur(rgb, (0, 0), GRAIN_SIGMA_EYE_DISTANCES * float(eye_distance(mesh[:, :2])))
+    return float(
+        smoothstep(_upper_lip_light(light.mean(axis=2), mesh[:, :2].astype(np.float32)), *MOUSTACHE_LIGHT_RATIOS)
+    )
 
 
 def mouth_width(face: NDArray[np.floating]) -> float:
@@ -162,29 +179,3 @@ def _beside_middle(shape: tuple[int, ...], points: NDArray[np.float32]) -> NDArr
     y, x = np.indices(shape, np.float32)
     across = (x - base[0]) * along[1] - (y - base[1]) * along[0]
     return np.asarray(np.abs(across) / max(float(np.linalg.norm(along)), 1e-6), np.float32)
-
-
-@njit(fastmath=True, nogil=True)
-def _add(rgb, change, share, origin, per_pixel, left, top, shrink):  # type: ignore[no-untyped-def]
-    """Colours with `share` of bilinear samples of `change` added, which lies at (left, top) of the target, `shrink` times as large."""
-    rows, columns = change.shape[:2]
-    half = np.float32(0.5)
-    for y in range(rgb.shape[0]):
-        for x in range(rgb.shape[1]):
-            u = ((origin[y, x, 0] + half) * per_pixel - left) * shrink - half
-            v = ((origin[y, x, 1] + half) * per_pixel - top) * shrink - half
-            if not (u >= 0 and v >= 0 and u < columns - 1 and v < rows - 1):
-                continue
-            i, j = int(v), int(u)
-            a, b = v - np.float32(i), u - np.float32(j)
-            for c in range(3):
-                added = share * _sample(change, i, j, a, b, c)
-                if abs(added) >= half:
-                    rgb[y, x, c] = np.uint8(min(max(rgb[y, x, c] + added, np.float32(0)), np.float32(254)) + half)
-
-
-@njit(fastmath=True, nogil=True)
-def _sample(image, i, j, a, b, c):  # type: ignore[no-untyped-def]
-    above = (1 - b) * image[i, j, c] + b * image[i, j + 1, c]
-    below = (1 - b) * image[i + 1, j, c] + b * image[i + 1, j + 1, c]
-    return (1 - a) * above + a * below
