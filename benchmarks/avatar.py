@@ -46,11 +46,11 @@ from engine.run import Run
 from engine.store import StageStore
 
 HEAD_START_HEIGHT_SHARE = 0.87
-"""Of the height: from there up it is the head."""
+"""Share of the person's height from which up it is the head."""
 TRUTH_GATE_METRES = 0.03
 """Metres within which points of what was made are laid on the truth."""
 TRUTH_ALIGNMENT_ROUNDS = 12
-"""How often they are laid on it."""
+"""How often what was made is laid on the truth."""
 
 
 def make(folder: Path, out: Path, asked: argparse.Namespace, height: float) -> None:

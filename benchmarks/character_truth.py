@@ -56,7 +56,7 @@ PERSON_TURN_DEGREES = 25.0
 CHARACTER_TRIANGLES = 60_000
 """Triangles of a character, as it is written unless asked for otherwise."""
 FINGER_JOINT_NAMES = ("Thumb", "Index", "Middle", "Ring", "Pinky")
-"""As the names of their joints have them."""
+"""Fingers, as the names of their joints have them."""
 
 
 def people() -> Iterator[tuple[Person, str]]:

@@ -15,7 +15,7 @@ from engine.performances import video
 Array = NDArray[np.float32]
 
 SIDE_PIXELS = 600
-"""Pixels of both."""
+"""Pixels of a side of either portrait."""
 PAINTING_SCALE = 2
 """The painting is painted so many times as large: strokes are finer than pixels then."""
 PAINT_SEED = 1

@@ -30,7 +30,7 @@ THUMBNAIL_PIXELS = 176
 CROPPED_HEIGHT_PIXELS = 600
 """Height of a picture of which a part is taken, pixels: faces are to be seen well."""
 SMALL_FIGURE_SIZE_PIXELS = (176, 235)
-"""Width and height of those of whole figures, pixels: they are as small, and show all of the picture."""
+"""Width and height of the small pictures of whole figures, which show all of the picture."""
 CLIP_SIZE, FIGURE_CLIP_SIZE = (400, 480), (400, 532)
 """Width and height of the clips on the start pages."""
 CLIP_CRF = 25
@@ -69,7 +69,7 @@ SAMPLE_PORTRAITS = (
 MOVING_PORTRAIT = ("grace-hopper", "happy")
 """The portrait that moves on arrival, and what it acts out."""
 WALKING_FIGURE = ("woman-in-red", "walk")
-"""The figure that does, and its motion."""
+"""The figure that moves on arrival, and its motion."""
 
 
 def main() -> None:

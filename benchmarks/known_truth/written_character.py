@@ -26,7 +26,7 @@ OUTLINE_SUPERSAMPLING = 8
 FRACTION_BITS = 4
 """Bits of OpenCV's fractions of a pixel."""
 FILL_OVERHANG_PIXELS = 0.5 / OUTLINE_SUPERSAMPLING
-"""Pixels by which it is drawn too wide: OpenCV fills every pixel that an edge passes."""
+"""Pixels by which OpenCV fills a triangle too wide: every pixel that an edge passes."""
 
 
 @dataclass(frozen=True)

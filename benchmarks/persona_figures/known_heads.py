@@ -42,7 +42,7 @@ SHOWN_EXPRESSIONS = (
 )
 """Shown by a share of the photographs each, at half to full strength; the others are at rest."""
 SHOULDER_SCAN_HEIGHTS = -0.05
-"""Heights of the scan above its middle, up to which they are."""
+"""Heights of the scan above its middle up to which shoulders are."""
 HEAD_BODY_SHARE = 0.145
 """Of a standing body's height that its head takes."""
 

@@ -12,7 +12,7 @@ Orbit = Literal["whole", "half", "none"]
 WALK_START_SHARE = 0.45
 """Share of a film after which somebody who does not stay begins to walk."""
 WALK_END_SHARE = 0.6
-"""Share of it after which they stand again."""
+"""Share of a film after which somebody who walked stands again."""
 COMPANY_METRES = (0.95, 0.0, -0.1)
 """Where a second person stands beside the first."""
 

@@ -20,7 +20,7 @@ from engine.media.ycbcr import BT709, BT2020, LIMITED_RANGE
 
 FilmFormat = Literal["h264", "hevc", "hlg"]
 FRAMES_PER_SECOND = 30
-"""As the file has them; they are spread over all of the capture."""
+"""Of the film's file; frames are spread over all of the capture."""
 STORED_TURN_DEGREES = 90
 """By which a player has to turn what is stored, as FFmpeg counts: against the clock."""
 

@@ -15,7 +15,7 @@ from engine.geometry.texture_charts.texture_atlas import atlas_from_uv
 EYE_SCALE = 4.0
 """By how much the charts of the fronts of both eyeballs are larger than the template has them."""
 EYE_CENTRES = {"left_eye": (0.86, 0.06), "right_eye": (0.94, 0.06)}
-"""Where they lie on the texture, in places at which the template has nothing."""
+"""Where the charts of the eyeballs' fronts lie on the texture, in places at which the template has nothing."""
 
 
 def avatar_uv(template: Template) -> NDArray[np.float32]:

@@ -16,7 +16,7 @@ FURTHER_CLOUD_SPACING_METRES = 0.004
 CLOUD_GATES_METRES = (0.03, 0.015)
 """Metres within which points are taken to be of one surface: first, and once they are near."""
 ICP_ITERATIONS = 8
-"""Of closest points, with each of these."""
+"""Rounds of closest points with each of `CLOUD_GATES_METRES`."""
 
 
 def onto_body(further: ClipScan, body: ClipScan) -> ClipScan:

@@ -46,7 +46,7 @@ STEREO_SIDE_PIXELS = 960
 """Pixels of the longer side, at most, of frames between which stereo measures: a millimetre and a half of somebody who
 fills them."""
 MIN_PIXEL_METRES = 0.001
-"""Metres of the person that a pixel of these shows at least: clouds are smoothed over eight."""
+"""Metres of the person that a pixel of stereo's frames shows at least: clouds are smoothed over eight."""
 LANDMARK_SIDE_PIXELS = 1280
 """Pixels of the longer side of frames in which landmarks are found."""
 HEAD_VIEW_REACH_RATIO = 1.5

@@ -14,7 +14,7 @@ T_POSE_DIRECTIONS: dict[str, tuple[float, float, float]] = {
     **dict.fromkeys(("RightArm", "RightForeArm", "RightHand"), (-1.0, 0.0, 0.0)),
     **dict.fromkeys(("LeftUpLeg", "LeftLeg", "RightUpLeg", "RightLeg"), (0.0, -1.0, 0.0)),
 }
-"""Where these bones point. Feet stay as they stand, fingers as they are in the hand."""
+"""Where bones point in T-pose. Feet stay as they stand, fingers as they are in the hand."""
 
 WORLD_ALIGNED_BONES = ("LeftFoot", "RightFoot")
 """Bones that keep their place in the world although their parents turn."""

@@ -133,7 +133,7 @@ shows nearly the same (0.95 grey levels in the mean) 0.98 were seen, with the us
 _SEAM_QUANTISER = 6
 """Quantiser of the first frame of an H.264 video that loops, and of its last."""
 _SEAM_FRAMES = 12
-"""Frames at the end of such a video over which the quantiser goes down to `_SEAM_QUANTISER`."""
+"""Frames at the end of a video that loops over which the quantiser goes down to `_SEAM_QUANTISER`."""
 _SEAM_START = 20
 
 _LOOPED_WEBM = {"crf": "14", "cpu-used": "4"}

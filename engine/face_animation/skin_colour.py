@@ -12,7 +12,7 @@ from engine.perception.landmarks import FACE_OVAL, eye_distance
 MOUTH_SKIN_VERTICES = (164, 167, 393, 18, 200, 92, 322, 186, 410)
 """Vertices on the skin around the mouth."""
 SKIN_SAMPLE_EYE_DISTANCES = 0.06
-"""Eye distances about each of them."""
+"""Eye distances about each of `MOUTH_SKIN_VERTICES` within which skin is sampled."""
 CHROMA_FLOOR = 48.0
 """Added to the sum of a colour's channels, so that the dark has no colour."""
 MAX_GREY_SATURATION = 0.06

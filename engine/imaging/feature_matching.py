@@ -26,7 +26,7 @@ MIN_AGREEING_MATCH_SHARE = 0.25
 MANY_MATCHES = 400
 """How many matches tie two pictures. Where there are fewer, more are looked for along epipolar lines."""
 MIN_DESCRIPTOR_COSINE = 0.8
-"""Cosine between descriptors that are looked for so."""
+"""Cosine between descriptors that are looked for along epipolar lines."""
 OVERLAP_FEATURES = 300
 """The largest features of each picture, by which it is seen which pictures show the same."""
 

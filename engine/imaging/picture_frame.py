@@ -12,7 +12,8 @@ PLAIN_LEVELS = 6
 PLAIN_SHARE = 0.98
 """Of the pixels of a line along the border that are of the margin's colour."""
 EDGE_LEVELS, FRAME_EDGE_SHARE, EDGE_PIXELS = 12, 0.6, 2
-"""Where a margin ends, so large a share of the line's pixels change by so much, within so many lines: a backdrop ends at a person, or fades."""
+"""What a margin's end is: of so large a share of a line's pixels each changes by so many levels, within so many lines.
+A backdrop ends at a person, or fades."""
 RINGING_LINES = 16
 """Lines before the edge that JPEG may have made uneven: a block of its colours."""
 LARGEST_SHARE = 0.4

@@ -24,7 +24,7 @@ REMEMBERED_VERTEX = -1
 FREE_TRIANGLES = (0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xA9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69)
 """Pairs of where the second and third vertex of a triangle without a shared edge come from, that one byte tells."""
 TRIANGLE_TAIL_BYTES = 16
-"""Of the table of such pairs."""
+"""Bytes of the table of pairs that one byte tells."""
 
 
 def encode_triangles(triangles: NDArray[np.integer]) -> bytes:

@@ -37,7 +37,7 @@ BRIDGE_REACH = 0.25
 LINE_SIGMA = 1.5
 """Pixels of the copy, half the width of a line."""
 LINE_COLUMNS = 21
-"""Places across the nose where a line is looked for, each within a pixel of the place before."""
+"""Places across the nose where a bridge's line is looked for, each within a pixel of the place before."""
 LOG_OFFSET_LEVELS = 8.0
 """Grey levels that are added before the logarithm: noise of black is none of a line."""
 ABOVE_LIP = ((2, 98, 92, 0, 167, 165), (2, 327, 322, 0, 393, 391))

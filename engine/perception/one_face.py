@@ -14,7 +14,8 @@ SAME_FACE_REACH = 0.75
 REGION_HALF_SIDE_FACE_SIZES = 1.5
 """Half side of the part of a frame in which a face is followed that is too small in the whole, in its own size."""
 MAX_OFFSET_FACE_SIZES = 0.5
-"""How far such a face may be from the middle of that part, in its own size, before the part is laid anew."""
+"""How far a face may be from the middle of the part of the frame in which it is followed, in its own size, before the
+part is laid anew."""
 
 
 class OneFace:

@@ -27,7 +27,8 @@ from engine.perception.body import BODY_LANDMARKS
 OUTLINE_WORKING_PIXELS = 300
 """Pixels of the outline's longer side on which the axis is found."""
 OUTLINE_SIGMA_SHARE = 0.008
-"""Standard deviation, as a share of that side, by which the outline is smoothed first: wobbly lines have no limbs."""
+"""Standard deviation, as a share of the outline's longer side, by which the outline is smoothed first: wobbly lines
+have no limbs."""
 MAX_ENDS = 11
 """Ends of the axis that are tried as head, hands and feet: those that stick out furthest."""
 ROUND_RADII = 1.3

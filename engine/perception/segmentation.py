@@ -24,7 +24,7 @@ upsampling."""
 SELFIE_SHARE = 2 / 3
 """Share of the selfie network in the belief in portraits (by trial on known alphas); the rest is the body pose's."""
 SELFIE_SHARE_OF_WHOLE = 1 / 2
-"""The share of that network in pictures that show somebody whole, whom the body pose's network knows best."""
+"""Share of the selfie network in pictures that show somebody whole, whom the body pose's network knows best."""
 
 
 def people_confidence(rgb: NDArray[np.uint8], whole: bool = False) -> Mask:

@@ -13,7 +13,8 @@ SAMPLE_PERFORMANCES = (
     *("happy-strong", "surprise-strong", "anger-strong", "sadness-strong"),
 )
 SAMPLE_INSTANT_SHARES = (0.25, 0.45, 0.65)
-"""Of each of them: at their beginnings and ends he is at rest, which is one photograph many times."""
+"""Shares of each performance at which a photograph is taken: at their beginnings and ends he is at rest, which is one
+photograph many times."""
 
 
 def write_sample_photos(folder: Path) -> tuple[Path, ...]:

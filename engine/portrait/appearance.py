@@ -33,7 +33,7 @@ BARE_SKIN = (
 """Vertices on bare skin, on both sides alike: light and palette are read around them."""
 
 SAMPLE_RADIUS_EYE_DISTANCES = 0.06
-"""Eye distances around each of them within which is averaged."""
+"""Eye distances around each of `BARE_SKIN` within which is averaged."""
 
 SAMPLED_FPS = 6.0
 """Frames a second of a driver that are looked at."""

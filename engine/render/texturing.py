@@ -15,7 +15,7 @@ MAX_FOOTPRINT_RATIO = 4.0
 """Two pixels side by side show one surface where they are apart on the texture by no more than this many times what a pixel
 covers of it, and `TOLERANCE_TEXELS`."""
 TOLERANCE_TEXELS = 2.0
-"""Texels by which they may be further apart than that."""
+"""Texels by which pixels of one surface may be further apart than `MAX_FOOTPRINT_RATIO` allows."""
 
 
 class TexturedSurface(NamedTuple):

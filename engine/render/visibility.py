@@ -18,7 +18,7 @@ DEPTH_SLACK = 4e-3
 DEPTH_JUMP = 3e-2
 """A jump of depth from which two pixels side by side show two parts of the surface, in the same unit."""
 JUMP_MARGIN_PIXELS = 5
-"""Pixels across about such a jump in which nothing is taken."""
+"""Pixels across about a jump of depth in which nothing is taken."""
 
 
 class DepthBuffer(NamedTuple):

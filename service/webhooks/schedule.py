@@ -31,7 +31,7 @@ PROGRESS_RETRIES = 2
 FAILING_DAYS = 5
 """Days without a successful attempt after which an endpoint is disabled."""
 FAILING_DELIVERIES = 3
-"""Deliveries that have to be given up in that time for it to be disabled."""
+"""Deliveries that have to be given up within `FAILING_DAYS` for an endpoint to be disabled."""
 
 
 def retry_delay(event: str, tries: int, retry_after: timedelta | None, chance: Random) -> timedelta | None:

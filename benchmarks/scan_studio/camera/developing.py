@@ -16,9 +16,9 @@ from engine.media.ycbcr import BT2020, LIMITED_RANGE, frame_from_rgb
 TONE_TABLE_STEPS = 4096
 """Steps of the table from light to sRGB."""
 HLG_TRANSFER = 18
-"""FFmpeg's number of it (AVCOL_TRC_ARIB_STD_B67)."""
+"""FFmpeg's number of hybrid log-gamma (AVCOL_TRC_ARIB_STD_B67)."""
 DARKEST_LIGHT = 1e-9
-"""Below it luminance counts as no less."""
+"""Luminance below which all counts as this much."""
 
 
 def srgb_frame(light: NDArray[np.float32]) -> VideoFrame:

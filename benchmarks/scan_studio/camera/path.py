@@ -21,7 +21,7 @@ FOCUS_BREATHING_SHARE = 0.006
 WANDER_METRES = (0.07, 0.05, 0.07)
 """How far a hand strays from the path along the room's axes, about, at most."""
 WANDER_DEGREES = (1.6, 1.6, 2.0)
-"""How far it strays from the aim, up, aside and about the view, about, at most."""
+"""How far a hand strays from its aim, up, aside and about the view, about, at most."""
 NEAR_SHARE = 0.3
 """Share of the straying when the head is filmed from near."""
 TREMOR_DEGREES = 0.12
@@ -32,7 +32,7 @@ TREMOR_HERTZ = (2.3, 3.7, 5.1)
 BODY_SECONDS = 80.0
 """As long as the paper's film of the body takes."""
 HEAD_SECONDS = 30.0
-"""As long as its film of the head takes."""
+"""As long as the paper's film of the head takes."""
 
 BODY_CAMERA_KEYS = (
     (0.0, 0.0, 0.84, 0.68, 2.0),

@@ -26,7 +26,7 @@ PICTURED_MOMENTS: Mapping[str, tuple[str, float]] = {
 """Files of captured motions, and the share of each at which the picture is taken."""
 
 PICTURED_NAMES = (*POSES, *PICTURED_MOMENTS)
-"""The names of all of them."""
+"""The names of all poses and pictured moments."""
 
 
 def pictured(skeleton: Skeleton, how: str, mocap: Path) -> Clip:

@@ -19,7 +19,7 @@ from engine.motion.clip import Clip
 from engine.motion.files.gltf_file import GltfFile
 
 T_POSE_HEIGHT_METRES = 1.8
-"""Height in T-pose to which they are scaled."""
+"""Height in T-pose to which people are scaled."""
 BONE_END_JOINTS = {
     **{f"{side}Arm": f"{side}ForeArm" for side in ("Left", "Right")},
     **{f"{side}ForeArm": f"{side}Hand" for side in ("Left", "Right")},

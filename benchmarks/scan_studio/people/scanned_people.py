@@ -17,7 +17,7 @@ from engine.geometry.mesh.surface import vertex_normals
 from engine.geometry.mesh.welding import same_rows
 
 SCANNED_HEIGHT_METRES = 1.75
-"""Of height, to which they are scaled."""
+"""Height to which scanned people are scaled."""
 RIGGED_PEOPLE = {
     "readyplayer.me": ("body_rpm_man/readyplayer.me.glb", 1.0),
     "soldier": ("body_soldier/soldier.glb", -1.0),
@@ -29,7 +29,7 @@ UNRIGGED_PEOPLE = {"male02": "body_male02/male02.obj"}
 MAX_IMAGE_TEXELS = 1024
 """Texels, at most, along the side of each image's place on the texture."""
 IMAGE_GUTTER_TEXELS = 4
-"""Texels around it, which continue the image."""
+"""Texels around each image on the texture, which continue it."""
 
 
 def read_subject(name: str, scans: Path) -> Subject:

@@ -72,17 +72,17 @@ TEMPLATE_LOOKS = {
     ),
 }
 CLOTH_CELL_METRES = (0.004, 0.009, 0.022, 0.06)
-"""Metres of the cells of its noise."""
+"""Metres of the cells of cloth's noise."""
 CLOTH_SPREAD_SHARE = 0.22
-"""Share of the colour by which it is lighter or darker."""
+"""Share of its colour by which cloth is lighter or darker."""
 SKIN_CELL_METRES = (0.0025, 0.006, 0.015)
-"""Metres of the cells of its spots."""
+"""Metres of the cells of skin's spots."""
 SKIN_SPREAD_SHARE = 0.06
-"""Share of the colour by which they are lighter or darker."""
+"""Share of its colour by which skin is lighter or darker."""
 PRINT_WORDS = ("GALATEA", "No 25", "* & ?")
 """What is printed on chest and back."""
 PRINT_METRES = (0.26, 0.2)
-"""Width and height of it."""
+"""Width and height of what is printed on chest and back."""
 BROW_FACE_POINTS = (range(17, 22), range(22, 27))
 """Of the 68 face points."""
 LID_FACE_POINTS = (range(36, 42), range(42, 48))

@@ -21,7 +21,7 @@ MIN_PIECE_SQUARE_METRES = 0.015
 HIDDEN_DEPTH_METRES = 0.003
 """Metres within the skin from which on nothing is seen of a piece."""
 HIDDEN_TRIANGLE_WEIGHT = 0.02
-"""Of what is hidden there, against the rest, when triangles are taken."""
+"""What counts, against the rest, of a piece that is hidden within the skin, when triangles are taken."""
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.int32]]
 """Vertices (V, 3) and triangles (T, 3)."""

@@ -25,7 +25,8 @@ DOUBTED_POINTS_SHARE = 0.25
 POINT_SPACING_METRES = 0.004
 """Metres between points that are looked at."""
 MEAN_RADIUS_METRES, MAX_MEAN_POINTS = 0.012, 32
-"""Metres about a point, and points there at most, the mean of which says how far off the surface is: single ones scatter."""
+"""Metres about a point within which points, so many at most, say in the mean how far off the surface is: single ones
+scatter."""
 MAX_WORN_METRES = 0.3
 """Metres from the skin within which anything can be worn."""
 SWAY_METRES = 0.006

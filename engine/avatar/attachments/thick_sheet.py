@@ -21,7 +21,7 @@ from engine.geometry.point_clouds.point_sheet import PointSheet, sheet_through
 GRID_SPACING_METRES = 0.003
 """Metres between the grid's points."""
 SHEET_THICKNESS_METRES = 0.006
-"""Metres, as of felt, which is two of them."""
+"""Metres that a sheet is thick, as of felt: two of the grid's spacing."""
 SHEET_RADIUS_METRES, SHEET_ROUNDS, SHEET_SPACING_METRES = 0.02, 4, 0.003
 """Of the sheet through the points: metres about each that make it smooth, rounds, and metres from point to point."""
 SHEET_EXTENSION_METRES = 0.015

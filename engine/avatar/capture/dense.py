@@ -62,7 +62,7 @@ SURFACE_NEIGHBOUR_METRES, MIN_SURFACE_NEIGHBOURS = 0.012, 6
 RIM_GAP_METRES = 0.015
 """Metres around a point of a silhouette's rim in which stereo found nothing."""
 RIM_RADIUS_METRES, MIN_RIM_CONFIRMATIONS = 0.01, 3
-"""Metres within which so many others confirm it, and from one that is taken to the next."""
+"""Metres within which so many others confirm a point of a silhouette's rim, and from one that is taken to the next."""
 CLOUD_PIECE_GAP_METRES, PIECE_SHARE = 0.02, 0.01
 """Metres that part pieces, and what a piece must have of the largest one's points."""
 

@@ -20,14 +20,14 @@ from engine.render.sampling import bilinear
 MOSAIC_SPACING_METRES = 0.005
 """Metres between points of the mosaic."""
 MOSAIC_MARGIN_METRES = 0.5
-"""Metres that it reaches beyond the places that it is made around."""
+"""Metres that the mosaic reaches beyond the places that it is made around."""
 MIN_SHOWN_SHARE = 1 / 3
 """Of the frames that have a point in their picture, how many must show it free: beside a foot it is seen from half of all sides,
 beneath one from none, whatever a mask says of a few."""
 TRIED_HEIGHTS_METRES = np.arange(-5, 6) * 0.003
 """Metres about where the floor is thought to be, within which it is looked for."""
 MIN_FRAMES_SHOWING_FLOOR = 3
-"""Frames that must, at least."""
+"""Frames that must show a point of the floor, at least."""
 SEARCH_POINT_STEP = 4
 """Of the points along each side one in so many is asked where it is."""
 GAIN_ROUNDS = 2

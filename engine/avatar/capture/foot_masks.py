@@ -25,7 +25,7 @@ from engine.imaging.masks.mask_pieces import without_small_pieces
 FOOT_REACH_LENGTHS = 0.6
 """How far from its marks a foot may reach, in its lengths, and the floor is told from it."""
 CERTAIN_FOOT_SHARES = {"Heel": 0.5, "FootIndex": 0.7}
-"""How far from the ankle to a corner it is surely a foot."""
+"""How far from the ankle to a corner it is surely a foot, as a share of the way."""
 CERTAIN_SHIN_SHARE = 0.5
 """Of the way to the knee, how much is surely a leg."""
 SURE_FOOT_HALF_WIDTH_LENGTHS = 0.04

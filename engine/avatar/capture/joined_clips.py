@@ -28,7 +28,7 @@ COARSE_FEATURE_COUNT = 300
 MIN_SHARED_POINTS = 20
 """Points in common by which two films are joined."""
 MIN_SHARED_PERSON_POINTS = 12
-"""Points of the person in common by which they have the last word."""
+"""Points of the person in common by which the person has the last word about where two films are to one another."""
 ROOM_TOLERANCE_CAMERA_DISTANCES, PERSON_TOLERANCE_CAMERA_DISTANCES = 0.03, 0.01
 """Distances of the first film's cameras by which points in common may be apart: of the room, which is far, and of the person."""
 ADJUSTMENT_ROUNDS = 3

@@ -18,7 +18,7 @@ from engine.perception.solutions import kept_networks
 EXAMINED_FRAMES = 12
 """Frames of a clip in which people are looked for, spread over it."""
 POSE_SIDE_PIXELS = 640
-"""Pixels of the longer side at which they are looked for."""
+"""Pixels of the longer side of frames in which people are looked for."""
 KNEE_CONFIDENCE = 0.5
 """Confidence from which a knee is in the picture."""
 CLOSE_UP_SHARE, WHOLE_SHARE = 0.1, 0.4

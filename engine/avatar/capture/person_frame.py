@@ -26,7 +26,7 @@ FLOOR_THICKNESS_CAMERA_DISTANCES = 0.015
 """Distances of the cameras: a slab that holds the points of the floor."""
 MIN_FLOOR_POINTS = 30
 SAME_FRONT_RADIANS = np.radians(40)
-"""Bodies that are seen turned so far apart agree on where the front is."""
+"""Radians by which bodies may be seen turned from one another and agree on where the front is."""
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ PERSON_RADIUS_CAMERA_DISTANCES = 0.6
 SWAY_TURN_RADIANS = 0.002
 """Radians that a person who holds still turns in the mean."""
 SWAY_CAMERA_DISTANCES = 0.0025
-"""How far they sway in the mean, in distances of the camera: 5 mm at two metres."""
+"""How far a person who holds still sways in the mean, in distances of the camera: 5 mm at two metres."""
 FEATURE_NOISE_PIXELS = 0.4
 """Pixels by which features of cloth and skin are off in the mean."""
 MIN_TRACK_INSIDE_SHARE = 0.6

@@ -19,7 +19,7 @@ from engine.perception.solutions import kept_networks
 MASK_SIDE_PIXELS = 480
 """Pixels of the longer side."""
 MIN_SURE_PROBABILITY = 0.9
-"""Belief of the networks from which they are trusted, and below one less which."""
+"""Belief of the networks in a person from which they are trusted; they are, too, below one less that."""
 MASK_SPECK_SHARE = 0.002
 """Of a mask's pixels: smaller pieces are nobody's, and smaller holes are nothing between arm and body."""
 SIDES_PER_MARK_RADIUS = 100

@@ -17,7 +17,7 @@ MIN_PERSON_AREA_SHARE = 0.003
 MAX_OFFSET_CAMERA_DISTANCES = 0.1
 """Distances of the cameras by which the person may be seen beside their place: 20 cm at two metres."""
 MAX_EMPTY_FRAMES_SHARE = 0.25
-"""Share of the frames that may see nobody there."""
+"""Share of the frames that may see nobody at the person's place."""
 PLACE_REWEIGHTING_ROUNDS = 20
 """Rounds of least squares for the place that most frames agree on."""
 

@@ -17,9 +17,9 @@ from engine.geometry.camera import Camera
 SIGHT_RADIUS_METRES = 0.005
 """Metres about a line of sight within which points of the cloud tell how far it goes."""
 SURFACE_DEPTH_METRES = 0.015
-"""Metres behind the nearest of them within which others are of the same surface."""
+"""Metres behind the nearest point about a line of sight within which others are of the same surface."""
 MIN_AGREEING_POINTS = 2
-"""Points that must tell so."""
+"""Points that must tell how far a line of sight goes."""
 MAX_LANDMARK_DISTANCE_METRES = 0.06
 """Metres from where many views have a landmark within which one view's is believed: lines of sight past a hand end on the trunk."""
 CLOUD_PLACED_LANDMARKS = (*FRONT_VIEW_LANDMARKS, "Index", "Pinky")

@@ -16,7 +16,8 @@ FACE_LANDMARKS = 68
 HAND_LANDMARKS = 21
 """Points of a hand (`engine.perception.hands.HAND_JOINTS`)."""
 LID_POINT_COUNT, EYE_POINT_COUNT = 16, 21
-"""Points of an eye between its lids, from the outer corner over the upper lid, and with those of its iris, the middle first."""
+"""Points of an eye between its lids, from the outer corner over the upper lid; and all with those of its iris, the
+middle first."""
 
 
 @dataclass(frozen=True)

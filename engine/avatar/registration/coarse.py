@@ -39,7 +39,7 @@ LANDMARK_SIGMAS = {
 """Metres by which landmarks are off, usually, by their names without a side: under clothes, in shoes, and where
 perception sees them elsewhere than the template has them."""
 USUAL_SIGMA = 0.02
-"""Metres by which all other landmarks are off, usually."""
+"""Metres by which landmarks without an own entry in `LANDMARK_SIGMAS` are off, usually."""
 ROUGH_SIGMA = 0.03
 """What is assumed of landmarks at first, at least."""
 COARSE_LANDMARK_CUTOFF_SIGMAS = 6.0

@@ -40,7 +40,7 @@ FIRST_INNER_FACE_POINT = 17
 LID_RIM_FACE_POINTS = (37, 38, 40, 41, 43, 44, 46, 47)
 """Face landmarks on the rims of upper and lower lids, between the corners of the eyes."""
 LID_LANDMARK_WEIGHT = 3000.0
-"""What those count in the head's own fit, where nothing else tells how far eyes are open."""
+"""What landmarks of the lids' rims count in the head's own fit, where nothing else tells how far eyes are open."""
 FINE_LANDMARK_SIGMA_METRES = 0.008
 """Metres from the fit before at which a landmark counts a quarter (Geman-McClure): a moustache moves those of the mouth."""
 MAX_FACE_DISTANCE_METRES = 0.03

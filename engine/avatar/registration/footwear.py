@@ -21,11 +21,11 @@ from engine.geometry.point_clouds.point_cloud import PointCloud
 FOOT_REACH_METRES = 0.02
 """Metres from the coarse fit's feet within which points are of them."""
 SHOE_FLOOR_REACH_METRES = 0.012
-"""Metres above the lowest of them below which points may be the floor's."""
+"""Metres above a foot's lowest points below which points may be the floor's."""
 NOSE_LANDMARKS = slice(27, 36)
 """Of the 68 face landmarks: about them there is skin, and no hair."""
 NOSE_REACH_METRES = 0.015
-"""Metres about them."""
+"""Metres about the nose's landmarks within which there is skin."""
 MIN_COLOUR_POINTS = 60
 """Points of feet, and of the face, with which colours are known."""
 MAX_FOOT_HUE_DISTANCE = 9.0

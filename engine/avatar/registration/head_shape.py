@@ -19,7 +19,7 @@ from engine.geometry.point_clouds.point_cloud import PointCloud
 from engine.geometry.registration.rigid import fit_similarity
 
 GATE_METRES = (*[0.02] * 5, *[0.008] * 7)
-"""Metres within which points are of the surface there, by rounds."""
+"""Metres within which points are of the surface of the head, by rounds."""
 POINTS_PER_ROUND = 5000
 """Points of the cloud that are looked at in each round."""
 HEAD_POINT_SIGMA_METRES = 0.002

@@ -15,10 +15,11 @@ LID_FOLD_EYE_WIDTHS = 0.25
 CAMERA_DISTANCE_METRES, PICTURE_WIDTH_PIXELS, PICTURE_WIDTH_METRES = 0.5, 480, 0.06
 """Metres from the eye to the camera that looks at it, and the pixels and the metres at the eye that its picture is wide."""
 MIN_LID_VIEW_COSINE = 0.35
-"""To the way to that camera; skin that is seen more from the side is in the shade of lids and lashes, as what is in the fold is."""
+"""Cosine to the way to the eye's camera. Skin that is seen more from the side is in the shade of lids and lashes, as
+what is in the fold is."""
 CLOSING_ROUNDS = 2
-"""In which triangles of the upper lid that share two corners with what lies in the fold are counted with it: what shows of them at rest
-is narrower than lashes."""
+"""Rounds in which triangles of the upper lid that share two corners with what lies in the fold are counted with it:
+what shows of them at rest is narrower than lashes."""
 LID_VISIBILITY_TOLERANCE_METRES = 5e-4
 """Metres behind the surface at which a triangle's middle is seen."""
 

@@ -53,9 +53,10 @@ SUBTLE_UNITS = (
 )
 """Units that go with others, or move few points a little: taken for what a broad one would do but for the face's proportions."""
 SUBTLE_SPARSITY_FACTOR = 4.0
-"""By how much more their weights cost."""
+"""By how much more weights of `SUBTLE_UNITS` cost."""
 BLINK_GAIN_FACTOR = 1.35
-"""What a tracked mesh shows of lids that shut is three quarters of it: measured on the project's own performances."""
+"""By how much a blink is more than a tracked mesh shows of it: three quarters, measured on the project's own
+performances."""
 TEMPORAL_SMOOTHNESS_WEIGHT = 0.03
 """Weight of the squares of changes from frame to frame, as a share of each unit's own sum of squares."""
 DESCENT_SWEEPS = 60

@@ -25,7 +25,7 @@ HEAD_COMPONENTS = 30
 SAMPLED_HEADS = 400
 """Heads that are analysed."""
 HEAD_SEED = 30
-"""Of their sampling."""
+"""Seed of the sampling of heads."""
 FACE_ROOMS = ("nose", "chin", "cheek", "eyes", "forehead", "head", "mouth", "ears", "eyebrows", "neck")
 """The parts of the head of which some are changed in each sample."""
 CHANGES_PER_HEAD = 14

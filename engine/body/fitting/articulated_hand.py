@@ -19,7 +19,7 @@ FINGER_SIGMA = (0.12, 0.6, 0.7)
 CURL_RATIO = 0.6
 """How much the last joint of a finger bends for what the one before it does: one tendon bends both."""
 CURL_SIGMA = 0.3
-"""Radians by which that joint usually does otherwise."""
+"""Radians by which the last joint of a finger usually bends otherwise than by `CURL_RATIO`."""
 MIN_ANGLES_RADIANS = np.array([*(-0.8, -0.8, -0.8), *(-0.4, -0.5), *(4 * (-0.35, -0.6, -0.3, -0.4))])
 """Radians to which joints turn at least, from the hand at rest, in which fingers are bent a little."""
 MAX_ANGLES_RADIANS = np.array([*(0.8, 0.8, 0.8), *(1.0, 1.3), *(4 * (0.35, 1.6, 1.9, 1.4))])

@@ -36,7 +36,8 @@ SEARCH_INSIDE_SHARE = 0.06
 SEARCH_OUTSIDE_SHARE = 0.03
 """How far outside the contour the body may be to be matched, as a share of the person's height."""
 FOOT_JOINTS, FEET_SEARCH_INSIDE_SHARE = ("Foot", "Toe"), 0.1
-"""Joints of feet, and the same of these, which perception has too high on long legs: a leg ends where its outline ends."""
+"""Joints of feet, and how far inside the contour a foot may be to be matched, as a share of the person's height.
+Perception has feet too high on long legs: a leg ends where its outline ends."""
 UNMATCHED_JOINTS = ("Head", "Neck", "Hand", "Thumb", "Index", "Middle", "Ring", "Pinky")
 """Joints whose surface is not matched: hair and fingers have contours of their own."""
 VERTEX_STRIDE = 2

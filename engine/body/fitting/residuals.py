@@ -51,7 +51,7 @@ INDEPENDENT_CONTOUR_POINTS = 200.0
 CROSSING_DEPTH_METRES = 0.09
 """Metres by which the middle of one forearm is before that of another that it crosses, at least."""
 CROSSING_SIGMA = 0.01
-"""Metres by which it may fall short of that, usually."""
+"""Metres by which a forearm that crosses another may fall short of `CROSSING_DEPTH_METRES`, usually."""
 MIN_DEPTH_METRES = 0.1
 """Metres from a camera at which bodies end: a search may lead through it."""
 

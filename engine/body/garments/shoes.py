@@ -22,20 +22,22 @@ HEEL_ROOM = 0.3
 STATION_SHARES = np.array([0.0, 0.15, 0.3, 0.45, 0.6, 0.72, 0.85, 1.0])
 """Where along a shoe, in its lengths from the heel, the curves of the last are given."""
 HALF_WIDTHS = np.array([0.34, 0.34, 0.34, 0.37, 0.46, 0.5, 0.5, 0.47])
-"""Half a shoe's width there, in its greatest width."""
+"""Half a shoe's width at `STATION_SHARES`, in its greatest width."""
 STATION_HEIGHTS = np.array([0.36, 0.36, 0.34, 0.28, 0.22, 0.2, 0.19, 0.19])
-"""A shoe's height there, in its length; at the back it reaches higher than the shoe's rim, where the ankle is."""
+"""A shoe's height at `STATION_SHARES`, in its length. At the back it reaches higher than the shoe's rim, where the
+ankle is."""
 HEEL_ROUND, TOE_ROUND = (0.14, 2.4), (0.36, 2.2)
-"""How far from its ends, in its length, it is rounded, and the exponents of the superellipses by which it is."""
+"""How far from heel and tip, in its length, a shoe is rounded, and the exponents of the superellipses by which it
+is."""
 TOE_BOX = (0.34, 2.1)
-"""Of its height before the toes: where it begins to round off, as a share of the length, and the exponent of its
+"""Where a shoe's height begins to round off before the toes, as a share of its length, and the exponent of that
 superellipse."""
 SOLE_EXPONENT, UPPER_EXPONENT = 3.5, 2.3
-"""Of the superellipses of its cross-sections below and above half their height."""
+"""Exponents of the superellipses of a shoe's cross-sections, below and above half their height."""
 TOE_SPRING = 0.03
 """By how much of its length the sole's tip is above the ground, from the ball on."""
 SHOE_AXIS = np.array([[0.0, 0.12, 0.16], [0.0, 0.055, 0.8]])
-"""Both ends of the axis within it: aside, above the ground and along it, in its length."""
+"""Both ends of the axis within a shoe, from which rays lead: aside, above the ground and along it, in its length."""
 SHOE_COLLAR_FOOT_LENGTHS = (0.16, 0.27)
 """Heights above the ground, in lengths of the foot: up to the first all is shoe, from the second on none is."""
 SOCK_METRES = 0.004

@@ -41,7 +41,7 @@ BONE_END_LANDMARKS = {
     "Leg": "Ankle",
     "Foot": "FootIndex",
 }
-"""Landmarks at which their bones end."""
+"""Landmarks at which the bones of joints end."""
 
 
 @dataclass(frozen=True)

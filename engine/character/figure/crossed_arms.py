@@ -21,7 +21,7 @@ from engine.perception.landmarks import FACE_OVAL
 
 FINGER_LANDMARKS = ("Pinky", "Index", "Thumb")
 HAND_SEARCH_RADIUS_FOREARMS = 0.175
-"""How far around a hand's middle it is looked for, in lengths of a forearm."""
+"""How far around its middle a hand is looked for, in lengths of a forearm."""
 MIN_VISIBILITY_MARGIN = 0.06
 """By how much more of its place one hand must show than the other to be the one that is seen."""
 MAX_SLEEVE_SKIN_SHARE = 0.5

@@ -27,7 +27,7 @@ long skirts have 3, a child's drawing 4.6, whole pictures 7 to 19."""
 MIN_LABELLED_SHARE = 0.3
 """Share of the person's pixels in which a label map must say something."""
 MIN_TRUNK_LABEL_SHARE = 0.02
-"""Share of them that a trunk has at least."""
+"""Share of the person's pixels that a trunk has at least."""
 MIN_LIMB_LABEL_SHARE = 0.2
 """Share of a forearm or shin that has its label at least."""
 PART_END_JOINTS = {

@@ -41,7 +41,8 @@ CROP_MARGIN_SHARE = 0.15
 FOREARM_WIDTH_SHARE, SURE_HAND_WIDTH_SHARE, FINGER_WIDTH_SHARE, DRAWN_JOINT_CONFIDENCE = 0.02, 0.02, 0.006, 0.7
 """Widths of what is surely a forearm, a hand or a finger, as shares of the person's height, and the confidence from which a joint is seen."""
 HAND_REACH_SHARE = 0.043
-"""How far around what is surely one of them the rest of forearm and hand may be, as a share of the person's height."""
+"""How far around what is surely a forearm, a hand or a finger the rest of it may be, as a share of the person's
+height."""
 MAX_HAND_DISTANCE_SHARE = 0.25
 """From the elbow to the fingertips, as a share of the person's height: so far from it may a hand be that is not seen closely."""
 OPAQUE_ALPHA = 0.9

@@ -33,7 +33,7 @@ MIN_SHADOW_AREA_RATIO, MAX_SHADOW_AREA_RATIO = 0.01, 1.0
 TRIED_LIGHT_SLOPES = np.linspace(-2.0, 2.0, 21)
 """Light's directions that are tried: metres sideways for a metre down."""
 SHADOW_COPY_SIZE_PIXELS = 480
-"""Longest side, in pixels, at which they are."""
+"""Longest side, in pixels, of the copy in which a shadow is looked for."""
 MIN_SHADOW_IOU, EQUIVALENT_IOU_SHARE = 0.35, 0.9
 """Overlap (intersection over union) with what the person would cast, from which a direction is believed; the share of the
 best overlap that is as good as it."""

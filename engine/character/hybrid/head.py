@@ -44,7 +44,7 @@ NECK_OVERLAP_METRES = 0.1
 TRUNK_BEHIND_HEAD_PIXELS = 5
 """Pixels by which the trunk goes on behind the head: what lies between two borders of pixels would gape."""
 HEAD_LABEL_TOLERANCE_PIXELS = 2
-"""Pixels around the head's label in which it may be what is seen: the border is not exact."""
+"""Pixels around the head's label in which a head may be what is seen: the border is not exact."""
 
 
 def hair_keeps_to_the_head(

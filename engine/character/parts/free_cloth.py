@@ -33,9 +33,9 @@ CLOTH_SMOOTHING_SHARE, FADE_LENGTH_FACTOR = 0.012, 4.0
 HEM_UNEVENNESS_SHARE = 0.1
 """Share of the height by which a hem may hang lower beside the legs."""
 HEM_SEARCH_SHARE = 0.05
-"""Share of the height beneath its end over which is looked what goes on."""
+"""Share of the height beneath a cloth's end over which is looked what goes on."""
 TROUSERS_LOOSENESS_SHARE = 0.75
-"""Share of its looseness that goes on there, from which on it was trousers' or a jumper's."""
+"""Share of cloth's looseness that goes on beneath its end, from which on it was trousers' or a jumper's."""
 
 
 @dataclass(frozen=True)

@@ -22,8 +22,8 @@ SHOULDER_RADIUS_METRES, TRUNK_SAMPLE_RADIUS_METRES = 0.13, 0.35
 MIN_LABEL_LOG_LIKELIHOOD_RATIO = 4.0
 """By how much a colour must be likelier of one than of the other, in units of equation 16."""
 MIN_TRUNK_COLOURED_SHARE, MAX_TRUNK_COLOURED_ARM_SHARE = 0.8, 0.3
-"""Share of the pixels that must be so, and of those labelled an arm that may be of the trunk's colours: more are a sleeve's, cut
-from the cloth of the trunk."""
+"""Share of the pixels whose colours must be one part's rather than the other's, and share of those labelled an arm that
+may be of the trunk's colours: more are a sleeve's, cut from the cloth of the trunk."""
 
 
 def labelled_shoulders(

@@ -29,7 +29,7 @@ MIN_VERTICES_INSIDE_SHARE = 0.97
 OUTLINE_MARGIN_PIXELS = 2
 """Pixels from the outline within which nothing of a hidden limb can be."""
 TRIED_TURNS_DEGREES = sorted(range(-45, 50, 5), key=abs)
-"""Degrees by which the limb is turned about its joint, in the picture's plane, until it is within."""
+"""Degrees by which a limb is turned about its joint, in the picture's plane, until it is within the outline."""
 LIMB_BEND_JOINTS = dict(zip((*ARM_LABELS, *LEG_LABELS), ("LeftArm LeftForeArm", "RightArm RightForeArm", "LeftUpLeg LeftLeg", "RightUpLeg RightLeg"), strict=True))  # fmt: skip
 """Each limb's joints: the one about which it turns, and the one at which it bends."""
 

@@ -31,7 +31,7 @@ RELAXATION_ROUNDS = 7
 STIFFENING_RINGS, STIFFENING_DECAY_PER_RING = 4, 0.8
 """How far around an edge others are made stiffer, in edges, and what is left of it with each."""
 CLIP_FRAME_STEP = 10
-"""Frames of the built-in clips by which it is tried."""
+"""Every how many frames of the built-in clips a mesh is tried."""
 MIN_EDGE_METRES = 1e-4
 """Metres: what is shorter counts as so long."""
 POSED_CHUNK_FRAMES = 16

@@ -28,7 +28,7 @@ from engine.perception.landmarks import fiducials
 FINGER_CURL_DEGREES = (12.0, 20.0, 24.0, 28.0, 32.0)
 """Degrees by which each joint of thumb, index, middle, ring and little finger bends in a hand at rest."""
 FIRST_JOINT_CURL_SHARE = 0.6
-"""Share of that by which the first of a finger's three joints bends."""
+"""Share of a finger's bend by which the first of its three joints bends."""
 MIN_FOOT_WEIGHT = 0.6
 """Share of foot and toes in what moves a vertex that is of a foot; and metres above the sole up to which the shin is, too."""
 ANKLE_HEIGHT_METRES = 0.1

@@ -26,7 +26,7 @@ SECTION_FLATTENING_RATIO = 0.8
 MIN_ARM_WEIGHT_SHARE = 0.6
 """Share of arms in what moves a piece of cloth from which on it is an arm's."""
 MAX_PROP_BORDER_SHIFT_PIXELS, MIN_PROP_MASK_SLOPE = 2.5, 0.05
-"""Pixels by which its border is drawn to the outline at most, and the slope of the mask from which it is."""
+"""Pixels by which the border of a piece is drawn to the outline at most, and the slope of the mask from which it is."""
 DEPTH_SMOOTHING_VERTICES, WEIGHT_SMOOTHING_VERTICES = 5.0, 6.0
 """Vertices over which depths and weights are smoothed."""
 PROP_NEIGHBOUR_COUNT = 6

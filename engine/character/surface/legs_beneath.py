@@ -23,9 +23,10 @@ from engine.imaging.masks.mask_pieces import largest_piece, rows_apart
 LEG_UNDER_CLOTH_SHARE = 0.06
 """How far a leg goes on under the cloth, as a share of the person's height."""
 LEG_TAPER_SHARE = 0.4
-"""By how much narrower it ends than it came, and nearer to the middle than the cloth: what nobody sees should not come through where cloth swings."""
+"""By how much narrower a leg ends under the cloth than it came, and nearer to the middle than the cloth: what nobody
+sees should not come through where cloth swings."""
 MIN_WIDTH_RATIO, MAX_WIDTH_RATIO = 0.7, 1.4
-"""How wide it is there at least and at most, to what it is where it comes out."""
+"""How wide a leg is under the cloth at least and at most, to what it is where it comes out."""
 
 
 def legs_beneath(labels: Labels, template: PosedTemplate, rig: Rig) -> list[LimbRegion]:

@@ -32,7 +32,7 @@ CLOTH_NORMAL_SMOOTHING_PIXELS = 6.0
 SKIN_WEIGHT_ROUNDS, CLOTH_WEIGHT_ROUNDS = 6, 220
 """Rounds in which skinning weights spread, on skin and then on clothes: over 2 and 12 pixels."""
 LOOKUP_DILATION_PIXELS = 2
-"""Pixels around those that are looked up which are filled, too: the face moves them a little."""
+"""Pixels around those that are looked up within which others are filled, too: the face moves them a little."""
 MAX_EXTRA_DEPTH_SHARE = 0.15
 """By how much of the template's own depth a part may reach beyond it: limbs that point at the viewer have normals that say
 little, and their depth would run away."""

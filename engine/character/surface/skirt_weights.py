@@ -20,7 +20,7 @@ LEG_BLEND_SHARE = 0.8
 """Share of the width over which cloth goes over from one leg to the other: with all of it, it stretches least; with less,
 legs come out of a hem where they are."""
 MIN_LEG_BLEND_SHARE = 0.3
-"""The least of it, where legs stand close."""
+"""Share of the width over which cloth goes over from one leg to the other, at least: where legs stand close."""
 MIN_LEG_PIXELS = 0.5
 """Pixels of a row that each leg moves where both begin to move cloth."""
 LEG_JOINT_NAMES = ("Leg", "Foot", "Toe")

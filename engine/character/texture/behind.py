@@ -17,7 +17,8 @@ from scipy.ndimage import median_filter
 SIDE_END_RADIANS = np.radians(34.0)
 """From the middle, where both sides end that are drawn together over it: beyond half of the way to the outline in the picture."""
 BACK_SEAM_RADIANS = np.radians(9.0)
-"""On either side of the middle behind, where both are to be had and the cut runs."""
+"""Radians on either side of the middle behind within which colours of both sides are to be had and the cut between them
+runs."""
 LIGHT_WINDOW_METRES = 0.2
 """Metres of rows to each side over which the light is one."""
 MIN_DIFFERENCE_RATIO, MIN_DIFFERENCE_LEVELS = 3.0, 24.0

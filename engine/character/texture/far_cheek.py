@@ -13,7 +13,8 @@ from engine.imaging.masks.mask_distance import distance_to
 MAX_CHEEK_HALF_AXES = 1.12
 """How far out, in half axes of the face's oval, a cheek may reach."""
 MAX_CHEEK_HEIGHT_SHARE = 0.3
-"""How far above the face's middle it reaches, as a share of the way to the top: a forehead is beside hair."""
+"""How far above the face's middle the far cheek reaches, as a share of the way to the top: a forehead is beside
+hair."""
 MIN_FACE_TURN = 0.2
 """How far a face is turned that has a far cheek: else an ear is at the outline."""
 SKIN_COLOUR_RATIO = 0.6
@@ -21,9 +22,10 @@ SKIN_COLOUR_RATIO = 0.6
 CHEEK_SEEN_BAND_PIXELS = 3.0
 """Pixels of the grid from the outline in which it must be seen."""
 CHEEK_REACH_HALF_WIDTHS, CHEEK_FADE_SHARE = 0.35, 0.3
-"""How far behind the outline it goes on, in half widths of the face, and over which share of that it ends."""
+"""How far behind the outline the far cheek goes on, in half widths of the face, and over which share of that it
+ends."""
 CHEEK_COLOUR_BLUR_PIXELS = 2.0
-"""Pixels of the grid over which its colours are averaged."""
+"""Pixels of the grid over which the far cheek's colours are averaged."""
 
 
 def with_far_cheek(

@@ -37,13 +37,13 @@ MIXED_BAND_PIXELS = 2.0
 SIDEBURN_LEVEL = -0.4
 """How far below the face's middle hair that is none of a beard's or a coat's colour begins, at the lowest."""
 CROWN_DEPTH_PIXELS = 4.0
-"""How far inward from there, pixels of the grid, hair surely reaches above the brows."""
+"""How far inward from the outline, pixels of the grid, hair surely reaches above the brows."""
 MIN_UNLIKE_FACE_SHARE = 0.6
-"""Share of that which must differ from the face, if what does not is taken for a high forehead."""
+"""Share of the hair above the brows that must differ from the face, if what does not is taken for a high forehead."""
 TYPICAL_COLOUR_COUNT = 4
 """Colours that stand for all of a face's, or of hair's."""
 MIN_HANGING_SHARE = 0.3
-"""Share of it that is above the chin, if it is hair that hangs down."""
+"""Share of hair that is above the chin, if it is hair that hangs down."""
 DARKEST_FACE_SHARE = 0.4
 """Share of a face that may be beard, brows, spectacles or their shadow, and so has hair's colours."""
 HAIR_COLOUR_RATIO = 0.7
@@ -61,10 +61,10 @@ LONG_STRAND_PIXELS, SHORT_STRAND_PIXELS, STRAND_CONTRAST_FACTOR = (0.3, 3.0), (0
 DISTANCE_DECAY = 0.3
 """How much less colours of twice the distance count."""
 NAPE_ROUNDING_SHARE, NAPE_UNEVENNESS_PIXELS = 0.15, 3.0
-"""How much lower than at the sides it ends in the middle, as a share of the way to the chin; and how uneven its end is,
-pixels of the grid."""
+"""How much lower than at the sides hair ends in the middle of the nape, as a share of the way to the chin; and how
+uneven its end is, pixels of the grid."""
 MEDIAN_WEIGHT = 0.003
-"""How much the median of all counts beside them."""
+"""How much the median of all colours counts beside those nearby."""
 NAPE_BLEND_PIXELS = 3.0
 """Pixels of the grid over which hair ends at the nape."""
 

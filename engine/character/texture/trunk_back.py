@@ -16,7 +16,7 @@ USUAL_HEIGHT_METRES = 1.7
 OUTLINE_SMOOTHING_PIXELS = 4.0
 """Pixels of the grid along the trunk over which its outline is smoothed."""
 NEIGHBOUR_MARGIN_PIXELS = 4.0
-"""Pixels of the grid around others in which colours are mixed with its, or in its shadow."""
+"""Pixels of the grid around other parts in which the trunk's colours are mixed with theirs, or in their shadow."""
 SHOULDER_WIDTH_SHARE, CHEST_HEIGHT_METRES = 0.85, 0.3
 """Share of the greatest width in the uppermost metres of a trunk from which on it is no neck, and its back has no neckline: above, it is as
 it is below."""

@@ -39,9 +39,9 @@ TEMPORAL_WINDOW_FRAMES = 21
 SHADING_EYE_DISTANCES = 0.25
 """Ratios wider than this, in eye distances, are shading rather than creases."""
 SHADING_SHARE = 0.25
-"""Share by which such wide ratios count in a head that does not turn."""
+"""Share by which ratios as wide as shading count in a head that does not turn."""
 NO_SHADING_TURN_DEGREES = 12.0
-"""Degrees of turn at which they count no more."""
+"""Degrees of turn at which ratios as wide as shading count no more."""
 CREASE_TURN_DEGREES = 8.0
 """Degrees of turn up to which a ratio is a crease's."""
 NO_CREASE_TURN_DEGREES = 20.0

@@ -29,7 +29,7 @@ OUTLIER_THRESHOLD_GREY_LEVELS = 5.0
 OUTLIER_MARGIN_PIXELS = 20.0
 """Section 6: pixels closer than this to an outlier are set to one in every frame."""
 OUTLIER_RAMP_PIXELS = 6.0
-"""Pixels over which that passes into what was there, so that no edge appears."""
+"""Pixels over which an outlier's ratios of one pass into the others, so that no edge appears."""
 
 
 @dataclass(frozen=True)

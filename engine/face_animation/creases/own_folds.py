@@ -31,9 +31,9 @@ FOLDS_EYE_DISTANCE_PIXELS = 120.0
 FOLD_HALF_WIDTH_EYE_DISTANCES = 0.22
 """Half the width of the widest fold."""
 SMOOTH_SKIN_SIGMA_EYE_DISTANCES = 0.08
-"""Sigma of the skin that takes their place."""
+"""Sigma of the smooth skin that takes folds' place."""
 GRAIN_SIGMA_EYE_DISTANCES = 0.02
-"""Sigma below which it is the skin's grain."""
+"""Sigma below which structure is the skin's grain."""
 CHEEK_GRAIN_SHARE, MAX_GRAIN_RATIO = 0.8, 1.5
 """The share of the cheeks' pixels whose grain is the measure, and how many times as strong it may be beside the mouth: stronger is a line."""
 LIP_START_EYE_DISTANCES, LIP_END_EYE_DISTANCES, NOSE_START_EYE_DISTANCES = (0.0, 0.03), (0.7, 1.1), (-0.35, -0.1)

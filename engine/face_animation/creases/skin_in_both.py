@@ -25,7 +25,8 @@ SKIN_CHROMA_DIFFERENCES, NO_SKIN_CHROMA_DIFFERENCES = 0.025, 0.05
 SKIN_LIGHT_RATIOS = (0.55, 0.75, 1.3, 1.5)
 """Of the light of the skin around it: a pixel of the neutral frame outside of these is not skin, between the middle two it is."""
 CREASE_LIGHT_RATIOS = (0.48, 0.58)
-"""Of its light in the neutral frame, where the skin around it has all of its own: a pixel below is no crease, and above may be one."""
+"""Of a pixel's light in the neutral frame, where the skin around it has all of its own: below the first it is no
+crease, above the second it may be one."""
 LIGHT_WINDOW_EYE_DISTANCES = 0.3
 """Within which skin is compared."""
 BESIDE_EYE_DISTANCES = 0.07

@@ -36,7 +36,7 @@ MIN_EYE_DARKNESS = 0.3
 MIN_BLINK_SECONDS = 0.1
 """Seconds for which an eye is shut at least: a blink takes 0.1 to 0.4, and one that is shorter the tracker does not miss."""
 MIN_OPEN_EYE_RATIO = 0.2
-"""Nor do those that are less open there, height by width; open ones have 0.28 to 0.45."""
+"""Height by width below which an eye of the neutral frame tells of no blinks; open ones have 0.28 to 0.45."""
 
 
 def eye_contrast(

@@ -51,9 +51,10 @@ KEPT_LIGHT_RATIOS, KEPT_HUE_DIFFERENCES = (0.7, 0.88), (0.06, 0.12)
 """Of the white's light, from which on, and by how much the shares of red and blue may differ up to which, what the picture shows beside the iris is
 kept as it is."""
 IRIS_RINGS = 12
-"""Of an iris, between which its colours are told apart."""
+"""Rings of an iris, between which its colours are told apart."""
 SPURIOUS_LEVELS, SPARED_LEVELS = 36.0, 80.0
-"""Grey levels from the usual of its ring, from which on a place of the iris is lash, lid or light, and at which it is wholly."""
+"""Grey levels from the usual of its ring from which on a place of the iris is lash, lid or light, and at which it is so
+wholly."""
 GLINT_RADII = 0.8
 """Within which a place that is so much lighter is the catch-light's."""
 

@@ -30,7 +30,7 @@ GLINT_MOTION_SHARE = 0.3
 MIN_CORNER_DISTANCE_IRIS_RADII = 0.85
 """Radii of the iris that are between its middle and a corner of the eye, at least."""
 FREE_GAZE_SHARE = 0.6
-"""Of the way to there, that an iris goes freely."""
+"""Share of the way to where it may go that an iris goes freely."""
 MIN_VERGENCE_EYE_WIDTHS = 0.1
 """Eye widths by which each iris has to go against the other's before eyes are taken to converge: a tracker errs by less."""
 INWARD_SIGNS = np.array([1.0, -1.0])[:, None]

@@ -20,7 +20,7 @@ UPPER_LID_STRIPS = (
 )
 """Vertices of the skin above the upper lid, and of the lid's edge, from the eye's outer corner on; right eye first."""
 EYE_CORNER_VERTEX_PAIRS = (RIGHT_EYE_CORNER_VERTICES, LEFT_EYE_CORNER_VERTICES)
-"""Where both end."""
+"""Vertices at which both lids of an eye end; right eye first."""
 BELOW_BROW_VERTICES = ((113, 225, 224, 223, 222, 221, 189), (342, 445, 444, 443, 442, 441, 413))
 """Vertices further up, below the brow."""
 LOWER_LID_EDGES = ((7, 163, 144, 145, 153, 154, 155), (249, 390, 373, 374, 380, 381, 382))
@@ -30,7 +30,8 @@ CHEEK_BELOW_LID_VERTICES = ((117, 118, 119, 120, 100, 101), (346, 347, 348, 349,
 COLOUR_BLEND_SHARE = 0.4
 """Share of the way from the skin above to the lid's edge over which the colours go over."""
 LID_COLOUR_REACH_SHARE = 0.6
-"""Share of the way from there up to below the brow that a lid's colours reach: upper lashes stand there in a picture."""
+"""Share of the way from the lid's edge up to below the brow that a lid's colours reach: upper lashes stand there in a
+picture."""
 LIGHTER_SKIN_SHARE = 0.5
 """Share of the skin above, its lighter part, whose colour a lid has: the rest is shadow, of the brow or in the crease."""
 MIN_CHEEK_SHARE = 0.8
@@ -38,11 +39,12 @@ MIN_CHEEK_SHARE = 0.8
 SOCKET_SHADE_SHARE = 0.35
 """The share that is left of what the socket's shadow makes a lid darker."""
 CORNER_FADE_EYE_WIDTHS = 0.4
-"""Eye widths from a corner over which this comes in."""
+"""Eye widths from a corner over which the shade of the socket is taken off a lid."""
 LID_COLOUR_POLYNOMIAL_DEGREE = 2
 """Of the polynomial from corner to corner that a lid's colours are."""
 COLOUR_ROUNDS = 5
-"""Of reweighted least squares in which it leaves out what is not of most of the skin's colour."""
+"""Rounds of reweighted least squares in which a lid's polynomial leaves out what is not of most of the skin's
+colour."""
 CHEEK_PATCH_EYE_WIDTHS = (0.9, 0.35)
 """Width and height, eye widths, of the place on the cheek whose grain a lid has."""
 GRAIN_EYE_WIDTHS = 0.1
@@ -52,10 +54,10 @@ MAX_GRAIN_GREY_LEVELS = 12.0
 EDGE_SHADE_SHARE = 0.16
 """By how much a lid is darker at its edge."""
 BALL_LIGHT_SHARE = 0.12
-"""By how much it is lighter in its middle, over the eyeball."""
+"""By how much a lid is lighter in its middle, over the eyeball."""
 CREASE_PLACE_SHARE, CREASE_WIDTH_SHARE, CREASE_SHADE_SHARE = 0.36, 0.14, 0.08
-"""Where the crease above it is, as a share of the way from the skin above to its edge, how wide, and by how much it is darker there: soft, for a line would be
-an outline."""
+"""Where the crease above a lid is, as a share of the way from the skin above to the lid's edge, how wide it is, and by
+how much it is darker there: soft, for a line would be an outline."""
 SEAM_COVER_EYE_WIDTHS = 0.05
 """Eye widths around the line where lids meet, and beyond its ends, that are of the lid's colour: the tracker's eye and the picture's differ by as much, and what is
 left of the picture's beside the line are specks of white and lash."""

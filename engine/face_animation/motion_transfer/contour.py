@@ -31,7 +31,7 @@ FADE_OUT_EYE_DISTANCES = 0.6
 MIN_KEPT_SHARE = 0.1
 """Share of its distance from the contour that a point inside it keeps, at least."""
 MAX_DISTANCE_GAIN = 1.5
-"""By how many times such a distance grows over that of its side of the face, at most."""
+"""By how many times a point's distance from the contour grows over that of its side of the face, at most."""
 CONTOUR_FALLOFF_EYE_DISTANCES = 0.3
 """Eye distances along the contour over which a point takes it along."""
 CONTOUR_SMOOTHING_ROUNDS = 2
@@ -42,7 +42,7 @@ EVEN_BAND_EYE_DISTANCES = 0.5
 DEPTH_BAND_EYE_DISTANCES = 0.15
 """Eye distances inside the contour up to which the face's depth is evened out along it."""
 EVEN_SPREAD_EYE_DISTANCES = 0.25
-"""Eye distances over which it is: about those between the contour's vertices."""
+"""Eye distances along the contour over which it is evened out: about those between its vertices."""
 JAW_CHIN_LENGTHS = (0.4, 0.9)
 """Lengths from eyes to chin below the eyes between which the contour becomes the jaw's, which expressions move."""
 

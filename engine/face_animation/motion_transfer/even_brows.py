@@ -17,7 +17,7 @@ from engine.perception.head_pose import canonical_face
 BROW_HEIGHTS = (-0.15, -0.25)
 """Heights between which a face becomes brows and forehead (`canonical_face`)."""
 SPREAD_EYE_DISTANCES = (0.2, 0.05)
-"""Along brows and across them, over which it is evened out, as a Gaussian: a brow is 0.6 long."""
+"""Eye distances along brows and across them over which motion is evened out, as a Gaussian: a brow is 0.6 long."""
 
 
 def brow_share() -> NDArray[np.float64]:

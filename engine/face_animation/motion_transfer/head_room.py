@@ -36,7 +36,7 @@ FREE_TURN_SHARE = 0.8
 FACE_SIDE_SLANT_RADIANS = np.deg2rad(55.0)
 """By which the sides of a face, its cheeks beside the eyes, slant away from its front."""
 MAX_STRETCH_RATIO = 1.8
-"""By which they may be drawn out, where the picture shows them at a slant."""
+"""By how many times the sides of a face may be drawn out where the picture shows them at a slant."""
 MIN_TURN_RADIANS = np.deg2rad(6.0)
 """By which a face may turn in any direction, however far it is turned in its picture."""
 MAX_LOG_SIZE_CHANGE = 0.3
@@ -44,7 +44,8 @@ MAX_LOG_SIZE_CHANGE = 0.3
 PICTURE_BORDER_SHARE = 0.02
 """Share of the picture's shorter side within which its border is: a thin frame may lie along it."""
 SKULL_BEHIND_EARS = 0.35
-"""By how much the skull's middle lies behind that between the ears, in lengths from the tip of the nose to there."""
+"""By how much the skull's middle lies behind the middle between the ears, in lengths from the tip of the nose to the
+latter."""
 MIN_PERSON_ALPHA = 0.5
 """Of a person's mask, from which on a pixel shows it."""
 

@@ -33,7 +33,8 @@ CORRECTED_SHARE = 0.6
 CORRECTED_SHARE_AT_LIPS = 0.35
 """Share of a residual that is corrected at the lips, whose looks change most."""
 LIPS_FALLOFF_EYE_DISTANCES = 0.15
-"""Eye distances from the lips over which that share rises to `CORRECTED_SHARE`, as a Gaussian."""
+"""Eye distances from the lips over which the share of a residual that is corrected rises to `CORRECTED_SHARE`, as a
+Gaussian."""
 KERNEL_WIDTH_EYE_DISTANCES = 0.05
 """Root mean square distance of two faces' points, in eye distances, at which the frames are alike."""
 REGRESSION_RIDGE = 0.2

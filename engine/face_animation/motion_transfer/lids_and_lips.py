@@ -34,11 +34,13 @@ on one winks. Of eyes that close together a tracker sees one a frame behind the 
 BLINK_GAP_SHARES = (0.7, 0.9)
 """Mean share of their usual gaps below which eyes are closing, and above which each is as open as it is seen to be."""
 SHUT_GAP_SHARES = (0.2, 0.35)
-"""Share of its usual gap below which an eye is shut, whatever the other does, and above which it may be half open like that."""
+"""Share of its usual gap below which an eye is shut, whatever the other does, and share above which it may be half open
+while the other is not."""
 MAX_GAP_RATIO = 1.5
 """An eye opens at most to this multiple of its gap in the picture."""
 MAX_GAP_IRIS_DIAMETERS = 1.0
-"""Nor farther than this, in diameters of its iris: lids that are raised as far as they go bare some white above the iris, and no ring around it."""
+"""Diameters of its iris to which an eye opens at most: lids that are raised as far as they go bare some white above the
+iris, and no ring around it."""
 MIN_GAP_LIMIT = 1.08
 """Multiple of its gap up to which any eye opens, also a drawn one whose iris is small."""
 

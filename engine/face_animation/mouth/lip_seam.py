@@ -19,9 +19,9 @@ MEETING_OPENINGS = (0.012, 0.05)
 SEAM_WIDTH_EYE_DISTANCES, SEAM_SOFTNESS_EYE_DISTANCES, MIN_SEAM_PIXELS = 0.03, 0.01, 0.8
 """Eye distances, of the line and of its edges, and pixels that either has at least."""
 SEAM_LIGHT_SHARE = 0.42
-"""Of the lips' light, that is left between them."""
+"""Share of the lips' light that is left in the line between them."""
 WIDTH_SHARES = (0.2, 0.4, 0.7, 0.9, 1.0, 1.0, 1.0, 0.9, 0.7, 0.4, 0.2)
-"""Of its width, that the line has from corner to corner."""
+"""Of the line between lips, the shares of its width that it has from corner to corner."""
 
 
 class LipSeam:

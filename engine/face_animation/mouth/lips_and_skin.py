@@ -22,7 +22,8 @@ SKIN_ABOVE_COLUMNS = (
     *((185, 186, 216), (40, 92, 64), (39, 165, 98), (37, 167, 97), (0, 164, 2)),
     *((267, 393, 326), (269, 391, 327), (270, 322, 294), (409, 410, 436)),
 )
-"""What each of them goes on with, from the border of the lip over the skin to the nose, or the cheek beside it."""
+"""What each of `UPPER_LIP_COLUMNS` goes on with, from the border of the lip over the skin to the nose, or the cheek
+beside it."""
 LOWER_LIP_COLUMNS = (
     *((77, 96, 95), (90, 89, 88), (180, 179, 178), (85, 86, 87), (16, 15, 14)),
     *((315, 316, 317), (404, 403, 402), (320, 319, 318), (307, 325, 324)),
@@ -33,7 +34,7 @@ SKIN_BELOW_COLUMNS = (
     *((84, 83, 201, 208, 171, 148), (17, 18, 200, 199, 175, 152), (314, 313, 421, 428, 396, 377)),
     *((405, 406, 418, 262, 369, 400), (321, 335, 424, 431, 395, 378), (375, 273, 422, 430, 394, 379)),
 )
-"""What each of them goes on with, down to the jaw's contour."""
+"""What each of `LOWER_LIP_COLUMNS` goes on with, down to the jaw's contour."""
 MIN_SKIN_SHARE = 0.2
 """Share of its usual breadth that skin keeps, at least."""
 NARROW_LIP_SKIN_SHARE = 0.3

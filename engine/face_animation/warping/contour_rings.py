@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from engine.perception.landmarks import FACE_OVAL, eye_distance
 
 RING_EYE_DISTANCES = (0.06, 0.14, 0.26, 0.42)
-"""How far outside the contour they lie, in eye distances."""
+"""How far outside the contour rings lie, in eye distances."""
 CURVE_STEPS = 4
 """Points of the round contour for each of its vertices: where the picture stretches on one side of it alone, corners would show."""
 

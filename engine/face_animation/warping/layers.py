@@ -23,13 +23,14 @@ from engine.perception.person import person_mask
 LAYER_MARGIN_SHARE = 0.2
 """Share of a picture's shorter side by which its layer goes on beyond its border."""
 FRAME_SHARE = 0.012
-"""Share of it that may be a frame."""
+"""Share of a picture's shorter side that may be a frame."""
 
 HEAD_TOP_SHARE = 0.04
-"""Share of its height within which the sides of a head that is cut at the top show how round it is."""
+"""Share of a head's height within which the sides of one that is cut at the top show how round it is."""
 
 LACE_SHARE = 0.03
-"""Half the share of its width up to which what a mask leaves out between hair and hair along the cut is hair, too."""
+"""Half the share of a cut head's width up to which what a mask leaves out between hair and hair along the cut is hair,
+too."""
 
 
 @dataclass(frozen=True)

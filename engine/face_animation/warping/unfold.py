@@ -18,7 +18,7 @@ from engine.compiled import njit
 MIN_AREA_SHARE = 0.2
 """Share of its area that a triangle keeps."""
 AREA_TOLERANCE_SHARE = 0.05
-"""Share of its area by which a triangle may fall short of that."""
+"""Share of its area by which a triangle may fall short of `MIN_AREA_SHARE`."""
 MAX_UNFOLDING_ROUNDS = 40
 """After so many rounds what is left folded stays so: where the face itself leaves no room."""
 

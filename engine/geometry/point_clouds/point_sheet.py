@@ -25,7 +25,8 @@ there are half as many as elsewhere, and beside a sheet few."""
 ASKED_POINT_COUNT = 12
 """Points of a sheet that are asked about a place."""
 KERNEL_WIDTH_SPACINGS = 0.7
-"""Of the Gaussian by which they are asked, in distances of the nearest of them, where that is more than they are apart."""
+"""Width of the Gaussian by which points of a sheet are asked, in distances of the nearest of them, where that is more
+than they are apart."""
 
 
 @dataclass(frozen=True)

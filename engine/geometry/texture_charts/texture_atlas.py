@@ -16,7 +16,7 @@ from scipy.sparse.csgraph import connected_components
 CHART_GAP_TEXELS = 16
 """Texels between charts, and about half as many around them: colours keep apart down to a quarter of the texture's size."""
 PACKING_SCALE_STEP = 0.98
-"""By how much smaller they are packed than would seem to fit."""
+"""By how much smaller charts are packed than would seem to fit."""
 MAX_PACKINGS = 8
 """Times that charts are packed, smaller each time, until they fit."""
 

@@ -31,7 +31,7 @@ MAX_SUPPORT_PIXELS = 96
 MIN_SUPPORT_PIXELS = 20
 """Pixels along a line from which it is known, at least."""
 MIN_EXPLAINED_SHARE = 0.6
-"""Share of those pixels that must look like the line: what crosses it does not."""
+"""Share of the pixels beside it that must look like a line: what crosses it does not."""
 MIN_UNMATCHED_LENGTH_PIXELS = 30
 """Pixels of the least known length of a line that is not found again beyond the hole."""
 MAX_RESIDUAL_VARIANCE_SHARE = 0.35

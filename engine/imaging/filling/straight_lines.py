@@ -24,7 +24,7 @@ MIN_COLLINEAR_COSINE = float(np.cos(np.deg2rad(3)))
 MAX_OFFSET_PIXELS = 1.0
 """Pixels by which a segment's ends may be off the line where it begins."""
 MAX_OFFSET_PER_PIXEL = 0.004
-"""Pixels by which they may be off it besides, for each pixel of distance from there."""
+"""Pixels by which a segment's ends may be off a line for each pixel of distance, beside `MAX_OFFSET_PIXELS`."""
 MAX_LINE_COUNT = 120
 """Lines that are looked at, at most."""
 

@@ -13,7 +13,7 @@ from engine.motion.library.standing import STANDING_FEET
 TAKE_OFF_SECONDS = 0.78
 """Seconds at which the feet leave the ground."""
 LANDING_SECONDS = 1.2
-"""Seconds at which they touch it again."""
+"""Seconds at which the feet touch the ground again."""
 END_SECONDS = 2.2
 """Seconds at which the clip ends."""
 

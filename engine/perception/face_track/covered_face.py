@@ -19,7 +19,7 @@ from engine.perception.faces import MIN_CONFIDENCE, FaceTracker
 COMPARED_SIZE = (80, 72)
 """Height and width at which faces are compared, pixels."""
 FACE_REGION = (slice(14, 66), slice(10, 62))
-"""Rows and columns of such a picture in which the face is, from the brows to the chin."""
+"""Rows and columns in which the face is, from the brows to the chin, of a picture of `COMPARED_SIZE`."""
 FINE_SIGMA_PIXELS, COARSE_SIGMA_PIXELS = 1.0, 8.0
 """Pixels: structure between these two counts. Finer is noise, coarser is light."""
 SAME_FACE_CORRELATION = 0.3

@@ -16,7 +16,7 @@ from engine.perception.landmarks import LIPS_INNER, eye_centres
 CROP_SHAPE = (320, 288)
 """Height and width of the kept appearance of the face, pixels: about 20 kB a frame."""
 CROP_EYES = ((96.0, 116.0), (192.0, 116.0))
-"""Where the eyes' centres lie in it."""
+"""Where the eyes' centres lie in a crop of the face."""
 CROP_EYE_DISTANCE_PIXELS = CROP_EYES[1][0] - CROP_EYES[0][0]
 EDGE_POINTS = np.array(
     [(x * (CROP_SHAPE[1] - 1), y * (CROP_SHAPE[0] - 1)) for x in (0, 0.5, 1) for y in (0, 0.5, 1) if x * y != 0.25],

@@ -33,14 +33,16 @@ _MEAN_FACE = np.array(
 DLIB_LAYOUT = ChipLayout(
     _SIDE, (_MEAN_FACE + _PADDING) / (1 + 2 * _PADDING) * _SIDE, ((263,), (362,), (33,), (133,), (2,))
 )
-"""dlib's: corners of the eyes and the base of the nose of its mean face, a quarter of it left free all around."""
+"""The layout of dlib: corners of the eyes and the base of the nose of its mean face, a quarter of it left free all
+around."""
 
 ARCFACE_LAYOUT = ChipLayout(
     112,
     np.array([[38.2946, 51.6963], [73.5318, 51.5014], [56.0252, 71.7366], [41.5493, 92.3655], [70.7299, 92.2041]]),
     ((33, 133), (263, 362), (1, 4), (61,), (291,)),
 )
-"""Most others': middles of the eyes, tip of the nose, corners of the mouth (J. Deng et al., ArcFace, CVPR 2019)."""
+"""The layout of most others: middles of the eyes, tip of the nose, corners of the mouth (J. Deng et al., ArcFace, CVPR
+2019)."""
 
 
 def face_chip(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], layout: ChipLayout) -> NDArray[np.uint8]:

@@ -17,7 +17,7 @@ from engine.persona.collection.face_photo import FacePhoto
 BUST_FACE_HEIGHTS = 2.9
 """Of the picture's height, where the photograph shows as much."""
 FACE_MIDDLE = 0.44
-"""Of its height, from above, at which the face's middle is."""
+"""Share of the picture's height, from above, at which the face's middle is."""
 HEAD_FACE_SIZES = (1.5, 1.75)
 """Widths and heights of the face that a head has, hair and some of the neck with it."""
 HEAD_MIDDLE = 0.54

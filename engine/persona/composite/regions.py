@@ -19,7 +19,7 @@ EYE_ENLARGEMENT_AND_RAMP_PIXELS, NOSE_WING_ENLARGEMENT_AND_RAMP_PIXELS, LIP_ENLA
     (1.0, 1.5),
     (1.0, 1.5),
 )
-"""Pixels of such a frame by which eyes, nose and lips are drawn larger, and over which they pass into the skin."""
+"""Pixels of a frame 194 wide by which eyes, nose and lips are drawn larger, and over which they pass into the skin."""
 
 
 def retouched_skin(frame: TextureFrame) -> NDArray[np.float32]:

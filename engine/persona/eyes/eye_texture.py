@@ -14,13 +14,13 @@ from engine.persona.eyes.eyeball import CAP_RADIANS
 from engine.persona.persona import Persona
 
 EYE_TEXTURE_SIZE_TEXELS = 192
-"""Pixels of its side."""
+"""Texels of the side of an eye's texture."""
 MIN_PHOTO_EYE_WIDTH_PIXELS = 28.0
 """Pixels of a photograph's eye whose iris is more than a blot."""
 EYE_SIDES = ("Right", "Left")
 """In the order of `prepare_eyes`."""
 WHITE_EDGE = 0.55
-"""Of its light, that the white keeps where it turns away."""
+"""Share of its light that the white of an eye keeps where it turns away."""
 EYE_GAIN_RANGE = (0.6, 1.6)
 
 

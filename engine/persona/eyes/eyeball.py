@@ -17,9 +17,9 @@ from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IR
 
 EYE_AND_IRIS_VERTICES = {"Left": (LEFT_EYE, LEFT_IRIS), "Right": (RIGHT_EYE, RIGHT_IRIS)}
 BALL_OPENING_RATIO = 1.12
-"""Than the opening is wide: its rim is never seen."""
+"""How many times as wide as its opening an eyeball is: its rim is never seen."""
 CAP_RADIANS = np.radians(80)
-"""Of the ball, about the iris, that there is."""
+"""Radians about the iris to which an eyeball's surface is made."""
 EYEBALL_RINGS, EYEBALL_SECTORS = 20, 40
 RIM_DEPTH_EYE_DISTANCES = 0.1
 """Eye distances that the rim of the lids reaches behind them."""

@@ -32,9 +32,9 @@ MIN_MOVEMENT_EYE_DISTANCES = 0.02
 MAX_FACTOR = 2.5
 """How many times longer a movement may be on one face than on another, at most: none is so unlike another."""
 MIN_TRUST = 1e-3
-"""Of points that do not move, and so tell nothing: they take the factors of those about them, not these theirs."""
+"""Trust in points that do not move, and so tell nothing: they take the factors of those about them."""
 NEIGHBOURHOOD_PIXELS = 2
-"""Pixels of that field about a point among which a nearer one is sought."""
+"""Pixels of the field of factors about a point among which a nearer one is sought."""
 PIXELS_PER_FACTOR = 2
 """Pixels of the frame for one of the field in which factors are told."""
 

@@ -16,7 +16,7 @@ from engine.render.rasteriser import depth_map
 PIXELS_PER_EYE_DISTANCE = 64
 """Of an eye distance, in the pictures in which it is looked at."""
 HALF_EXTENT_EYE_DISTANCES = 2.5
-"""Eye distances from between the eyes that these show."""
+"""Eye distances from between the eyes that the pictures show."""
 SKIN_CLEARANCE_EYE_DISTANCES = 0.015
 """Eye distances by which everything stays behind the skin: a millimetre."""
 

@@ -21,7 +21,7 @@ MIXTURE_RAMP_PIXELS = (2.0, 14.0)
 """Pixels of a frame 194 wide from the face's rim, between which the mixture begins and is whole."""
 OPENING_OUTLINES = (RIGHT_EYE, LEFT_EYE, LIPS_INNER)
 OPENING_BLUR_EYE_DISTANCES = 0.015
-"""Eye distances over which they pass into the skin."""
+"""Eye distances over which openings for eyes and mouth pass into the skin."""
 
 
 def in_average_light(persona: Persona, photo: FacePhoto) -> NDArray[np.uint8]:

@@ -31,7 +31,7 @@ from engine.persona.results.face_units import OPEN_JAW, FaceUnits
 
 BACKWARD_AXIS = np.array([0.0, 0.0, 1.0])
 EVEN_COLUMNS = 4
-"""Of a sheet of teeth to either side, over which its arch is bent."""
+"""Columns of a sheet of teeth to either side over which its arch is bent."""
 JAW_MOVES = ("jawForward", "jawLeft", "jawRight")
 """Face units that move a jaw as it is."""
 BAG_DEEPER = 1.5

@@ -13,7 +13,7 @@ from engine.persona.results.inner_parts import InnerPart
 MIN_TEXTURE_HEIGHT_PIXELS = 64
 """Pixels that a texture has on it: lower ones are enlarged, since smaller pictures of it run into one another."""
 UV_INSET_PIXELS = 2.0
-"""Pixels of a texture at each of its edges that are not used, for the same reason."""
+"""Pixels at each edge of a texture that are not used, since smaller pictures of it run into one another."""
 
 
 def inside_atlas(parts: Sequence[InnerPart]) -> tuple[NDArray[np.uint8], list[NDArray[np.float32]]]:

@@ -19,9 +19,9 @@ from engine.persona.texture.expression_weights import expression_points
 MIN_EXPRESSION_STRENGTH = 0.4
 """Of an expression as `EXPRESSION_UNITS` has it, that a photograph near it does."""
 MIN_EXPRESSION_COSINE = 0.4
-"""Cosine between what its points do and what the expression does, of a photograph near it."""
+"""Cosine, at least, between what the points of a photograph near an expression do and what the expression does."""
 MIN_BEST_LIKENESS_SHARE = 0.6
-"""Of its likeness to what it is most like: who smiles with narrow eyes is not angry."""
+"""Share of a photograph's likeness to what it is most like: who smiles with narrow eyes is not angry."""
 MIN_SAME_EXPRESSION_COSINE = 0.8
 """Cosine from which on two expressions are of a kind, as surprise and an open mouth are."""
 EXPRESSION_FACE_POINTS = (slice(0, 10), slice(31, 51))

@@ -21,7 +21,7 @@ from engine.perception.landmarks import RIGID_VERTICES, eye_distance
 REST_SECONDS = 1.0
 """Seconds of calm frames that make a rest."""
 MIN_REST_FRAMES = 6
-"""Frames of these, at least: a slow camera takes longer."""
+"""Calm frames that make a rest, at least: a slow camera takes longer."""
 REMEMBERED_SECONDS = 4.0
 """Seconds after which a frame counts no more."""
 MAX_WAIT_SECONDS = 5.0

@@ -20,7 +20,7 @@ EXIT_TOLERANCE = 0.4
 MIN_PACE_SHARE = 0.5
 """Share of the longest step in all clips that a clip's own longest step counts for at least there."""
 UNSEEN_PIXELS = (0.25, 0.8)
-"""Pixels by which it may be off in any case, of the head and of the furthest point: nobody sees less."""
+"""Pixels by which an exit may be off in any case, of the head and of the furthest point: nobody sees less."""
 BRIDGE_TAPER_SHARE = 0.5
 """Share of a bridge in which it speeds up and slows down; in the middle it goes evenly."""
 MAX_BRIDGE_STEP = 0.5

@@ -17,9 +17,9 @@ from engine.face_animation.motion_transfer.control_motion import ControlMotion
 STIR_SHARE = 0.05
 """A performance begins and ends where this share of its furthest offset is passed: what comes before is waiting."""
 LEAD_FRAMES = 3
-"""Frames kept before that, over which the face sets out from rest."""
+"""Frames kept before a performance begins, over which the face sets out from rest."""
 SETTLE_SECONDS = 0.3
-"""Over this long it comes to rest at the end; a looping one also sets out over as long."""
+"""Seconds over which a performance comes to rest at its end; a looping one also sets out over as long."""
 
 
 @dataclass(frozen=True)

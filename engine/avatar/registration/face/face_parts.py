@@ -44,7 +44,7 @@ SIDED_MOUTH_UNITS = (
 TONGUE_HEIGHT_SHARE = 0.6
 """Of the template's tongue's, which fills a mouth that opens."""
 SETBACK_STEP_METRES, MAX_SETBACK_METRES = 0.0005, 0.03
-"""Metres by which they are set back at a time, and at most."""
+"""Metres by which teeth are set back at a time, and at most."""
 FOLLOWED_SKIN_VERTICES = 4
 """Vertices of the skin whose motion, weighted by nearness, a vertex of no such part follows."""
 

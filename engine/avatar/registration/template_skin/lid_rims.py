@@ -16,7 +16,7 @@ from engine.geometry.mesh.adjacency import edge_table
 UPPER_LID_MIN_HEIGHT_RADII = 0.25
 """Radii of the eyeball above its middle beyond which what is near to it is of the upper lid."""
 LID_RIM_RADII = 1.02, 1.08
-"""Radii of the eyeball about its middle between which the lid's rim lies there."""
+"""Radii of the eyeball about its middle between which a lid's rim lies."""
 
 
 def lid_rim(template: Template, part: str) -> NDArray[np.intp]:

@@ -15,7 +15,7 @@ from engine.geometry.mesh.surface import face_normals, vertex_normals
 MAX_LIP_GAP_METRES = 0.001
 """Metres between the lips of the mean body, within which they touch: along one line on each, where the template leaves a slit."""
 FACING_COSINE = -0.2
-"""Between their normals, below which they face each other."""
+"""Cosine between normals of both lips below which they face each other."""
 CLOSING_WEIGHT = 1e4
 """Of what is left between the lips, against a Laplacian of one edge."""
 STAYING_WEIGHT = 0.05

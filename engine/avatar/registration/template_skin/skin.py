@@ -36,7 +36,7 @@ EYE_PARTS = ("left_eye", "right_eye")
 CLOSE_LID_RINGS = 3
 """Rings of vertices about the rims of lids that are close to them."""
 MIN_UNIT_MOTION_METRES = 0.002
-"""Metres by which skin moves, at least, that such a unit moves."""
+"""Metres by which a face unit moves skin, at least, for that to be moved by it."""
 JAW_DROP_METRES = 0.008
 """Metres by which what hangs on the jaw goes down as it opens."""
 NIPPLE_BOX_METRES = np.array([[-0.25, 1.0, 0.03], [0.25, 1.6, 1.0]])

@@ -25,7 +25,7 @@ MIN_GAZE_COSINE = 0.85
 IRIS_BAND_METRES, WHITE_BAND_METRES = (1.15 * PUPIL_RADIUS, 0.9 * IRIS_RADIUS), (1.15 * IRIS_RADIUS, 2.1 * IRIS_RADIUS)
 """Metres from the axis of gaze between which samples are of the iris, and of the white; a pixel of the frame less."""
 MAX_MARGIN_METRES = 0.25 * IRIS_RADIUS
-"""Metres: the most that a pixel counts, so that something is left of an iris filmed from afar."""
+"""Metres that a pixel counts as a margin, at most, so that something is left of an iris filmed from afar."""
 MIN_EYE_SAMPLE_COUNT = 40
 """Below which an eye's colours stay the template's."""
 WHITE_LIGHTNESS_QUANTILES, MAX_WHITE_CHROMA = (0.5, 0.92), 22.0

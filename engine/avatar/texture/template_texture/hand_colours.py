@@ -21,7 +21,7 @@ SKIN_HUE_RANGE_DEGREES = (15.0, 85.0)
 MIN_HUE_CHROMA = 5.0
 """In CIELAB, below which a colour has no hue."""
 MIN_FACE_SHARE = 0.5
-"""Of what a face shows there that has to be of such hues: else a mask or a helmet covers it."""
+"""Share of what a face shows that has to be of skin's hues: else a mask or a helmet covers it."""
 MAX_SKIN_COLOUR_DISTANCE = 14.0
 """In CIELAB, lightness by half (shading), within which a colour is like the person's skin."""
 MIN_HAND_SHARE = 0.2

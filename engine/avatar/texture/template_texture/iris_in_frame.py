@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from engine.performances.modelling.eyes import IRIS_RADIUS
 
 SEARCH_RADIUS_METRES, SEARCH_STEP_METRES = 0.55 * IRIS_RADIUS, 0.1 * IRIS_RADIUS
-"""Metres to either side within which it is looked for, and between places that are tried."""
+"""Metres to either side within which an iris is looked for, and between places that are tried."""
 IRIS_RADII, WHITE_RADII = 0.8, (1.15, 1.7)
 """Radii of the iris within which it is dark, and between which the white about it is light."""
 MIN_IRIS_SAMPLE_COUNT = 12

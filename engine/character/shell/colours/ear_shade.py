@@ -15,7 +15,7 @@ from engine.geometry.mesh.surface import vertex_normals
 EAR_SMOOTHING_ROUNDS = 12
 """Times that the surface is averaged with what is around: what lies below that is a fold."""
 FOLD_DEPTH_METRES = 0.003
-"""Metres below it from which on a fold is as dark as any."""
+"""Metres below an ear's averaged surface from which on a fold is as dark as any."""
 FOLD_SHADE_SHARE, RIDGE_LIGHT_SHARE = 0.55, 0.14
 """Share of the light that a fold lacks, and that a ridge has more."""
 

@@ -27,11 +27,11 @@ ROW_SMOOTHING_METRES = 0.005
 VARIATION_WINDOW_METRES = 0.05
 """Metres along a part over which it is judged how much its sides vary."""
 SIDE_START_HALF_WIDTHS = 0.5
-"""How far aside a part's sides begin for that, in half widths."""
+"""How far aside a part's sides begin, in half widths, where it is judged how much they vary."""
 MAX_SAME_KIND_COLOUR_DISTANCE = 8.0
 """CIE Lab distance within which colours are of one kind wherever sides are plain."""
 CLOTH_LAB_WEIGHTS = np.array([0.7, 1.2, 1.2], np.float32)
-"""How much lightness counts in it, and hues: cloth is lighter where light falls on it."""
+"""How much lightness counts in distances of cloth's colours, and hues: cloth is lighter where light falls on it."""
 MAX_COLOUR_DEVIATIONS = 2.5
 """How many of its sides' deviations a colour may be off the model."""
 MIN_KIND_SHARE = 0.35

@@ -28,7 +28,8 @@ OVERBITE_EYE_DISTANCES, OVERJET_EYE_DISTANCES = 0.03, 0.05
 TONGUE_SIZE_SHARES = (1.0, 0.5, 0.45)
 """Of the template's tongue, along x, y and z from its tip: so that it lies within the row of teeth, and its root within a face without a neck."""
 TONGUE_ARCH_EYE_DISTANCES = 0.08
-"""Eye distances by which the middle of its back is higher than its sides, as of a tongue at rest: the template's is flat, and seen from the front a block."""
+"""Eye distances by which the middle of a tongue's back is higher than its sides, as at rest: the template's is flat,
+and seen from the front a block."""
 TONGUE_JAW_SHARE = 0.7
 """Of the jaw's angle, by which the tongue lies lower where it opens: its back is lifted off the floor of the mouth."""
 TONGUE_SECTIONS = 8

@@ -36,7 +36,8 @@ APPEARING_OPENING = 0.03
 OWN_INSIDE_OPENING_RATIO = 1.15
 """Of a picture's own opening, up to which its own inside is shown."""
 MAX_TEETH_WIDTH_RATIO, MAX_TEETH_LENGTH_RATIO = 1.25, 1.35
-"""Than in the photograph: so that teeth fill mouths that are wider, and reach up to lips that are higher."""
+"""By how many times teeth may be wider and longer than in the photograph, so that they fill mouths that are wider, and
+reach up to lips that are higher."""
 MOUTH_SIZE_PERCENTILE = 80
 """Of the open mouths' widths and lips' heights, that teeth fill."""
 ARCH_ROUNDS = 3
@@ -44,7 +45,7 @@ ARCH_ROUNDS = 3
 FACE_LIGHT_PERCENTILE = 97
 """Of the face's light: teeth are no brighter."""
 MIN_PHOTO_TEETH_TO_SKIN_RATIO = 1.1
-"""Teeth are than the skin beside them, at least."""
+"""How many times as light as the skin beside them a photograph's teeth are, at least."""
 TEETH_GAIN_RANGE = (0.5, 1.7)
 
 

@@ -41,7 +41,7 @@ MAX_SHARPENING_SHARE = 0.6
 """Of what is finer than a pixel, where the photograph is enlarged twice or more: its own pixels have blurred it."""
 TEETH_PERCENTILE, USUAL_PERCENTILE = 90, 60
 TEETH_EDGE_ROWS = 20
-"""From lip to lip at which it is looked for where teeth end."""
+"""Rows from lip to lip at which it is looked for where teeth end."""
 TEETH_EDGE_LIGHT_SHARE = 0.6
 """Of the lightest row's light, above which a row is of teeth."""
 TEETH_EDGE_RANGE = (0.5, 1.0)

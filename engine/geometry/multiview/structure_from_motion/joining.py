@@ -30,15 +30,16 @@ FIRST_ROUND_MEDIANS = 2.0
 ROUND_SHARPENING_FACTOR = 0.7
 """By what each round believes less than the one before."""
 LAST_ROUNDS = 5
-"""Of Gauss and Newton that believe `OBSERVATION_SIGMA_PIXELS`."""
+"""Last rounds of Gauss and Newton, which believe `OBSERVATION_SIGMA_PIXELS`."""
 BEHIND_CAMERA_PIXELS = 1e9
 """Pixels by which what is behind a camera is off: it does not count."""
 ROBUST_LOSS_PIXELS = (6.0, 1.0)
-"""Pixels of the robust loss with which both are adjusted together, one after the other: places in common are far off first."""
+"""Pixels of the robust loss with which two films are adjusted together, one after the other: places in common are far
+off first."""
 MAX_ADJUSTMENT_STEPS, STEPS_AND_TOLERANCE = 15, 1e-4
 """Steps of each, and the relative decrease at which it ends before."""
 JOINING_DAMPING_SHARE = 1e-9
-"""Share of its diagonal that is added to each system."""
+"""Share of the diagonal of each system of equations that is added to it."""
 
 
 @dataclass(frozen=True)
