@@ -39,7 +39,8 @@ SIDEBURN_LEVEL = -0.4
 CROWN_DEPTH_PIXELS = 4.0
 """How far inward from the outline, pixels of the grid, hair surely reaches above the brows."""
 MIN_UNLIKE_FACE_SHARE = 0.6
-"""Share of the hair above the brows that must differ from the face, if what does not is taken for a high forehead."""
+"""Share of what is along the outline above the brows that must differ from the face, if what does not is taken for a
+high forehead."""
 TYPICAL_COLOUR_COUNT = 4
 """Colours that stand for all of a face's, or of hair's."""
 MIN_HANGING_SHARE = 0.3

@@ -30,8 +30,8 @@ CHEEK_BELOW_LID_VERTICES = ((117, 118, 119, 120, 100, 101), (346, 347, 348, 349,
 COLOUR_BLEND_SHARE = 0.4
 """Share of the way from the skin above to the lid's edge over which the colours go over."""
 LID_COLOUR_REACH_SHARE = 0.6
-"""Share of the way from the lid's edge up to below the brow that a lid's colours reach: upper lashes stand there in a
-picture."""
+"""Share of the way from the skin above the lid up to below the brow that a lid's colours reach: upper lashes stand
+there in a picture."""
 LIGHTER_SKIN_SHARE = 0.5
 """Share of the skin above, its lighter part, whose colour a lid has: the rest is shadow, of the brow or in the crease."""
 MIN_CHEEK_SHARE = 0.8
