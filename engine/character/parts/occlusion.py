@@ -22,8 +22,8 @@ NEIGHBOUR_DISTANCE_METRES = 0.16
 OCCLUSION_DILATION_SHARE = 0.02
 """By how much the occlusion pixels are dilated, as a share of the picture's height."""
 MAX_GAP_WIDTH_SHARE = 0.08
-"""How far it may be behind a limb from what is seen on one of its sides to what is seen on the other, as a share of the
-picture's height."""
+"""How far the body may be hidden behind a limb, from what is seen on one of its sides to what is seen on the other, as
+a share of the picture's height."""
 MIN_VISIBLE_PIECE_SHARE = 0.005
 """Share of what is seen below which a piece of it is not missed."""
 MIN_OCCLUSION_BORDER_PIXELS = 8

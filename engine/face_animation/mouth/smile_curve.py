@@ -23,7 +23,8 @@ from engine.perception.landmarks import CHIN_VERTEX, FOREHEAD_VERTEX, MOUTH_CORN
 
 CORNER_VERTICES = (61, 76, 62, 78, 291, 306, 292, 308)
 LIPS_MIDDLE_VERTICES, INNER_UPPER_LIP_VERTICES = (0, 13, 14, 17), (13,)
-"""Of both lips, and of the upper one's inner edge: a smile that shows teeth bends that up, whatever the lower lip does."""
+"""Vertices of the middle of both lips, and of the upper one's inner edge: a smile that shows teeth bends that up,
+whatever the lower lip does."""
 WIDENING_SHARES, RISE_SHARES = (0.03, 0.12), (0.02, 0.07)
 """By how much of its width at rest a mouth gets wider and its corners higher, from which on it smiles, and fully: both together, for lips that
 are drawn wide alone say e, or are afraid."""

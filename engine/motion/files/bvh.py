@@ -28,7 +28,7 @@ from engine.motion.files.source_motion import (
 )
 
 CHANNEL_MEANINGS = {f"{axis}{kind}": (kind, axis) for kind in ("position", "rotation") for axis in "xyz"}
-"""By their names in small letters: programs do not agree on which are large."""
+"""What channels mean by their names in small letters: programs do not agree on which letters are large."""
 
 UNIT_METRES = {
     "metre": 1.0,

@@ -22,7 +22,8 @@ MODEL_FILE = "dlib_face_recognition_resnet_model_v1.dat"
 MODEL_SHA256 = "55533b28a95800a551ba546ba62fe69625c7e95a7061c338adffead08719da30"
 
 IDENTITY_DISTANCES = IdentityDistances(same=0.6, other=0.7)
-"""Of its author's training, and as seen in collections of photographs: nearly all pairs of two people have more than 0.63."""
+"""Distances of descriptors, of its author's training and as seen in collections of photographs: nearly all pairs of two
+people have more than 0.63."""
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from engine.persona.collection.photo_face import PhotoFace
 CORE_SHARE = 5 / 6
 """Of the distance below which two faces are one person's: those that are nearer to a face are its neighbours."""
 GROWING_ROUNDS = 3
-"""In which faces join the person's, and leave them."""
+"""Rounds in which faces join the person's, and leave them."""
 SECOND_PERSON_SHARE = 0.6
 """Of as many faces as the person has, from which on another may be meant just as well."""
 ALONE_SHARE = 0.5

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from engine.persona.texture.appearance_subspace import SUBSPACE_RANK, Appearance
 
 ALBEDO_ALTERNATIONS = 3
-"""In which the albedo that the template is multiplied with comes from the estimate before."""
+"""Rounds in which the albedo that the template is multiplied with comes from the estimate before."""
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 SUBSPACE_RANK = 4
 """A convex face under any light is a mixture of four pictures to within a few hundredths (R. Basri, D. W. Jacobs, PAMI 2003)."""
 MIN_PHOTOS_OF_DIMENSION = 3.0
-"""In which a dimension of the subspace has to lie."""
+"""Photographs in which a dimension of the subspace has to lie, at least."""
 MIN_SUBSPACE_BELIEF = 0.01
 """Weight of all pixels as they are, so that a photograph of which next to nothing is believed has a light, too."""
 RESIDUAL_SIGMA = 14.0

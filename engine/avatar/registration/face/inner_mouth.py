@@ -18,7 +18,7 @@ MIN_SKIN_DEPTH_METRES = 0.0015
 MIN_TEMPLATE_DEPTH_SHARE = 0.5
 """Of the depth that it has in the template, which it keeps at least where that is less."""
 CLAMPING_ROUNDS = 3
-"""In which what sticks out is brought below the skin that is nearest then."""
+"""Rounds in which what sticks out of the mouth is brought below the skin that is nearest then."""
 
 
 def inner_skin(skin: Skin, before: NDArray[np.floating], after: NDArray[np.floating]) -> NDArray[np.float64]:
