@@ -11,6 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.smoothstep import smoothstep
 from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.landmarks import LEFT_EYE_CORNER_VERTICES, RIGHT_EYE_CORNER_VERTICES
 
@@ -36,6 +37,9 @@ LIGHTER_SKIN_SHARE = 0.5
 """Share of the skin above, its lighter part, whose colour a lid has: the rest is shadow, of the brow or in the crease."""
 MIN_CHEEK_SHARE = 0.8
 """A lid's brightness, as a share of the cheek's, under which it is in the socket's shadow, as a shut lid is not."""
+HIGHLIGHT_CHEEK_SHARES = (1.0, 1.15)
+"""Brightness of skin above a lid, as a share of the cheek's, from which on it is a highlight, and at which it has nothing but the light's hue: a lid is the cheek's then,
+for as light as that it would be white."""
 SOCKET_SHADE_SHARE = 0.35
 """The share that is left of what the socket's shadow makes a lid darker."""
 CORNER_FADE_EYE_WIDTHS = 0.4
@@ -183,15 +187,18 @@ def _grain(
 
 
 def _out_of_the_shadow(colours: NDArray[np.float32], cheek: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Colours (1, w, 3) that are much darker than the cheek (3,), made brighter in their own hue: shaded skin is redder than the cheek, which made it grey."""
+    """Colours (1, w, 3) that are much darker than the cheek (3,), made brighter in their own hue: shaded skin is redder than the cheek, which made it grey.
+    Highlights are as the cheek is."""
     least = MIN_CHEEK_SHARE * float(cheek.mean())
     bright = np.maximum(colours.mean(axis=2, keepdims=True), 1)
     wanted = np.where(bright < least, least - SOCKET_SHADE_SHARE * (least - bright), bright)
+    lit = smoothstep(bright / float(cheek.mean()), *HIGHLIGHT_CHEEK_SHARES)
     brighter = colours * (wanted / bright)
     width = colours.shape[1]
     from_corner = np.minimum(np.arange(width), np.arange(width)[::-1]) / (CORNER_FADE_EYE_WIDTHS * width)
     middle = np.sin(np.pi / 2 * np.clip(from_corner, 0, 1))[:, None] ** 2
-    return np.asarray(colours + middle * (brighter - colours), np.float32)
+    found = colours + middle * (brighter - colours)
+    return np.asarray(found + lit * (cheek - found), np.float32)
 
 
 def _cheek(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float32]:

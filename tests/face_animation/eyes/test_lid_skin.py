@@ -145,3 +145,13 @@ def test_no_white_is_left_beside_the_line_where_lids_meet(side: int) -> None:
     cv2.polylines(frame, [line.round().astype(np.int32)], False, (255, 255, 255), 3)
     draw_lid(frame, lid_skins(painted(FACE, SIZE), FACE)[side], closed[:, :2], side, 1.0)
     assert frame.min(axis=2).max() <= max(SKIN), "no lighter than skin"
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_a_highlight_above_a_lid_is_not_drawn_over_it(side: int) -> None:
+    """The lid is as light as the cheek, and of its hue."""
+    picture = painted(FACE, SIZE)
+    rows = [FACE[list(row), :2] for row in (UPPER_LID_STRIPS[side][0], BELOW_BROW_VERTICES[side])]
+    cv2.fillPoly(picture, [np.concatenate([rows[0], rows[1][::-1]]).round().astype(np.int32)], (250, 250, 250))
+    skin = lid_skins(picture, FACE)[side]
+    np.testing.assert_allclose(skin[0].mean(axis=0), SKIN, atol=8)

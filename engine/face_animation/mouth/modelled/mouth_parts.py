@@ -34,8 +34,11 @@ TONGUE_JAW_SHARE = 0.7
 """Of the jaw's angle, by which the tongue lies lower where it opens: its back is lifted off the floor of the mouth."""
 TONGUE_SECTIONS = 8
 """Of the tongue, in which its width is told."""
-UPPER_GUM_EYE_DISTANCES, LOWER_GUM_EYE_DISTANCES, ROW_DEPTH_EYE_DISTANCES = 0.34, 0.2, 0.5
-"""Eye distances from the crowns' edges up to which there is gum, and from their front up to which there are teeth: the face has no more room."""
+UPPER_GUM_EYE_DISTANCES, LOWER_GUM_EYE_DISTANCES = 0.34, 0.2
+"""Eye distances from the crowns' edges up to which there is gum."""
+UPPER_ROW_DEPTH_EYE_DISTANCES, LOWER_ROW_DEPTH_EYE_DISTANCES = 0.5, 0.25
+"""Eye distances from their front up to which there are teeth: the face has no more room, and of lower molars, which lie in the dark beside the tongue, specks would
+be seen."""
 BAG_RINGS = ((0.0, 0.0, 1.0), (0.04, 0.1, 1.03), (0.15, 0.25, 1.15), (0.35, 0.28, 1.15), (0.55, 0.18, 0.9))
 """Of the bag: eye distances behind the lips, by which it is higher and deeper than their opening, and its share of their width."""
 BAG_BOTTOM_EYE_DISTANCES = 0.05
@@ -88,7 +91,7 @@ def modelled_teeth(at: RestingMouth, upper: bool) -> MouthPart:
     triangles = np.concatenate([row.triangles, wall_triangles + len(row.vertices)])
     kept = (
         (away[:, 1] < (UPPER_GUM_EYE_DISTANCES if upper else LOWER_GUM_EYE_DISTANCES))
-        & (away[:, 2] < ROW_DEPTH_EYE_DISTANCES)
+        & (away[:, 2] < (UPPER_ROW_DEPTH_EYE_DISTANCES if upper else LOWER_ROW_DEPTH_EYE_DISTANCES))
     )[triangles].all(axis=1)
     known, triangles = np.unique(triangles[kept], return_inverse=True)
     placed = places[known] - (0, edge, front) + shift

@@ -273,3 +273,10 @@ def test_the_further_lips_part_the_more_light_falls_behind_them() -> None:
     """Between lips that hardly do is no plug as light as a tongue in a wide mouth."""
     light = [inside_light(seen(front(angle))) for angle in (0.0, 0.05, 0.15, 0.6)]
     assert light == sorted(light) and light[0] < 0.35 and light[-1] > 0.95
+
+
+def test_of_the_lower_row_only_the_front_is_there() -> None:
+    """Molars beside the tongue would be specks in the dark."""
+    rows = [modelled_teeth(resting_mouth(front(0.0), front(0.0)), upper).vertices for upper in (True, False)]
+    upper, lower = (float(np.ptp(row[:, 2])) for row in rows)
+    assert lower < 0.3 < upper
