@@ -45,8 +45,10 @@ WHITE_HUE_RANGE = (0.0, 0.6)
 LID_SHADOW_START_EYE_WIDTHS, LID_SHADOW_END_EYE_WIDTHS = 0.07, 0.14
 """Eye widths below the upper lid up to which it shades the white, and from which on it does not."""
 MAX_LID_SHADE = 0.45
-EYE_CORNER_SHADE_SHARE, EYE_CORNER_SHADE_EYE_WIDTHS = 0.3, 0.25
-"""Of the light, that a white that is shaded by its lid has less in the eye's corners, and eye widths from them up to which it does."""
+EYE_CORNER_SHADE_SHARE, EYE_CORNER_SHADE_EYE_WIDTHS = 0.4, 0.4
+"""Of the light, that a white that is shaded by its lid has less in the eye's corners, and eye widths from them up to which it does: it is a ball."""
+OWN_WHITE_SOFTNESS_EYE_WIDTHS, OWN_WHITE_MARGIN_EYE_WIDTHS = 0.05, 0.08
+"""Eye widths over which what the picture shows of the white passes into the rest, and within which lids and iris count less and less."""
 KEPT_LIGHT_RATIOS, KEPT_HUE_DIFFERENCES = (0.7, 0.88), (0.06, 0.12)
 """Of the white's light, from which on, and by how much the shares of red and blue may differ up to which, what the picture shows beside the iris is
 kept as it is."""
@@ -127,7 +129,7 @@ def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> E
     along = (ends[1] - ends[0]).astype(np.float64) / width
     off = mesh[iris[0], :2] - ends.mean(axis=0)
     return Eyeball(
-        _with_own(tone, patch / light[..., None], beside),
+        _with_own(tone, patch / light[..., None], beside, width),
         disk,
         alpha.astype(np.float32),
         glint,
@@ -168,15 +170,22 @@ def white_light(lid_shade: float, opening: NDArray[np.float32], shape: tuple[int
     return np.asarray((1 - lid_shade * lid) * (1 - EYE_CORNER_SHADE_SHARE * corner), np.float32)
 
 
-def _with_own(tone: NDArray[np.float64], patch: NDArray[np.float32], beside: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """(h, w, 3) the white: of one `tone` (3,), but for what is seen `beside` (h, w) the iris in a `patch` (h, w, 3) and is white."""
+def _with_own(
+    tone: NDArray[np.float64], patch: NDArray[np.float32], beside: NDArray[np.bool_], width: float
+) -> NDArray[np.float32]:
+    """(h, w, 3) the white: of one `tone` (3,), but for what is seen `beside` (h, w) the iris in a `patch` (h, w, 3) of an eye of a `width`, pixels, and is
+    white."""
     whole = np.asarray(tone, np.float32)
     ratio = patch @ LUMINANCE_WEIGHTS.astype(np.float32) / max(float(tone @ LUMINANCE_WEIGHTS), 1.0)
     hue = np.abs(patch / np.maximum(patch.sum(axis=-1, keepdims=True), 1) - whole / whole.sum()).max(axis=-1)
     own = np.clip((ratio - KEPT_LIGHT_RATIOS[0]) / (KEPT_LIGHT_RATIOS[1] - KEPT_LIGHT_RATIOS[0]), 0, 1)
     own *= np.clip((KEPT_HUE_DIFFERENCES[1] - hue) / (KEPT_HUE_DIFFERENCES[1] - KEPT_HUE_DIFFERENCES[0]), 0, 1)
-    own *= np.minimum(cv2.distanceTransform(beside.astype(np.uint8), cv2.DIST_L2, 3) / 3, 1)
-    own = np.asarray(cv2.GaussianBlur(own.astype(np.float32), (0, 0), 1.0)) * beside
+    margin = max(OWN_WHITE_MARGIN_EYE_WIDTHS * width, 3.0)
+    own *= np.minimum(cv2.distanceTransform(beside.astype(np.uint8), cv2.DIST_L2, 3) / margin, 1)
+    soft = max(OWN_WHITE_SOFTNESS_EYE_WIDTHS * width, 1.0)
+    own = np.asarray(cv2.GaussianBlur(own.astype(np.float32), (0, 0), soft)) * np.minimum(
+        cv2.distanceTransform(beside.astype(np.uint8), cv2.DIST_L2, 3) / margin, 1
+    )
     return np.asarray(whole + own[..., None] * (np.minimum(patch, 255) - whole), np.float32)
 
 

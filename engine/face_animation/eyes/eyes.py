@@ -19,6 +19,8 @@ FULL_GAZE_CHANGE = 0.03
 """Change of the gaze, in eye widths, from which the eyeball's layer is fully drawn."""
 SHUT_SHARE = 0.1
 """Share of the picture's opening under which an eye is shut."""
+LID_SOFTNESS_EYE_WIDTHS, MIN_LID_SOFTNESS_PIXELS = 0.02, 0.4
+"""Eye widths over which the eyeball passes into the lids, which are wet and round; pixels below which that is not to be seen."""
 LASH_LINE_POLYNOMIAL_DEGREE, LASH_LINE_POINTS, MIN_LASH_LINE_PIXELS = 3, 25, 1.5
 """Of the curve from corner to corner that lashes are on, the points at which it is drawn, and how wide it is in its middle at least."""
 LASH_LINE_SAMPLES, MIN_LASH_SOFTNESS_PIXELS = 4, 0.4
@@ -114,6 +116,9 @@ def draw_eye(
     shape = (int(high[1] - low[1]), int(high[0] - low[0]))
     cover = np.zeros(shape, np.uint8)
     cv2.fillPoly(cover, [np.round((opening - low) * 16).astype(np.int32)], 255, cv2.LINE_AA, 4)
+    soft = LID_SOFTNESS_EYE_WIDTHS * float(np.linalg.norm(opening[8] - opening[0]))
+    if soft > MIN_LID_SOFTNESS_PIXELS:  # within the lids alone
+        cover = np.minimum(cover, cv2.GaussianBlur(cover, (0, 0), soft))
     place = _place(eye, mesh[[outer, inner], :2], low)
     white = cv2.warpAffine(eye.white, place, shape[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     along = place[:, :2] @ (eye.ends[1] - eye.ends[0])

@@ -12,7 +12,7 @@ import pytest
 from made_face import BROWN, SKIN, WHITE, painted, placed, shut
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes.eyeball import MIN_EYE_WIDTH_PIXELS, prepare_eyes
+from engine.face_animation.eyes.eyeball import MIN_EYE_WIDTH_PIXELS, prepare_eyes, white_light
 from engine.face_animation.eyes.eyes import (
     MIN_VERGENCE_EYE_WIDTHS,
     conjugate,
@@ -255,3 +255,19 @@ def test_a_real_portrait_at_rest_stays(media: Callable[[str], Path]) -> None:
         opening = np.zeros(picture.shape[:2], np.uint8)
         cv2.fillPoly(opening, [mesh[list(contour), :2].round().astype(np.int32)], 1)
         assert change[opening > 0].mean() < 4
+
+
+def test_an_eyeball_is_round_and_passes_softly_into_the_lids(mesh: NDArray) -> None:
+    """Its white is darker towards the corners, where the picture's is shaded at all, and no step stands at the lower lid."""
+    opening = mesh[list(CONTOURS[0]), :2].astype(np.float32)
+    low = opening.min(axis=0) - 2
+    shape = tuple(int(n) for n in np.ceil(np.ptp(opening, axis=0))[::-1] + 5)
+    light = white_light(0.3, opening - low, shape)
+    middle = shape[0] * 3 // 4
+    assert light[middle, 3] < 0.8 * light[middle, shape[1] // 2]
+    assert (white_light(0.0, opening - low, shape) == 1).all(), "drawn eyes are flat"
+    rgb = painted(mesh, SIZE)
+    wide = drawn(rgb, mesh, mesh, np.array([0.2, 0.0])).astype(int)
+    x, y = mesh[145, :2].round().astype(int)
+    steps = np.abs(np.diff(wide[y - 4 : y + 5, x - 8].mean(axis=-1)))
+    assert steps.max() < 0.8 * np.ptp(wide[y - 4 : y + 5, x - 8].mean(axis=-1))
