@@ -9,10 +9,12 @@ from collections.abc import Callable
 from contextlib import closing, suppress
 from pathlib import Path
 
+import pytest
 from galatea_command import galatea
 from running import Running
 
-from service.disk import keep_ballast
+from service.disk import keep_ballast, require_space
+from service.problems import Problem
 from service.settings import Settings
 
 
@@ -28,6 +30,17 @@ def fill_by_a_job(running: Running, picture: bytes) -> None:
     assert list(job["artifacts"]) == ["preview.jpg"]
     assert not (running.data_dir / "jobs" / job["id"] / "attempt-1").exists(), "what it wrote is gone"
     running.until(running.submit(picture)["id"], "succeeded")
+
+
+def test_what_is_still_to_come_counts_as_if_it_were_there(tmp_path: Path) -> None:
+    settings = Settings(data_dir=tmp_path, disk_reserve_mb=0)
+    require_space(settings, 1000)
+    with pytest.raises(Problem) as refused:
+        require_space(settings, shutil.disk_usage(tmp_path).free + 10**10)
+    assert (refused.value.status, refused.value.code) == (507, "disk_full")
+    reserved = Settings(data_dir=tmp_path, disk_reserve_mb=shutil.disk_usage(tmp_path).free / 1e6 + 10_000)
+    with pytest.raises(Problem):
+        require_space(reserved)
 
 
 def test_below_the_reserve_nothing_new_is_accepted_and_what_is_there_is_kept(
