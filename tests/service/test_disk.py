@@ -37,7 +37,7 @@ def test_what_is_still_to_come_counts_as_if_it_were_there(tmp_path: Path) -> Non
     require_space(settings, 1000)
     with pytest.raises(Problem) as refused:
         require_space(settings, shutil.disk_usage(tmp_path).free + 10**10)
-    assert (refused.value.status, refused.value.code) == (507, "disk_full")
+    assert (refused.value.status, refused.value.code) == (507, "disk_reserve")
     reserved = Settings(data_dir=tmp_path, disk_reserve_mb=shutil.disk_usage(tmp_path).free / 1e6 + 10_000)
     with pytest.raises(Problem):
         require_space(reserved)
