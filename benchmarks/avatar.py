@@ -1,6 +1,6 @@
 """How good an avatar is, from films to files: a film of a known person, and what was delivered, held against the truth.
 
-    python -m benchmarks.avatar FOLDER OUT [--body 75] [--head 50] [--texture 4096] [--without-head] [--sheet OUT.png]
+    python -m benchmarks.avatar FOLDER OUT [--body 75] [--head 50] [--texture 4096] [--without-head] [--room-cameras] [--sheet OUT.png]
 
 FOLDER is what `python -m benchmarks.scan_studio` made of a subject; OUT takes the avatar's files, and OUT/stages what its
 stages found. Where OUT holds a finished avatar, it is measured as it is. Prints seconds by stage, peak memory, distances to the truth of body and
@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.avatar_figures.colours import colour_errors
+from benchmarks.avatar_figures.room_cameras import RoomCamerasRun
 from benchmarks.avatar_figures.sheet import avatar_sheet
 from benchmarks.presentation.contact_sheet import write_sheet
 from benchmarks.presentation.tables import machine, table
@@ -66,7 +67,8 @@ def make(folder: Path, out: Path, asked: argparse.Namespace, height: float) -> N
     )
     inputs = {"body": folder / "body.mp4"} | ({} if asked.without_head else {"head": folder / "head.mp4"})
     began = time.perf_counter()
-    with Run(store=StageStore(out / "stages")) as run:
+    kind = RoomCamerasRun if asked.room_cameras else Run
+    with kind(store=StageStore(out / "stages")) as run:
         make_avatar(inputs, options, out, run)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
     print(f"{time.perf_counter() - began:.0f} s, peak {peak:.2f} GB")
@@ -133,6 +135,7 @@ def main() -> None:
     parser.add_argument("--head", type=int, default=50)
     parser.add_argument("--texture", type=int, default=4096)
     parser.add_argument("--without-head", action="store_true")
+    parser.add_argument("--room-cameras", action="store_true", help="do not lock the cameras to the person")
     parser.add_argument("--sheet", type=Path)
     parser.add_argument("--without-colours", action="store_true", help="the oracle's texture takes a minute or two")
     asked = parser.parse_args()
