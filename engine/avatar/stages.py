@@ -36,6 +36,7 @@ from engine.avatar.texture.views import FrameView
 from engine.avatar.worn import Attachments
 from engine.geometry.camera import Camera
 from engine.geometry.multiview.structure_from_motion.mapping import Lens
+from engine.geometry.point_clouds.point_cloud import joined
 from engine.geometry.registration.rigid import Similarity
 from engine.imaging.resample import enlarged_mask, resized
 from engine.perception.solutions import kept_networks
@@ -250,16 +251,19 @@ def find_attachments(
 
 
 def _sighting(fitted: FittedTemplate, body: ClipScan, head: ClipScan | None) -> Sighting:
-    """The clouds of both clips, the head's where registration has placed it and only about the head, which it shows from near, and the
-    silhouettes of the body's."""
+    """The clouds and silhouettes of both clips, the head's where registration has placed it, and its cloud only about the head, which it
+    shows from near."""
     skin = load_models().skin
-    measured = [well_supported(body.dense.cloud.points, body.dense.support)]
+    clouds = [body.dense.cloud[well_supported(body.dense.support)]]
+    views = list(body.silhouettes)
     if head is not None and fitted.head_to_body is not None:
-        near = head.moved(fitted.head_to_body).dense
-        points = well_supported(near.cloud.points, near.support)
-        nearest = cKDTree(fitted.vertices[skin.vertices]).query(points)[1]
-        measured.append(points[skin.regions["head"][nearest]])
-    return Sighting(np.concatenate(measured), body.masks, [one.camera for one in body.silhouettes])
+        near = head.moved(fitted.head_to_body)
+        cloud = near.dense.cloud[well_supported(near.dense.support)]
+        nearest = cKDTree(fitted.vertices[skin.vertices]).query(cloud.points)[1]
+        clouds.append(cloud[skin.regions["head"][nearest]])
+        views += near.silhouettes
+    masks, cameras = [one.mask for one in views], [one.camera for one in views]
+    return Sighting(joined(clouds), masks, cameras, len(views) - len(body.silhouettes))
 
 
 def stitch_texture(

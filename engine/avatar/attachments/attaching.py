@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.avatar.attachments.influences import influences
 from engine.avatar.attachments.piece_mesh import Mesh, piece_mesh, seen_area, simplified
-from engine.avatar.attachments.silhouettes import silhouettes_beside
-from engine.avatar.attachments.standing_off import pieces_standing_off
-from engine.avatar.attachments.thick_sheet import thick_sheet
+from engine.avatar.attachments.seen_around import seen_around
+from engine.avatar.attachments.silhouettes import Silhouettes, silhouettes_beside
+from engine.avatar.attachments.solid import solid
+from engine.avatar.attachments.standing_off import points_standing_off, standing_volume
 from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.options import MAX_ATTACHED_TRIANGLES
@@ -22,6 +23,7 @@ from engine.avatar.registration.template_skin.skin import grown
 from engine.avatar.worn import Attachments, no_attachments
 from engine.geometry.camera import Camera
 from engine.geometry.mesh.surface import triangle_areas, triangulate
+from engine.geometry.point_clouds.point_cloud import PointCloud
 from engine.geometry.texture_charts.atlas_room import cells_of, placed_between
 from engine.geometry.texture_charts.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
 
@@ -33,6 +35,9 @@ UNWRAPPED_SIZE_TEXELS = 1024
 """Texels of the texture for which pieces are unfolded, before they are placed."""
 FREE_ABOVE_BROWS_METRES = 0.015
 """Metres above the brows up to which a face is free of what does not clearly stand off: hats sit higher."""
+FREE_BEHIND_JAWS_METRES = 0.03
+"""Metres behind the jaws' ends up to which a head is free of what does not clearly stand off: there are ears, and hair lies
+behind them."""
 OWN_RINGS = 8
 """Rings of vertices around hands and feet, which have models of their own, on which nothing is worn: wrists and ankles."""
 HEAD_JOINTS = ("Head", "Jaw", "LeftEye", "RightEye")
@@ -43,35 +48,47 @@ def body_surface(human: HumanModels, vertices: NDArray[np.float64]) -> BodySurfa
     skin = human.skin
     own = vertices[skin.vertices]
     brows = own[skin.face_points[17:27], 1].max()
-    face = skin.regions["face"] & (own[:, 1] < brows + FREE_ABOVE_BROWS_METRES)
+    jaws = own[skin.face_points[[0, 16]]].mean(0)
+    forwards = (own[skin.face_points[30]] - jaws) * [1, 0, 1]
+    front = (own - jaws) @ forwards > -FREE_BEHIND_JAWS_METRES * np.linalg.norm(forwards)
+    face = (skin.regions["face"] | (skin.regions["head"] & front)) & (own[:, 1] < brows + FREE_ABOVE_BROWS_METRES)
     modelled = grown(skin.regions["hands"] | skin.regions["feet"], skin.triangles, OWN_RINGS)
-    return BodySurface(own, skin.triangles, modelled, face)
+    return BodySurface(own, skin.triangles, modelled, face, skin.regions["head"])
 
 
 @dataclass(frozen=True)
 class Sighting:
-    """What was seen of a person: `points` (N, 3) of the cloud, metres, and `masks`, (H, W) bool each, of `cameras` of their sizes."""
+    """What was seen of a person.
 
-    points: NDArray[np.floating]
+    cloud : points that enough views saw, metres.
+    masks : (H, W) bool, where each view has the person.
+    cameras : the views', each of its mask's size.
+    near : how many views, the last ones, are of the clip of the head.
+    """
+
+    cloud: PointCloud
     masks: Sequence[NDArray[np.bool_]]
     cameras: Sequence[Camera]
+    near: int = 0
 
 
 def standing_points(human: HumanModels, vertices: NDArray[np.float64], seen: Sighting) -> NDArray[np.floating]:
     """(M, 3) the points of all that stands off the body of the person whose template vertices are (V, 3), metres."""
     body = body_surface(human, vertices)
-    pieces = pieces_standing_off(seen.points, body, silhouettes_beside(body, seen.masks, seen.cameras))
-    return np.concatenate([seen.points[:0], *pieces[:MAX_PIECES]])
+    volume = standing_volume(body, _silhouettes(body, seen))
+    return points_standing_off(seen.cloud.points, body, volume.pieces[:MAX_PIECES])
 
 
 def attachments(human: HumanModels, vertices: NDArray[np.float64], seen: Sighting) -> Attachments:
     """What the person wears whose template vertices are (V, 3), metres."""
     body = body_surface(human, vertices)
-    silhouettes = silhouettes_beside(body, seen.masks, seen.cameras)
+    silhouettes = _silhouettes(body, seen)
+    volume = standing_volume(body, silhouettes)
+    around = seen_around(body, volume.hull, seen.cloud, seen.cameras, seen.near)
     meshes = []
-    for piece in pieces_standing_off(seen.points, body, silhouettes)[:MAX_PIECES]:
-        mesh = piece_mesh(*thick_sheet(piece, body, silhouettes))
-        if mesh is not None and silhouettes.confirm(*mesh):
+    for piece in volume.pieces[:MAX_PIECES]:
+        mesh = piece_mesh(*solid(piece, body, silhouettes, around))
+        if mesh is not None:
             meshes.append(mesh)
     if not meshes:
         return no_attachments()
@@ -86,6 +103,10 @@ def attachments(human: HumanModels, vertices: NDArray[np.float64], seen: Sightin
         np.concatenate([bones for bones, _ in moved]),
         np.concatenate([weights for _, weights in moved]),
     )
+
+
+def _silhouettes(body: BodySurface, seen: Sighting) -> Silhouettes:
+    return silhouettes_beside(body, seen.masks, seen.cameras, seen.near)
 
 
 def _joint_weights(human: HumanModels) -> NDArray[np.float32]:

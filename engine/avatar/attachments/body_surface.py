@@ -19,13 +19,15 @@ class BodySurface:
     vertices : (S, 3) metres.
     triangles : (T, 3), closed, counter-clockwise from outside.
     own : (S,) bool, the skin that stays by itself, since it has models of its own: hands and feet.
-    face : (S,) bool, brows and what is below.
+    face : (S,) bool, brows and what is below, to both sides as far as the ears.
+    head : (S,) bool, all of the head.
     """
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.int32]
     own: NDArray[np.bool_]
     face: NDArray[np.bool_]
+    head: NDArray[np.bool_]
 
     def distances(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
         """(N,) metres from the skin to `points` (N, 3), negative within it."""
@@ -40,4 +42,16 @@ class BodySurface:
 
     def before_face(self, points: NDArray[np.floating]) -> NDArray[np.bool_]:
         """(N,) which of the `points` (N, 3) have the face's skin nearest."""
-        return np.asarray(self.face[cKDTree(self.vertices).query(points)[1]])
+        return self.face[self.nearest(points)]
+
+    def beside_head(self, points: NDArray[np.floating]) -> NDArray[np.bool_]:
+        """(N,) which of the `points` (N, 3) have the head's skin nearest."""
+        return self.head[self.nearest(points)]
+
+    def beside_own(self, points: NDArray[np.floating]) -> NDArray[np.bool_]:
+        """(N,) which of the `points` (N, 3) have skin nearest on which nothing is worn."""
+        return self.own[self.nearest(points)]
+
+    def nearest(self, points: NDArray[np.floating]) -> NDArray[np.intp]:
+        """(N,) which vertex of the skin is nearest to each of the `points` (N, 3)."""
+        return np.asarray(cKDTree(self.vertices).query(points)[1], np.intp)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,55 +13,62 @@ from engine.geometry.camera import Camera
 from engine.geometry.multiview.silhouette_depth import Beside, silhouette_depths
 from engine.render.rasteriser import rasterise
 
+MAX_WRONG_SILHOUETTES_SHARE = 0.12
+"""Share of the silhouettes that may leave out what is there: masks miss a hat or its rim in some. With 0.15 a hat and hair came out 6 mm
+too large, with 0.08 3, and a brim had gaps."""
 MAX_SILHOUETTES_WITHOUT_PIECE_SHARE = 0.3
-"""Share of the silhouettes beside the body that may leave out what is there: thin things are seen edge-on in some, and the person
-sways."""
+"""Share of the silhouettes that may leave out what is there, of those alone that have it beside the body: thin things are
+seen edge-on in some."""
 BESIDE_BODY_METRES = 0.006
 """Metres from the body's outline at which something is beside it."""
-MIN_BESIDE_VIEWS, BESIDE_SHARE = 4, 0.7
-"""Views that show a surface beside the body, at least, and the share of its pixels there that silhouettes have: depth alone is no
-proof."""
-RIM_PIXELS = 2
-"""Pixels around the body that do not count as beside it."""
-MIN_ADDED_SHARE = 0.03
-"""Share of a surface's pixels that a view has beside the body, if it shows it there."""
 
 
 @dataclass(frozen=True)
 class Silhouettes:
-    """Where views have the person, `masks` (H, W) bool of the views' `cameras`, each of its mask's size; and where they would have the
-    person's body alone, `bare`."""
+    """What views have of the person.
+
+    masks : (H, W) bool, where each has the person.
+    cameras : theirs, each of its mask's size.
+    bare : (H, W) bool, where each would have the person's body alone.
+    near : how many views, the last ones, are of the clip of the head: they are asked of that alone.
+    """
 
     masks: Sequence[NDArray[np.bool_]]
     cameras: Sequence[Camera]
     bare: Sequence[NDArray[np.bool_]]
+    near: int
 
-    def depths(self, points: NDArray[np.floating]) -> tuple[NDArray[np.float32], NDArray[np.uint16]]:
+    def depths(self, points: NDArray[np.floating], of_head: NDArray[np.bool_]) -> NDArray[np.float32]:
+        """(N,) metres by which `points` (N, 3) lie within the silhouettes, negative outside: the least over all of them but for
+        `MAX_WRONG_SILHOUETTES_SHARE`. `of_head` (N,): those that are beside the head."""
+        return self._asked(points, of_head, MAX_WRONG_SILHOUETTES_SHARE, False)[0]
+
+    def depths_beside(
+        self, points: NDArray[np.floating], of_head: NDArray[np.bool_]
+    ) -> tuple[NDArray[np.float32], NDArray[np.uint16]]:
         """How far `points` (N, 3) lie within silhouettes, and how many views have them there, (N,). The former, (N,)
         metres, negative outside, is the least over the views that have them beside the body, but for
         `MAX_SILHOUETTES_WITHOUT_PIECE_SHARE` of these. It is +inf where no view has them there."""
-        beside = Beside(self.bare, BESIDE_BODY_METRES)
-        return silhouette_depths(points, self.masks, self.cameras, MAX_SILHOUETTES_WITHOUT_PIECE_SHARE, beside)
+        return self._asked(points, of_head, MAX_SILHOUETTES_WITHOUT_PIECE_SHARE, True)
 
-    def confirm(self, vertices: NDArray[np.floating], triangles: NDArray[np.int32]) -> bool:
-        """Whether enough views have a surface, vertices (V, 3) and triangles (T, 3), beside the body, and most of what it adds there
-        within the silhouettes."""
-        views, added, within = 0, 0, 0
-        for mask, camera, bare in zip(self.masks, self.cameras, self.bare, strict=True):
-            own = _shown(camera, vertices, triangles)
-            rim = np.ones((2 * RIM_PIXELS + 1, 2 * RIM_PIXELS + 1), np.uint8)
-            more = own & (cv2.dilate(bare.astype(np.uint8), rim) == 0)
-            views += int(more.sum() > MIN_ADDED_SHARE * own.sum())
-            added += int(more.sum())
-            within += int((more & mask).sum())
-        return views >= MIN_BESIDE_VIEWS and within >= BESIDE_SHARE * added
+    def _asked(
+        self, points: NDArray[np.floating], of_head: NDArray[np.bool_], wrong: float, beside: bool
+    ) -> tuple[NDArray[np.float32], NDArray[np.uint16]]:
+        depths, views = np.full(len(points), np.inf, np.float32), np.zeros(len(points), np.uint16)
+        for asked, count in ((of_head, len(self.masks)), (~of_head, len(self.masks) - self.near)):
+            known = Beside(self.bare[:count], BESIDE_BODY_METRES) if beside else None
+            depths[asked], views[asked] = silhouette_depths(
+                points[asked], self.masks[:count], self.cameras[:count], wrong, known
+            )
+        return depths, views
 
 
-def silhouettes_beside(body: BodySurface, masks: Sequence[NDArray[np.bool_]], cameras: Sequence[Camera]) -> Silhouettes:
-    """The silhouettes of views, with that of the body in each."""
-    return Silhouettes(masks, cameras, [_shown(camera, body.vertices, body.triangles) for camera in cameras])
-
-
-def _shown(camera: Camera, vertices: NDArray[np.floating], triangles: NDArray[np.int32]) -> NDArray[np.bool_]:
-    """(H, W) which pixels show a surface."""
-    return rasterise(camera.project(vertices), triangles, camera.size, perspective=True).triangle >= 0
+def silhouettes_beside(
+    body: BodySurface, masks: Sequence[NDArray[np.bool_]], cameras: Sequence[Camera], near: int = 0
+) -> Silhouettes:
+    """The silhouettes of views, the last `near` of which are of the clip of the head, with that of the body in each."""
+    bare = [
+        rasterise(camera.project(body.vertices), body.triangles, camera.size, perspective=True).triangle >= 0
+        for camera in cameras
+    ]
+    return Silhouettes(masks, cameras, bare, near)

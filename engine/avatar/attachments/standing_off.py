@@ -1,96 +1,144 @@
-"""Points of a cloud that stand off the fitted skin, where silhouettes have room for them."""
+"""Where something stands off the fitted skin: places that the silhouettes have, and show beside the body.
+
+Hair and hats are dark and plain, and stereo has holes there, or points inside; their outlines are seen from all around. So it is
+silhouettes that say what stands off, and points are told of it by lying there.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from engine.avatar.attachments.body_surface import BodySurface
-from engine.avatar.attachments.silhouettes import MIN_BESIDE_VIEWS, Silhouettes
-from engine.geometry.point_clouds.cloud_cleaning import crowded_points
-from engine.geometry.point_clouds.point_cloud import thinning
+from engine.avatar.attachments.silhouettes import Silhouettes
+from engine.geometry.mesh.adjacency import neighbours
+from engine.geometry.multiview.visual_hull import VisualHull
 
 MIN_STANDING_OFF_METRES = 0.012
 """Metres from the skin at which a surface stands off it."""
 MIN_FACE_DISTANCE_METRES = 0.02
 """Metres from the skin of a face at which a surface stands off it. A face moves while it is filmed, and stays free of
 what does not clearly stand off."""
-ROOT_REACH_METRES, ROOT_DEPTH_METRES = 0.03, -0.02
-"""Metres from what stands off within which other points are of the same piece, although they are near the skin, and how far within it
-at most: a piece comes off the body somewhere, and has no holes where the skin comes close."""
-DOUBTED_POINTS_SHARE = 0.25
-"""Share of a cloud's points, those that fewest views saw, of which no piece is made."""
-POINT_SPACING_METRES = 0.004
-"""Metres between points that are looked at."""
-MEAN_RADIUS_METRES, MAX_MEAN_POINTS = 0.012, 32
-"""Metres about a point within which points, so many at most, say in the mean how far off the surface is: single ones
-scatter."""
-MAX_WORN_METRES = 0.3
+MAX_WORN_METRES = 0.2
 """Metres from the skin within which anything can be worn."""
-SWAY_METRES = 0.006
-"""Metres by which a silhouette may be beside where the cloud has the person."""
-STANDING_OFF_NEIGHBOUR_METRES, MIN_STANDING_OFF_NEIGHBOURS = 0.012, 10
-"""Metres within which so many others stand off with a point."""
-MIN_PIECE_POINTS = 250
-"""Points of a piece that stand off: at their spacing a hand's palm of it."""
-ATTACHED_PIECE_GAP_METRES = 0.012
-"""Metres that part pieces."""
+VOLUME_SPACING_METRES = 0.006
+"""Metres between places about a body that are asked whether they are the person's."""
+COARSE_STEP = 3
+"""Places along each side of a block whose middle is asked first whether anything of it can be the person's."""
+MIN_BESIDE_VIEWS = 4
+"""Views that have a place beside the body, at least: what none has there is a hollow that silhouettes do not see."""
+MIN_PIECE_CUBIC_METRES = 6e-5
+"""Cubic metres of a piece: less are folds of sleeves and buckles."""
+POINT_REACH_METRES = 0.012
+"""Metres from a piece within which points of the cloud are of it."""
+COVER_REACH_METRES, COVER_DEPTH_METRES = 0.03, -0.02
+"""Metres from a piece within which it covers the skin, and how far within the skin points may be that are of what covers it."""
+DOUBTED_POINTS_SHARE = 0.25
+"""Share of a cloud's points, those that fewest views saw, that are not believed."""
 
 
-def well_supported(points: NDArray[np.floating], support: NDArray[np.integer]) -> NDArray[np.floating]:
-    """Those of a cloud's `points` (N, 3) that as many views saw (`support` (N,)) as most of the others: what a few alone say of places
-    off the body is mostly room."""
+@dataclass(frozen=True)
+class StandingPiece:
+    """What stands off as one.
+
+    places : (N, 3) metres, `VOLUME_SPACING_METRES` apart.
+    covered : (S,) bool, the skin's vertices about these, but for the face, and what they enclose, as a brim does a crown.
+    """
+
+    places: NDArray[np.float64]
+    covered: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class StandingVolume:
+    """What silhouettes have about the skin.
+
+    hull : all of it.
+    pieces : those parts that stand off, the largest first.
+    """
+
+    hull: VisualHull
+    pieces: list[StandingPiece]
+
+
+def well_supported(support: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """(N,) which of a cloud's points as many views saw (`support` (N,)) as most of the others: what a few alone say of places off the
+    body is mostly room."""
     measured = support[support > 0]
     if not len(measured):
+        return np.zeros(len(support), np.bool_)
+    return np.asarray(support >= np.quantile(measured, DOUBTED_POINTS_SHARE))
+
+
+def standing_volume(body: BodySurface, silhouettes: Silhouettes) -> StandingVolume:
+    """What silhouettes have about a body, and what of it stands off."""
+    spacing = VOLUME_SPACING_METRES
+    origin = body.vertices.min(0) - MAX_WORN_METRES
+    blocks = np.ceil((body.vertices.max(0) + MAX_WORN_METRES - origin) / (COARSE_STEP * spacing)).astype(int) + 1
+    shape = COARSE_STEP * blocks
+    near = _about(body.vertices, origin, blocks)
+    middles = origin + spacing * (COARSE_STEP * np.argwhere(near) + COARSE_STEP // 2)
+    reach = np.sqrt(3) * spacing * (COARSE_STEP // 2)  # from a block's middle to its corners
+    near[near] = silhouettes.depths(middles, body.beside_head(middles)) > -reach
+    cells = np.argwhere(np.kron(near, np.ones((COARSE_STEP,) * 3, np.bool_)))
+    places = origin + spacing * cells
+    of_head = body.beside_head(places)
+    inside = silhouettes.depths(places, of_head) > 0
+    cells, places, of_head = cells[inside], places[inside], of_head[inside]
+    occupied, stands = np.zeros(shape, np.bool_), np.zeros(shape, np.bool_)
+    occupied[tuple(cells.T)] = True
+    asked = _stand_off(places, body)
+    depths, views = silhouettes.depths_beside(places[asked], of_head[asked])
+    stands[tuple(cells[asked][(depths > 0) & (views >= MIN_BESIDE_VIEWS)].T)] = True
+    piece, count = ndimage.label(stands)
+    found = [origin + spacing * np.argwhere(piece == k) for k in range(1, count + 1) if _large(piece, k)]
+    pieces = [StandingPiece(one, _covered(one, body)) for one in sorted(found, key=len, reverse=True)]
+    return StandingVolume(VisualHull(occupied, origin, spacing), pieces)
+
+
+def points_standing_off(
+    points: NDArray[np.floating], body: BodySurface, pieces: Sequence[StandingPiece]
+) -> NDArray[np.floating]:
+    """Those of the `points` (N, 3) of a cloud that are of pieces, or about them of what they cover. Others of a crown that a brim encloses
+    hold the skin, which otherwise stands out of the hat."""
+    if not pieces:
         return points[:0]
-    return points[support >= np.quantile(measured, DOUBTED_POINTS_SHARE)]
+    tree = cKDTree(np.concatenate([piece.places for piece in pieces]))
+    away = np.asarray(tree.query(points, distance_upper_bound=COVER_REACH_METRES)[0])
+    near = (away < POINT_REACH_METRES) & _stand_off(points, body)
+    under = np.any([piece.covered for piece in pieces], axis=0)[body.nearest(points)]
+    under &= np.isfinite(away) & (body.distances(points) > COVER_DEPTH_METRES)
+    return points[near | under]
 
 
-def pieces_standing_off(
-    points: NDArray[np.floating], body: BodySurface, silhouettes: Silhouettes
-) -> list[NDArray[np.floating]]:
-    """Those of the `points` (N, 3) of a cloud that stand off the skin within the silhouettes, with those about their roots, piece
-    by piece, the largest first."""
-    points = points[thinning(points, POINT_SPACING_METRES)]
-    nearest = np.asarray(cKDTree(body.vertices).query(points, distance_upper_bound=MAX_WORN_METRES)[1])
-    asked = np.flatnonzero(nearest < len(body.vertices))
-    asked = asked[~body.own[nearest[asked]]]
-    if not len(asked):
-        return []
-    points, face = points[asked], body.face[nearest[asked]]
-    off = _mean_about(points, body.distances(points))
-    stands = np.flatnonzero(off > np.where(face, MIN_FACE_DISTANCE_METRES, MIN_STANDING_OFF_METRES))
-    depths, views = silhouettes.depths(points[stands])
-    stands = stands[(depths > -SWAY_METRES) & (views >= MIN_BESIDE_VIEWS)]
-    stands = stands[crowded_points(points[stands], STANDING_OFF_NEIGHBOUR_METRES, MIN_STANDING_OFF_NEIGHBOURS)]
-    if not len(stands):
-        return []
-    about = cKDTree(points[stands]).query(points, distance_upper_bound=ROOT_REACH_METRES)[0] < np.inf
-    own = about & ~face & (off > ROOT_DEPTH_METRES)
-    own[stands] = True
-    chosen = np.flatnonzero(own)
-    piece = _pieces(points[chosen])
-    number = np.bincount(piece, np.isin(chosen, stands))
-    return [points[chosen[piece == k]] for k in np.argsort(-number, kind="stable") if number[k] >= MIN_PIECE_POINTS]
+def _covered(places: NDArray[np.float64], body: BodySurface) -> NDArray[np.bool_]:
+    """(S,) which vertices of the skin a piece at `places` (N, 3) covers."""
+    near = np.isfinite(cKDTree(places).query(body.vertices, distance_upper_bound=COVER_REACH_METRES)[0])
+    bare = ~near | body.face | body.own
+    kept = body.triangles[bare[body.triangles].all(1)]
+    part = connected_components(neighbours(kept, len(bare)), directed=False)[1]
+    return np.asarray(part != np.bincount(part).argmax())
 
 
-def _mean_about(points: NDArray[np.floating], values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(N,) the mean of what the points (N, 3) around each say."""
-    distance, which = cKDTree(points).query(
-        points, min(MAX_MEAN_POINTS, len(points)), distance_upper_bound=MEAN_RADIUS_METRES
-    )
-    within = np.isfinite(distance).reshape(len(points), -1)
-    which = np.where(within, np.reshape(which, within.shape), 0)
-    return np.asarray((np.where(within, values[which], 0)).sum(1) / within.sum(1))
+def _stand_off(points: NDArray[np.floating], body: BodySurface) -> NDArray[np.bool_]:
+    """(N,) which `points` (N, 3) are so far from the skin that they can be of something else."""
+    least = np.where(body.before_face(points), MIN_FACE_DISTANCE_METRES, MIN_STANDING_OFF_METRES)
+    return (body.distances(points) > least) & ~body.beside_own(points)
 
 
-def _pieces(points: NDArray[np.floating]) -> NDArray[np.intp]:
-    """(N,) which piece each of the points (N, 3) is of, from 0: those that an empty cell of `ATTACHED_PIECE_GAP_METRES` parts."""
-    if not len(points):
-        return np.zeros(0, np.intp)
-    cells = np.floor((points - points.min(0)) / ATTACHED_PIECE_GAP_METRES).astype(int)
-    grid = np.zeros(cells.max(0) + 1, np.bool_)
-    grid[tuple(cells.T)] = True
-    return np.asarray(ndimage.label(grid, np.ones((3, 3, 3)))[0][tuple(cells.T)] - 1, np.intp)
+def _about(vertices: NDArray[np.float64], origin: NDArray[np.float64], shape: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """Which blocks are so near to a vertex (S, 3) that anything there can be worn."""
+    side = COARSE_STEP * VOLUME_SPACING_METRES
+    empty = np.ones(shape, np.bool_)
+    empty[tuple(((vertices - origin) / side).astype(int).T)] = False
+    return np.asarray(ndimage.distance_transform_edt(empty) < MAX_WORN_METRES / side)
+
+
+def _large(piece: NDArray[np.integer], number: int) -> bool:
+    return int((piece == number).sum()) * VOLUME_SPACING_METRES**3 > MIN_PIECE_CUBIC_METRES

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from engine.avatar.acting import standing_clip
 from engine.avatar.attachments.attaching import Sighting, attachments, body_surface, standing_points
@@ -14,13 +15,16 @@ from engine.avatar.texture.template_surface import template_surface
 from engine.avatar.worn import Attachments, no_attachments
 from engine.body.rest_pose import t_pose
 from engine.geometry.camera import Camera
+from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.mesh.surface import vertex_normals
+from engine.geometry.point_clouds.point_cloud import PointCloud
 from engine.geometry.rigging.skinning import skin
 from engine.geometry.texture_charts.atlas_room import cells_of
 from engine.motion.kinematics import pose_transforms
 from engine.render.rasteriser import rasterise
 
-BRIM_WIDTH = 0.06
-"""Metres from the head to the brim's rim."""
+BRIM_WIDTH, BRIM_THICKNESS = 0.06, 0.005
+"""Metres from the head to the brim's rim, and from its upper side to its lower."""
 VIEWS = 24
 
 Mesh = tuple[np.ndarray, np.ndarray]
@@ -58,11 +62,29 @@ def hatted(human: HumanModels) -> Hatted:
     flat = np.stack([radius * np.sin(turn), random.normal(0, 0.002, len(turn)), radius * np.cos(turn)], 1)
     around = np.linspace(0, 2 * np.pi, 73)[:-1]
     rim = np.stack([np.sin(around), 0 * around, np.cos(around)], 1)
-    places = np.concatenate([(inner - 0.02) * rim, outer * rim])
-    k = np.arange(72)
-    following = (k + 1) % 72
-    triangles = np.concatenate([np.stack([k, k + 72, following], 1), np.stack([following, k + 72, following + 72], 1)])
+    half = np.array([0, BRIM_THICKNESS / 2, 0])
+    rings = ((inner - 0.02) * rim + half, outer * rim + half, outer * rim - half, (inner - 0.02) * rim - half)
+    places = np.concatenate(rings)
+    k, following = np.arange(72), (np.arange(72) + 1) % 72
+    triangles = np.concatenate(
+        [
+            np.stack(corners, 1)
+            for ring in range(3)
+            for corners in (
+                (k + 72 * ring, k + 72 * ring + 72, following + 72 * ring),
+                (following + 72 * ring, k + 72 * ring + 72, following + 72 * ring + 72),
+            )
+        ]
+    )
     return Hatted(vertices, middle, float(outer), middle + flat, (middle + places, triangles.astype(np.int32)))
+
+
+def cloud_of(human: HumanModels, vertices: np.ndarray, more: np.ndarray) -> PointCloud:
+    """The skin's vertices, and more points that face up."""
+    skin_points = vertices[human.skin.vertices]
+    normals = np.concatenate([vertex_normals(skin_points, human.skin.triangles), np.tile([0, 1.0, 0], (len(more), 1))])
+    points = np.concatenate([skin_points, more])
+    return PointCloud(points.astype(np.float32), normals.astype(np.float32), np.zeros(points.shape, np.uint8))
 
 
 def seen(human: HumanModels, vertices: np.ndarray, worn: Mesh | None) -> tuple[list[np.ndarray], list[Camera]]:
@@ -82,7 +104,7 @@ def seen(human: HumanModels, vertices: np.ndarray, worn: Mesh | None) -> tuple[l
 
 @pytest.fixture(scope="module")
 def found(human: HumanModels, hatted: Hatted) -> Attachments:
-    cloud = np.concatenate([hatted.vertices[human.skin.vertices], hatted.points])
+    cloud = cloud_of(human, hatted.vertices, hatted.points)
     return attachments(human, hatted.vertices, Sighting(cloud, *seen(human, hatted.vertices, hatted.brim)))
 
 
@@ -99,11 +121,24 @@ def test_a_brim_is_a_thin_piece_as_wide_as_it_is(hatted: Hatted, found: Attachme
 
 
 def test_the_points_of_the_brim_and_of_its_root_are_those_that_stand_off(human: HumanModels, hatted: Hatted) -> None:
-    cloud = np.concatenate([hatted.vertices[human.skin.vertices], hatted.points])
+    cloud = cloud_of(human, hatted.vertices, hatted.points)
     off = standing_points(human, hatted.vertices, Sighting(cloud, *seen(human, hatted.vertices, hatted.brim)))
     assert np.abs(off[:, 1] - hatted.middle[1]).max() < 0.05
     radius = np.linalg.norm((off - hatted.middle)[:, [0, 2]], axis=1)
     assert radius.max() > hatted.outer - 0.01
+    face = hatted.vertices[human.skin.vertices[human.skin.face_points[36:]]]
+    assert cKDTree(off).query(face)[0].min() > 0.005, "the face is the skin's"
+
+
+def test_the_piece_of_a_brim_has_the_crown_that_it_encloses(
+    human: HumanModels, hatted: Hatted, found: Attachments
+) -> None:
+    body = body_surface(human, hatted.vertices)
+    crown = body.vertices[body.vertices[:, 1] > body.vertices[:, 1].max() - 0.02]
+    over = closest_points(crown, found.vertices, found.triangles)
+    assert over.distance.max() < 0.008
+    assert found.vertices[:, 1].max() > crown[:, 1].max()
+    assert found.vertices[:, 1].min() > body.vertices[human.skin.face_points[8], 1], "and no chin"
 
 
 def test_it_turns_with_the_head_alone(human: HumanModels, found: Attachments) -> None:
@@ -117,18 +152,14 @@ def test_its_charts_lie_beside_the_template_s(human: HumanModels, found: Attachm
 
 
 def test_points_that_no_silhouette_shows_are_no_piece(human: HumanModels, hatted: Hatted) -> None:
-    cloud = np.concatenate([hatted.vertices[human.skin.vertices], hatted.points])
+    cloud = cloud_of(human, hatted.vertices, hatted.points)
     bare = attachments(human, hatted.vertices, Sighting(cloud, *seen(human, hatted.vertices, None)))
     assert not len(bare.triangles)
 
 
 def test_a_body_without_anything_wears_nothing(human: HumanModels, hatted: Hatted) -> None:
-    skin_points = hatted.vertices[human.skin.vertices] + np.random.default_rng(2).normal(
-        0, 0.003, (len(human.skin.vertices), 3)
-    )
-    assert not len(
-        attachments(human, hatted.vertices, Sighting(skin_points, *seen(human, hatted.vertices, None))).triangles
-    )
+    alone = cloud_of(human, hatted.vertices, hatted.points[:0])
+    assert not len(attachments(human, hatted.vertices, Sighting(alone, *seen(human, hatted.vertices, None))).triangles)
 
 
 def test_eyes_and_mouth_are_of_the_face_that_stays_free_and_the_crown_is_not(

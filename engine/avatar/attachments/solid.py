@@ -1,0 +1,93 @@
+"""The solid of a piece that stands off: what the silhouettes have room for about it, without what views look through.
+
+Of what is filmed from all around and from above silhouettes leave little room beside the truth, and stereo, of plain dark hair and felt,
+is wrong by more. They fill hollows, as between hair and cheek, or two legs and the coat's tails behind: what views look through there
+is taken out of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+from scipy.spatial import cKDTree
+
+from engine.avatar.attachments.body_surface import BodySurface
+from engine.avatar.attachments.seen_around import SeenAround
+from engine.avatar.attachments.silhouettes import Silhouettes
+from engine.avatar.attachments.standing_off import MIN_FACE_DISTANCE_METRES, StandingPiece
+from engine.geometry.mesh.iso_surface import iso_surface
+
+GRID_SPACING_METRES = 0.004
+"""Metres between the grid's points."""
+SOLID_REACH_METRES = 0.03
+"""Metres about what stands off, and about what it covers of a head, within which the piece is."""
+SKIN_OVERLAP_METRES, SKIN_COVER_METRES = 0.006, 0.0025
+"""Metres that a piece reaches into the skin, so that no gap shows, and by which it lies over the skin that it covers on a
+head, where it is whole."""
+MIN_LOOKING_VIEWS = 3
+"""Views that must look through a place where nothing is."""
+FREE_SHARE, DOUBTED_SHARE = 0.5, 0.3
+"""Share of the views that tell of a place that look through it where the surface is, and what this share must be less or more
+for certainty."""
+ROOM_BLUR_GRID_POINTS, FREE_BLUR_GRID_POINTS, END_BLUR_GRID_POINTS = 0.8, 1.5, 3.0
+"""Grid points of the Gaussians over what silhouettes and what views say, and over where the piece ends on the skin."""
+MAX_FIELD_DISTANCE_METRES = 4 * GRID_SPACING_METRES
+"""Metres: the field says no more than that a place is so far off."""
+
+
+@dataclass(frozen=True)
+class _Grid:
+    """Places `GRID_SPACING_METRES` apart.
+
+    origin : (3,) the first of them, metres.
+    near : (X, Y, Z) bool, those at which anything can be.
+    """
+
+    origin: NDArray[np.float64]
+    near: NDArray[np.bool_]
+
+    def spread(self, values: NDArray[np.floating]) -> NDArray[np.float64]:
+        """(X, Y, Z) `values` of the places `near`, and -`MAX_FIELD_DISTANCE_METRES` elsewhere; none beyond it."""
+        out = np.full(self.near.shape, -MAX_FIELD_DISTANCE_METRES)
+        out[self.near] = np.clip(values, -MAX_FIELD_DISTANCE_METRES, MAX_FIELD_DISTANCE_METRES)
+        return out
+
+
+def solid(
+    piece: StandingPiece, body: BodySurface, silhouettes: Silhouettes, seen: SeenAround
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """The closed surface, vertices (V, 3) and triangles (T, 3), of what stands off as a `piece`. `seen` is what views see
+    about the body."""
+    grid, places, away = _around(np.concatenate([piece.places, body.vertices[piece.covered & body.head]]))
+    nearest = body.nearest(places)
+    of_head, before_face = body.head[nearest], body.face[nearest]
+    off = body.distances(places)
+    room = silhouettes.depths(places, of_head).astype(np.float64)
+    room = np.where(of_head & piece.covered[nearest], np.maximum(room, SKIN_COVER_METRES - off), room)
+    room = np.where(before_face, np.minimum(room, off - MIN_FACE_DISTANCE_METRES), room)
+    field = ndimage.gaussian_filter(grid.spread(room), ROOM_BLUR_GRID_POINTS)
+    held, ends = _held(seen.votes(places, of_head)), SOLID_REACH_METRES - away
+    for said, blur in ((held, FREE_BLUR_GRID_POINTS), (ends, END_BLUR_GRID_POINTS)):
+        field = np.minimum(field, ndimage.gaussian_filter(grid.spread(said), blur))
+    return iso_surface(np.minimum(field, grid.spread(off + SKIN_OVERLAP_METRES)), grid.origin, GRID_SPACING_METRES)
+
+
+def _held(votes: NDArray[np.integer]) -> NDArray[np.float64]:
+    """(N,) metres: positive where views do not look through places, by their votes (N, 2)."""
+    share = votes[:, 0] / np.maximum(votes.sum(1), 1)
+    said = np.clip((FREE_SHARE - share) / DOUBTED_SHARE, -1, 1)
+    return MAX_FIELD_DISTANCE_METRES * np.where(votes[:, 0] >= MIN_LOOKING_VIEWS, said, 1.0)
+
+
+def _around(own: NDArray[np.floating]) -> tuple[_Grid, NDArray[np.float64], NDArray[np.float64]]:
+    """A grid about a piece's `own` places (M, 3), its places (N, 3) near those, and how far from them they are."""
+    reach = SOLID_REACH_METRES + GRID_SPACING_METRES
+    origin = own.min(0) - reach
+    shape = np.ceil((own.max(0) + reach - origin) / GRID_SPACING_METRES).astype(int) + 1
+    places = origin + GRID_SPACING_METRES * np.moveaxis(np.indices(shape), 0, -1)
+    away = np.asarray(cKDTree(own).query(places.reshape(-1, 3), distance_upper_bound=reach)[0])
+    near = np.isfinite(away)
+    return _Grid(origin, near.reshape(tuple(shape))), places.reshape(-1, 3)[near], away[near]
