@@ -19,9 +19,10 @@ FRAME_SHEET_COLUMNS = 10
 
 
 def write_frame_sheets(folder: Path, clips: Mapping[str, ChosenFrames], synthetic: bool) -> list[Path]:
-    """Write the frames of each clip, by its name, as one picture (`body_frames.jpg`), and `frames.json`, which says where each
-    is: sheets have `columns` frames in a row, each of `cell` (width, height) pixels, row by row in the order of `frames`, their
-    numbers in the clip, and `seconds`; `size` (width, height) is the clip's own. `synthetic` as `VideoWriter` takes it. Returns the paths."""
+    """Write the frames of each clip, by its name, as one picture (`body_frames.jpg`), and `frames.json`, which says
+    where each is. Sheets have `columns` frames in a row, each of `cell` (width, height) pixels. They lie row by row in
+    the order of `frames`, their numbers in the clip, and `seconds`. `size` (width, height) is the clip's own.
+    `synthetic` as `VideoWriter` takes it. Returns the paths."""
     document: dict[str, Any] = {}
     paths = []
     for name, chosen in clips.items():

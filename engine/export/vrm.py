@@ -172,9 +172,9 @@ def _meta(meta: VrmMeta) -> dict[str, Any]:
 
 
 def _look_at(mesh: SkinnedMesh, by: Literal["bone", "expression"]) -> dict[str, Any]:
-    """Where a first-person camera sits, between the eyes if the skeleton has them, else in the middle of the head; and how
-    far the eyes go when they look aside: joints all the way to what they look at, up to `MAX_EYE_TURN_DEGREES`, or as far as the
-    expressions go."""
+    """Where a first-person camera sits, between the eyes if the skeleton has them, else in the middle of the head. Also
+    how far the eyes go when they look aside: joints all the way to what they look at, up to `MAX_EYE_TURN_DEGREES`, or
+    as far as the expressions go."""
     skeleton = mesh.skeleton
     head = skeleton.heads[skeleton.index("Head")]
     if "LeftEye" in skeleton.names and "RightEye" in skeleton.names:

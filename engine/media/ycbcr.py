@@ -2,7 +2,7 @@
 
 Every frame that comes in or goes out passes here, so the two loops are ours. At 600x800 they take about 1 ms each on
 one core. They round, and have the colour samples where H.264 has them (on the left pixel of a pair, between two rows).
-swscale's fast path is 0.4 ms but truncates (1 to 1.4 levels too dark), its accurate one takes 2.6 ms and more.
+The fast path of swscale takes 0.4 ms but truncates (1 to 1.4 levels too dark), its accurate one takes 2.6 ms and more.
 """
 
 from __future__ import annotations

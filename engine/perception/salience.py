@@ -36,8 +36,8 @@ MIN_PEOPLE_PIXELS = 16
 SALIENCE_SHARE = 0.5
 """Share of salience in the belief."""
 EDGE_WIDTH, THING_HALF_WIDTH = 0.012, 0.015
-"""How far beside people what stands out is no more than a finer edge, and half the width from which on it is a thing beyond that, as
-shares of their height: what is thinner is a foot or a hand that the networks of people miss."""
+"""How far beside people what stands out is no more than a finer edge, and half the width from which on it is a thing
+beyond that, as shares of their height. What is thinner is a foot or a hand that the networks of people miss."""
 HELD_BELIEF, HAND_REACH = 0.9, 0.075
 """Belief that a thing is somebody's that reaches one of their hands: so far from it at most, as a share of their height."""
 LARGEST_HELD, HELD_THING_LIMITS = 0.3, 0.7

@@ -1,9 +1,9 @@
 """Tracked points without jitter and without lag.
 
-A causal filter (one-euro and its kin) trades jitter for delay. A driver's clip is known whole, so each
-frame can look both ways: every position becomes the mean of those nearby in time that are also nearby in
-place, measured in units of the track's own noise (a bilateral filter along time). Motion that rises above
-the noise, a blink of three frames included, keeps its height and its moment.
+A causal filter (one-euro and its kin) trades jitter for delay. A driver's clip is known whole, so each frame can look
+both ways. Every position becomes the mean of those nearby in time that are also nearby in place, measured in units of
+the track's own noise (a bilateral filter along time). Motion that rises above the noise, a blink of three frames
+included, keeps its height and its moment.
 """
 
 from __future__ import annotations

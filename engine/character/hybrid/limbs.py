@@ -120,8 +120,9 @@ def _hem(labels: Labels, limb: NDArray[np.intp]) -> NDArray[np.float64]:
 def joined_in_depth(
     mesh: TemplateMesh, pictured: NDArray[np.float64], limbs: Limbs, trunk: Layer, labels: Labels
 ) -> tuple[NDArray[np.float64], Layer]:
-    """The shell's vertices (V, 3) and the trunk, so that limbs that are seen before the trunk are before it, those that it hides are
-    behind its front, and what of them goes on in it is within: around joints the trunk is as deep as the shell."""
+    """The shell's vertices (V, 3) and the trunk in their order of depth. Limbs that are seen before the trunk are
+    before it, and those that it hides are behind its front. What of them goes on in it is within: around joints the
+    trunk is as deep as the shell."""
     moved = pictured.copy()
     trunk = _beneath_at_the_cut(mesh, moved, limbs, _as_deep(mesh, moved, limbs, trunk), labels)
     beside = dilate_mask(trunk.mask & ~np.isin(labels.labels, LIMB_LABELS), TRUNK_BEHIND_LIMBS_PIXELS + 1)

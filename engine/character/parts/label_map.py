@@ -65,7 +65,7 @@ class Labels:
 
     @property
     def bare(self) -> Labels:
-        """The same of the body alone: what is held is no part of it."""
+        """Labels of the body alone: what is held is no part of it."""
         if self.held is None:
             return self
         return replace(self, labels=np.where(self.held >= 0, -1, self.labels).astype(np.int8))

@@ -73,8 +73,9 @@ def _hiding(template: PosedTemplate, rig: Rig, shape: tuple[int, ...]) -> int | 
 
 
 def standing_off(labels: NDArray[np.integer], leg: int, away: NDArray[np.floating]) -> float:
-    """Pixels by which what is worn on a leg stands off from it: how far `away` (h, w) from the template's its edge lies, where
-    nothing else of the person is beside it, on its lower half: further up may be a skirt."""
+    """Pixels by which what is worn on a leg stands off from it: how far `away` (h, w) from the template's its edge
+    lies. It is measured on the lower half, since further up may be a skirt, and where nothing else of the person is
+    beside it."""
     rows = np.flatnonzero((labels == leg).any(1))
     free = (labels == leg) & dilate_mask(labels < 0, 1)
     free[: int(rows.mean()) if len(rows) else 0] = False

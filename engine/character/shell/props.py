@@ -36,8 +36,8 @@ there is the fit's error."""
 DEPTH_PER_DISTANCE, MAX_DEPTH_SHARES = 1.2, {"head": 0.05, "hand": 0.05, "soft": 0.04}
 """How deep a piece is to each side: by its distance from the shell, and at most, as a share of the person's height."""
 MAX_HELD_DEPTH_SHARE, HELD_CLOSING_PIXELS, SEEN_HELD_SHARE = 0.07, 14, 0.85
-"""How deep what is held is to each side at most, as a share of the person's height; half of the pixels between
-its edges over which it goes on beneath fingers; and how much of what is seen of it is before the shell."""
+"""Of what is held: how deep it is to each side at most, as a share of the person's height. Then half of the pixels
+between its edges over which it goes on beneath fingers, and how much of what is seen of it is before the shell."""
 
 
 def props_of(

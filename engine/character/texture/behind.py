@@ -1,10 +1,11 @@
 """What is behind something round: what is seen of its sides, drawn together over the middle.
 
-Cloth goes round: what somebody wears on the back is what shows at their sides at the same height. So of each row only the outer
-parts are ever a source, whatever the middle shows: ties, prints, zips, openings and scarves cannot come to the back, and belts,
-hems and collars, stripes, checks and creases that are at the sides stay at their height. Both sides are stretched until they meet, cut where they are
-most alike (A. A. Efros, W. T. Freeman, Image Quilting for Texture Synthesis and Transfer, SIGGRAPH 2001, section 2.1), and each
-takes on the other's light on the way there. What is hidden of one side is as the other has it at the same height.
+Cloth goes round: what somebody wears on the back is what shows at their sides at the same height. So of each row only
+the outer parts are ever a source, whatever the middle shows. Ties, prints, zips, openings and scarves cannot come to
+the back. Belts, hems and collars, stripes, checks and creases that are at the sides stay at their height. Both sides
+are stretched until they meet, cut where they are most alike (A. A. Efros, W. T. Freeman, Image Quilting for Texture
+Synthesis and Transfer, SIGGRAPH 2001, section 2.1), and each takes on the other's light on the way there. What is
+hidden of one side is as the other has it at the same height.
 """
 
 from __future__ import annotations

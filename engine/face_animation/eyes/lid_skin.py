@@ -38,8 +38,8 @@ LIGHTER_SKIN_SHARE = 0.5
 MIN_CHEEK_SHARE = 0.8
 """A lid's brightness, as a share of the cheek's, under which it is in the socket's shadow, as a shut lid is not."""
 HIGHLIGHT_CHEEK_SHARES = (1.0, 1.15)
-"""Brightness of skin above a lid, as a share of the cheek's, from which on it is a highlight, and at which it has nothing but the light's hue: a lid is the cheek's then,
-for as light as that it would be white."""
+"""Brightness of skin above a lid, as a share of the cheek's, from which on it is a highlight, and at which it has
+nothing but the light's hue. Then a lid has the cheek's: as light as that it would be white."""
 SOCKET_SHADE_SHARE = 0.35
 """The share that is left of what the socket's shadow makes a lid darker."""
 CORNER_FADE_EYE_WIDTHS = 0.4
@@ -63,8 +63,8 @@ CREASE_PLACE_SHARE, CREASE_WIDTH_SHARE, CREASE_SHADE_SHARE = 0.36, 0.14, 0.08
 """Where the crease above a lid is, as a share of the way from the skin above to the lid's edge, how wide it is, and by
 how much it is darker there: soft, for a line would be an outline."""
 SEAM_COVER_EYE_WIDTHS = 0.05
-"""Eye widths around the line where lids meet, and beyond its ends, that are of the lid's colour: the tracker's eye and the picture's differ by as much, and what is
-left of the picture's beside the line are specks of white and lash."""
+"""Eye widths around the line where lids meet, and beyond its ends, that are of the lid's colour. The tracker's eye and
+the picture's differ by as much, and what is left of the picture's beside the line are specks of white and lash."""
 _STRIP_TRIANGLES = np.array([t for k in range(8) for t in ((k, k + 1, 9 + k), (k + 1, 10 + k, 9 + k))], np.int32)
 
 

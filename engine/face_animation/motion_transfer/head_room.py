@@ -113,8 +113,9 @@ def soft_limit(
 
 
 def limit_rotation(rotation: NDArray[np.float64], turned: tuple[float, float] = (0.0, 0.0)) -> NDArray[np.float64]:
-    """Rotations (N, 3, 3) with turns out of the picture plane held back softly to `MAX_TURN_RADIANS`, for a face that its picture shows `turned` out of
-    it, about x and y, radians: it has less room to the side to which it is turned, and less to turn back (`max_counter_rotation`)."""
+    """Rotations (N, 3, 3) with turns out of the picture plane held back softly to `MAX_TURN_RADIANS`. The picture shows
+    the face `turned` out of its plane, about x and y, radians. It has less room to the side to which it is turned, and
+    less to turn back (`max_counter_rotation`)."""
     limited = rotation.copy()
     own = np.asarray(turned)
     for i, r in enumerate(rotation):

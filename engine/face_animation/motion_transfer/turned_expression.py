@@ -1,9 +1,10 @@
 """Expressions of heads that are turned aside: as even as faces are.
 
-What a tracker guesses of a face's depth it guesses wrong by a tenth of the eyes' distance and more, and by as much as a head turns that is seen
-as an expression: chin and nose slide aside, one corner of the mouth rises, one eye narrows. All of it differs from left to right, and is the
-driver's own: on another face, whose depth is otherwise wrong, it is a sheared mask. Nobody's expression is known to be lopsided in a face of
-which one half is hardly seen. So with the turn the two halves take their mean; seen from the front a smirk or a wink stays what it is.
+What a tracker guesses of a face's depth it guesses wrong by a tenth of the eyes' distance and more. By as much as a
+head turns, that is seen as an expression: chin and nose slide aside, one corner of the mouth rises, one eye narrows.
+All of it differs from left to right, and is the driver's own: on another face, whose depth is otherwise wrong, it is a
+sheared mask. Nobody's expression is known to be lopsided in a face of which one half is hardly seen. So with the turn
+the two halves take their mean; seen from the front a smirk or a wink stays what it is.
 """
 
 from __future__ import annotations

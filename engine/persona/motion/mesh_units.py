@@ -1,8 +1,9 @@
 """The tracked face mesh on the template's face, and what ARKit's face units do to all of its vertices.
 
-The canonical face mesh is laid on the template and bent so that its lids and lips lie where the template's are, as these are
-seen from before: lids end where eyeballs begin, and lips part where an open jaw parts the skin. What each vertex then lies on, moves
-it. `engine.body.face.face_mesh_points` has fewer vertices, those that tell most of what a tracked face does.
+The canonical face mesh is laid on the template and bent so that its lids and lips lie where the template's are, as
+these are seen from before. Lids end where eyeballs begin, and lips part where an open jaw parts the skin. What each
+vertex then lies on, moves it. `engine.body.face.face_mesh_points` has fewer vertices, those that tell most of what a
+tracked face does.
 """
 
 from __future__ import annotations

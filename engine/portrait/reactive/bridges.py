@@ -33,7 +33,7 @@ HOLD_FRAMES = 2
 """Frames of rest after each bridge, which cost next to nothing: a player that stops late shows nothing else."""
 MAX_FRAMES_PER_KEYFRAME = 32
 """Bridges are coded one after another from one whole picture on, the one at rest, as long as no more frames than these
-follow it: that many must be decoded at worst before a bridge is seen, and whole pictures are what bridges cost."""
+follow it. That many must be decoded at worst before a bridge is seen, and whole pictures are what bridges cost."""
 
 
 @dataclass(frozen=True)

@@ -27,8 +27,8 @@ MAX_SKIN_COLOUR_DISTANCE = 14.0
 MIN_HAND_SHARE = 0.2
 """Of what frames show of a hand that has to be like the face's skin for the hand's own tone to be believed."""
 MIN_GLOVE_SHARE, MAX_GLOVE_COLOUR_SPREAD, MIN_GLOVE_COLOUR_DISTANCE = 0.3, 8.0, 12.0
-"""A glove is seen on so much of a hand at least, in colours whose median distance from their middle is below so much, and so far
-from those of the sleeve: what is like the sleeve is a sleeve, seen beside the hand."""
+"""When a glove is seen: on so much of a hand at least, in colours whose median distance from their middle is below so
+much, and so far from those of the sleeve. What is like the sleeve is a sleeve, seen beside the hand."""
 
 
 def face_skin(

@@ -1,10 +1,10 @@
 """A part's colours all round, from what is seen of it: cloth goes round.
 
-Each row of an unrolled part is modelled by what its two sides say of it: a colour at its left, one at its right, and between them
-the way from one to the other. What lies behind is what lies before it, seen through, as far as it is of the model's
-kind, and the model itself elsewhere: a tie, a print, a zip or a collar is unlike the sides of its own rows, and stays in
-front; a stripe, a belt or a plaid is like them, and goes round. As the model is exact at both sides, the light of
-somebody lit from one side has no border behind.
+Each row of an unrolled part is modelled by what its two sides say of it: a colour at its left, one at its right, and
+between them the way from one to the other. What lies behind is what lies before it, seen through, as far as it is of
+the model's kind, and the model itself elsewhere. A tie, a print, a zip or a collar is unlike the sides of its own rows,
+and stays in front. A stripe, a belt or a plaid is like them, and goes round. As the model is exact at both sides, the
+light of somebody lit from one side has no border behind.
 """
 
 from __future__ import annotations
@@ -120,9 +120,10 @@ def coloured_round(
 
 
 def reflections(known: NDArray[np.bool_]) -> list[tuple[NDArray[np.intp], NDArray[np.float32]]]:
-    """For each cell (A, `UNROLLED_COLUMNS`) the column that is as far within the border of what is `known` of its row, the middle column facing
-    the viewer, as the cell is beyond it: of the border at its left and of that at its right, and how much each counts. So what is seen goes on
-    at its border without a seam, to and fro; behind, one side goes over into the other. What is within is itself."""
+    """For each cell (A, `UNROLLED_COLUMNS`) the column that mirrors it at the border of what is `known` of its row: as
+    far within as the cell is beyond. There is one for the border at its left and one for that at its right, and how
+    much each counts. The middle column faces the viewer. So what is seen goes on at its border without a seam, to and
+    fro; behind, one side goes over into the other. What is within is itself."""
     middle, columns = UNROLLED_COLUMNS // 2, np.arange(UNROLLED_COLUMNS)
     quarter = UNROLLED_COLUMNS // 4
     there = known & (np.abs(columns - middle) <= quarter)

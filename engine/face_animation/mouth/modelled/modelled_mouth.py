@@ -67,8 +67,9 @@ MAX_CROWN_EYE_DISTANCES = 0.17
 """Eye distances of the upper row that are seen below the middle of the upper lip, at most. Where a lip is drawn up
 farther than its person's would be, the row goes along, and no more of its gum is bared."""
 ROUNDED_NARROWING_SHARE, ROUNDED_CROWN_EYE_DISTANCES = 0.05, 0.6
-"""Share of its width by which a mouth is narrower than at rest from which on its lips are rounded, and eye distances of the upper row that they
-cover for all of it: lips that say O are pushed forward over the teeth, though their edges are as high as in a smile."""
+"""Share of its width by which a mouth is narrower than at rest from which on its lips are rounded, and eye distances of
+the upper row that they cover for all of it. Lips that say O are pushed forward over the teeth, though their edges are
+as high as in a smile."""
 APPEARING_OPENING_RANGE = 0.03
 """By how much a mouth opens while its inside appears."""
 CAMERA_DISTANCE_PIXELS = 4096.0

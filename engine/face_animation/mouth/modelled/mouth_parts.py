@@ -46,8 +46,9 @@ BAG_BOTTOM_EYE_DISTANCES = 0.05
 CROWN_SHADE_FACTORS = (0.9, 1.1)
 """Of single crowns, the darkest and the lightest."""
 BACKING_DEPTH_METRES, BACKING_HEIGHT_SHARES, BACKING_LIGHT_SHARE = 0.0022, (-0.2, 0.93), 0.75
-"""Metres behind the front of the arch, and shares of its crowns' heights, from and up to which there is the wall that closes the gaps between
-them, and its share of their light: without it the dark of the throat stands between teeth as lines."""
+"""The wall that closes the gaps between crowns: metres behind the front of the arch, the shares of the crowns' heights
+from and up to which it is there, and its share of their light. Without it the dark of the throat stands between teeth
+as lines."""
 BACKING_COLUMNS = 48
 
 
