@@ -77,6 +77,13 @@ def test_one_range(running: Running, artifact: dict[str, Any], asked: str, start
     assert response.headers["content-length"] == str(end - start)
 
 
+def test_ranges_are_of_get_alone(running: Running, artifact: dict[str, Any]) -> None:
+    """RFC 9110, section 14.2."""
+    response = running.client.head(artifact["url"], headers={"Range": "bytes=0-9"})
+    assert (response.status_code, response.headers["content-length"]) == (200, str(SIZE))
+    assert "content-range" not in response.headers
+
+
 def test_several_ranges(running: Running, artifact: dict[str, Any]) -> None:
     response = running.client.get(artifact["url"], headers={"Range": "bytes=0-9, 1000-1099, -3"})
     assert response.status_code == 206
