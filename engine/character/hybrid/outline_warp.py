@@ -19,7 +19,7 @@ from engine.render.rasteriser import rasterise
 
 FINE_SCALE = 3
 """Pixels at which silhouettes are compared for each of the grid's."""
-MAX_WARP_PIXELS, MIN_FACING_COSINE = 6.0, 0.6
+MAX_WARP_PIXELS, MIN_OUTLINE_NORMAL_COSINE = 6.0, 0.6
 """Pixels of the grid that a silhouette is drawn at most, and cosine between its normal and that of the outline there."""
 WARP_SIGMA_PIXELS, FULL_WARP_WEIGHT = 4.0, 0.02
 """Pixels of the grid over which the warp is one; and how much of the silhouette is about a place that goes with it wholly."""
@@ -59,7 +59,9 @@ def drawn_to_the_outline(
         if not len(points):
             return moved
         away, nearest = tree.query(points)
-        agrees = (away < MAX_WARP_PIXELS * FINE_SCALE) & ((normals * facing[nearest]).sum(1) > MIN_FACING_COSINE)
+        agrees = (away < MAX_WARP_PIXELS * FINE_SCALE) & (
+            (normals * facing[nearest]).sum(1) > MIN_OUTLINE_NORMAL_COSINE
+        )
         field = _spread(points[agrees], (outline[nearest] - points)[agrees], (size[1], size[0]))
         at = ((moved[own, :2] + 0.5) * FINE_SCALE - 0.5).astype(np.float32)
         shift = cv2.remap(field, at[:, None, 0].copy(), at[:, None, 1].copy(), cv2.INTER_LINEAR)[:, 0]
