@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from engine.face_animation.mouth.lip_contours import LOWER_INNER_LIP, UPPER_INNER_LIP, box_around
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.landmarks import LIPS_INNER, eye_distance, mouth_opening
+from engine.perception.landmarks import eye_distance, mouth_opening
 
 MEETING_OPENINGS = (0.012, 0.05)
 """Openings of a mouth, its gap over its width, up to which its lips have met, and from which on they have not."""
@@ -20,15 +20,18 @@ SEAM_WIDTH_EYE_DISTANCES, SEAM_SOFTNESS_EYE_DISTANCES, MIN_SEAM_PIXELS = 0.03, 0
 """Eye distances, of the line and of its edges, and pixels that either has at least."""
 SEAM_LIGHT_SHARE = 0.42
 """Share of the lips' light that is left in the line between them."""
+BARE_WIDTH_EYE_DISTANCES, MAX_LIP_LIGHT_RATIO = 0.1, 1.1
+"""Eye distances around the line within which nothing is lighter than so many times the lips: the edges of teeth that the picture shows lie there, where landmarks
+are wrong."""
 WIDTH_SHARES = (0.2, 0.4, 0.7, 0.9, 1.0, 1.0, 1.0, 0.9, 0.7, 0.4, 0.2)
 """Of the line between lips, the shares of its width that it has from corner to corner."""
 
 
 class LipSeam:
-    """`MouthInterior` of parted lips: `inside`, and as they close a line in the lips' `colour` (3,), darkened."""
+    """`MouthInterior` of parted lips: `inside`, and as they close a line in the lips' `colour` (3,), darkened, and nothing lighter than these beside it."""
 
     def __init__(self, inside: MouthInterior, colour: NDArray[np.floating]):
-        self.inside, self._colour = inside, SEAM_LIGHT_SHARE * np.asarray(colour, np.float32)
+        self.inside, self._lips = inside, np.asarray(colour, np.float32)
 
     def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], driver_frame: int) -> None:
         """As `MouthInterior.draw`."""
@@ -36,18 +39,31 @@ class LipSeam:
         if share < 1:
             self.inside.draw(frame, face, driver_frame)
         unit = float(eye_distance(face))
-        width, soft = (
-            max(one * unit, MIN_SEAM_PIXELS) for one in (SEAM_WIDTH_EYE_DISTANCES, SEAM_SOFTNESS_EYE_DISTANCES)
+        width, soft, bare = (
+            max(one * unit, MIN_SEAM_PIXELS)
+            for one in (SEAM_WIDTH_EYE_DISTANCES, SEAM_SOFTNESS_EYE_DISTANCES, BARE_WIDTH_EYE_DISTANCES)
         )
-        box = box_around(face[list(LIPS_INNER), :2].astype(np.float32), frame.shape[:2])
+        outline = seam(face, bare).astype(np.float32)
+        box = box_around(outline, frame.shape[:2])
         if share == 0 or box is None:
             return
         x0, y0, x1, y1 = box
-        mask = np.zeros((y1 - y0, x1 - x0), np.uint8)
-        cv2.fillPoly(mask, [np.round(16 * (seam(face, width) - (x0, y0))).astype(np.int32)], 255, cv2.LINE_AA, 4)
-        alpha = share * cv2.GaussianBlur(mask.astype(np.float32) / 255, (0, 0), soft)[..., None]
         part = frame[y0:y1, x0:x1]
-        part[:] = np.clip(part + alpha * (self._colour - part) + 0.5, 0, 255).astype(np.uint8)
+        seen = part.astype(np.float32)
+        seen += (
+            share
+            * _soft(outline - (x0, y0), soft, part.shape[:2])
+            * (np.minimum(seen, MAX_LIP_LIGHT_RATIO * self._lips) - seen)
+        )
+        line = _soft(seam(face, width) - (x0, y0), soft, part.shape[:2])
+        part[:] = np.clip(seen + share * line * (SEAM_LIGHT_SHARE * self._lips - seen) + 0.5, 0, 255).astype(np.uint8)
+
+
+def _soft(outline: NDArray[np.floating], soft: float, shape: tuple[int, ...]) -> NDArray[np.float32]:
+    """(h, w, 1) the coverage of an outline (P, 2), blurred by `soft` pixels."""
+    mask = np.zeros(shape, np.uint8)
+    cv2.fillPoly(mask, [np.round(16 * outline).astype(np.int32)], 255, cv2.LINE_AA, 4)
+    return np.asarray(cv2.GaussianBlur(mask.astype(np.float32) / 255, (0, 0), soft), np.float32)[..., None]
 
 
 def met_share(opening: float) -> float:

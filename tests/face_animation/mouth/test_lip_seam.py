@@ -44,3 +44,14 @@ def test_the_line_comes_with_the_closing() -> None:
     assert shares[0] == 1 and shares[-1] == 0
     assert (np.diff(shares) <= 0).all()
     assert met_share(sum(MEETING_OPENINGS) / 2) == pytest.approx(0.5)
+
+
+def test_no_edge_of_the_picture_s_teeth_is_left_beside_the_line() -> None:
+    """Neither above nor below it, where landmarks are wrong."""
+    face = opened(placed(90, (150, 150)), 0.0)[:, :2].astype(np.float32)
+    x, y = face[[13, 14]].mean(axis=0).round().astype(int)
+    frame = np.full((300, 300, 3), 120, np.uint8)
+    frame[y - 3 : y + 4, x - 10 : x + 11] = 255
+    LipSeam(White(), LIPS).draw(frame, face, 0)
+    assert frame[y - 3 : y + 4, x - 10 : x + 11].max() < 225
+    assert (frame[y + 14, x] == 120).all()
