@@ -12,6 +12,8 @@ from service.database.sessions import Database
 from service.ids import new_id
 from service.job_records import jobs as repository
 from service.job_records import search
+from service.keys.schemas import KeyIn
+from service.keys.service import create
 from service.tables.files import File
 from service.tables.jobs import Job
 from service.tables.keys import LOCAL_KEY_ID
@@ -81,3 +83,25 @@ def test_both_databases_find_the_same(database: Database) -> None:
     with database.read() as session:
         assert repository.page(session, LOCAL_KEY_ID, 10, words=search.search_words("penelope été walk"))
         assert not repository.page(session, LOCAL_KEY_ID, 10, words=search.search_words("ὀδυσσεύσ"))
+
+
+def test_a_job_is_not_found_by_the_name_of_somebody_else_s_file(database: Database) -> None:
+    kind = Kind("painting", "", [Input("photo", "image", "")], None, None)  # type: ignore[arg-type]
+    moment = now()
+    with database.write() as session:
+        other, _ = create(session, KeyIn(name="other"))
+        session.flush()
+        files = [
+            File(id=new_id(), owner=owner, name=name, content_type="image/png", size=1, sha256="", created_at=moment)
+            for owner, name in ((LOCAL_KEY_ID, "rome.png"), (other.id, "secret.png"))
+        ]
+        session.add_all(files)
+        session.flush()
+        job = Job(
+            id=new_id(),
+            **{"owner": LOCAL_KEY_ID, "kind": "painting", "status": "queued", "sources": {}, "notes": {}},
+            **{"progress": {}, "options": {}, "inputs": {"photo": [file.id for file in files]}},
+            **{"created_at": moment, "enqueued_at": moment},
+        )
+        search.describe(session, job, kind)
+        assert job.search.split() == ["painting", "rome.png"]
