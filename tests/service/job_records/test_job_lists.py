@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from datetime import timedelta
+
 import pytest
 from sqlalchemy.orm import Session
 
@@ -11,7 +13,9 @@ from service.ids import new_id
 from service.job_records import jobs
 from service.keys.schemas import KeyIn
 from service.keys.service import create
+from service.tables.files import File
 from service.tables.jobs import Job, Status
+from service.tables.kept import Driver, Motion
 
 
 @pytest.fixture
@@ -70,3 +74,18 @@ def test_versions_are_those_of_one_owner(context: Context, other: str) -> None:
         theirs = add(session, "succeeded", owner=other)
     with context.database.read() as session:
         assert jobs.versions(session, "local", [first, theirs]) == {first: 2}
+
+
+def test_what_was_found_in_something_that_is_kept_does_not_end_with_other_old_jobs(context: Context) -> None:
+    with context.database.write() as session:
+        old, of_driver, of_motion, young = (add(session, "succeeded") for _ in range(4))
+        for one, days in ((old, 30), (of_driver, 40), (of_motion, 40), (young, 1)):
+            session.get_one(Job, one).finished_at = now() - timedelta(days=days)
+        file = File(id=new_id(), owner="local", name="a", content_type="video/mp4", size=1, sha256="", created_at=now())
+        session.add(file)
+        session.flush()
+        for table, inspection in ((Driver, of_driver), (Motion, of_motion), (Driver, None)):
+            name = f"{table.__name__} {inspection is None}"
+            session.add(table(owner="local", name=name, file_id=file.id, inspection_job=inspection, created_at=now()))
+    with context.database.read() as session:
+        assert [job.id for job in jobs.ended_before(session, now() - timedelta(days=20), 10)] == [old]

@@ -125,3 +125,17 @@ def test_what_is_left_of_a_deleted_job_goes_and_the_tree_s_stays_for_its_other_v
         assert jobs.with_folder(session, [first.id]) == set()
     erase_unneeded(context, first)
     assert not any(folder.exists() for folder in folders)
+
+
+def test_what_a_deleted_job_s_stages_found_stays_as_long_as_a_version_of_it_is_there(context: Context) -> None:
+    first = recorded(context)
+    revision = recorded(context, first.id)
+    folders = [folder_with_something(context, one.id) for one in (first, revision)]
+    with context.database.write() as session:
+        session.delete(session.get_one(Job, first.id))
+    erase_unneeded(context, first)
+    assert [folder.exists() for folder in folders] == [True, True], "the revision lives on what the first one found"
+    with context.database.write() as session:
+        session.delete(session.get_one(Job, revision.id))
+    erase_unneeded(context, revision)
+    assert not any(folder.exists() for folder in folders)
