@@ -11,9 +11,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.motion_transfer.spectacles import behind_frame
 from engine.face_animation.skin_colour import chroma
+from engine.face_animation.smoothstep import smoothstep
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.perception.face_track.face_crop import CROP_EYE_DISTANCE_PIXELS
+from engine.perception.face_wear import face_wear
 from engine.perception.landmarks import FACE_OVAL, LEFT_BROW, LEFT_EYE, LIPS_OUTER, RIGHT_BROW, RIGHT_EYE
 
 CELL_PIXELS = 3
@@ -33,6 +36,9 @@ BESIDE_EYE_DISTANCES = 0.07
 """From what is not skin within which a ratio is not trusted either."""
 BESIDE_BROW_EYE_DISTANCES = 0.12
 """Eye distances from a brow within which a ratio is not trusted: it rises by more than its tracked points."""
+SPECTACLES_BRIDGE_STRENGTHS = (0.025, 0.05)
+"""Of `FaceWear.bridge` of a driver, up to which it wears no spectacles, and from which on it does: clips of bare faces have 0.002 to 0.007, of thin rims from 0.023 on.
+Brows that meet, taken for them, cost some creases."""
 BLURRED_DETAIL_SHARE, SHARP_DETAIL_SHARE = 0.3, 0.6
 """Of the neutral frame's fine structure: a frame that has less is blurred by its motion."""
 
@@ -66,6 +72,7 @@ class SkinInBoth:
                 np.abs(self._chroma - tone).max(axis=-1), SKIN_CHROMA_DIFFERENCES * 2, NO_SKIN_CHROMA_DIFFERENCES * 2
             ),
         )
+        features = np.maximum(features, _behind_spectacles(neutral, rest, small.shape[:2]))
         self._neutral = 1 - np.maximum(cv2.dilate(other * self._face, _disk(BESIDE_EYE_DISTANCES)), features)
 
     def share(self, crop: NDArray[np.uint8], origin: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -99,6 +106,20 @@ class SkinInBoth:
     def _beside_skin(self, value: NDArray[np.float32]) -> NDArray[np.float32]:
         """A `value` (h, w) against the mean of the skin around."""
         return np.asarray(value / np.maximum(_around(value * self._skin) / self._weight, 1e-2), np.float32)
+
+
+def _behind_spectacles(
+    neutral: NDArray[np.uint8], rest: NDArray[np.floating], shape: tuple[int, ...]
+) -> NDArray[np.float32]:
+    """(h, w) how far a driver's `neutral` crop, whose face is at `rest` (468, 2 or 3), shows spectacles: thin rims of metal have the skin's colours, and slide over
+    it with every smile."""
+    bridge = face_wear(neutral, rest).bridge
+    band = np.zeros(shape, np.float32)
+    if bridge > SPECTACLES_BRIDGE_STRENGTHS[0]:  # nor where it cannot be told, NaN
+        behind = rest[behind_frame()[: len(rest)] > 0.5, :2] / CELL_PIXELS
+        share = float(smoothstep(bridge, *SPECTACLES_BRIDGE_STRENGTHS))
+        cv2.fillConvexPoly(band, cv2.convexHull(behind.round().astype(np.int32)), share)
+    return band
 
 
 def _around(value: NDArray[np.float32]) -> NDArray[np.float32]:

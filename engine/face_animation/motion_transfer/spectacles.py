@@ -29,12 +29,7 @@ def spectacles_share(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDAr
     bridge = face_wear(rgb, mesh).bridge
     if not bridge > BRIDGE_STRENGTHS[0]:  # nor where it cannot be told, NaN
         return np.zeros(MESH_SIZE)
-    height = canonical_face()[:, 1]
-    share = (
-        smoothstep(bridge, *BRIDGE_STRENGTHS)
-        * smoothstep(height, *UPPER_RIM_EYE_DISTANCES)
-        * smoothstep(height, *LOWER_RIM_EYE_DISTANCES)
-    )
+    share = smoothstep(bridge, *BRIDGE_STRENGTHS) * behind_frame()
     free = {
         *np.ravel(LID_EDGE_VERTEX_PAIRS),
         *RIGHT_EYE,
@@ -45,3 +40,11 @@ def spectacles_share(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDAr
     }
     share[sorted(int(vertex) for vertex in free)] = 0
     return share
+
+
+def behind_frame() -> NDArray[np.float64]:
+    """(478,) how far each vertex of a face that wears spectacles lies behind them, lenses and all."""
+    height = canonical_face()[:, 1].astype(float)
+    return np.asarray(
+        smoothstep(height, *UPPER_RIM_EYE_DISTANCES) * smoothstep(height, *LOWER_RIM_EYE_DISTANCES), float
+    )

@@ -67,3 +67,15 @@ def test_flat_colour_is_told_from_skin(face: NDArray) -> None:
     everywhere = np.ones(CROP_SHAPE, np.float32)
     assert flatness(face, everywhere, 96.0) < 0.05
     assert flatness(np.full_like(face, SKIN), everywhere, 96.0) == 1
+
+
+def test_behind_spectacles_there_are_no_creases_and_below_them_there_are(face: NDArray) -> None:
+    """Rims as light as the skin are told by their bridge alone."""
+    worn = face.copy()
+    x, y = (int(one) for one in FACE[6].round())
+    for shade, rows in ((0.7, slice(y - 5, y - 1)), (1.15, slice(y - 1, y + 2)), (0.7, slice(y + 2, y + 6))):
+        worn[rows, x - 16 : x + 17] = np.clip(shade * np.array(SKIN), 0, 255)
+    under, lip = (tuple(int(one) for one in FACE[vertex].round()) for vertex in (118, 165))
+    assert share(face, face, under) > 0.9
+    assert share(worn, worn, under) < 0.1
+    assert share(worn, worn, lip) > 0.9
