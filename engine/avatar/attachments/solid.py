@@ -24,7 +24,7 @@ GRID_SPACING_METRES = 0.004
 """Metres between the grid's points."""
 SOLID_REACH_METRES = 0.03
 """Metres about what stands off, and about what it covers of a head, within which the piece is."""
-SKIN_OVERLAP_METRES, SKIN_COVER_METRES = 0.006, 0.0025
+SKIN_OVERLAP_METRES, SKIN_COVER_METRES = 0.006, 0.0015
 """Metres that a piece reaches into the skin, so that no gap shows, and by which it lies over the skin that it covers on a
 head, where it is whole."""
 MIN_LOOKING_VIEWS = 3

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.texture.template_surface import TemplateSurface, template_surface
@@ -72,6 +73,24 @@ def test_what_lies_in_a_lid_s_fold_is_not_taken_from_frames_and_painted_like_the
     lids = texture[inside].astype(float) / [180, 130, 110]
     assert 0.25 < np.median(lids) <= 1 and lids.max() <= 1
     assert (texture[~inside] == (180, 130, 110)).all()
+
+
+def test_a_shut_lid_s_skin_goes_over_to_what_frames_show_beside_it(surface: TemplateSurface) -> None:
+    folds = surface.lid_folds(surface.rest)
+    raster = texel_raster(surface.atlas, 2048)
+    light, dark = np.array([180, 130, 110]), np.array([90, 65, 55])
+    texture = np.full((2048, 2048, 3), light, np.uint8)
+    eye = surface.rest[surface.lid_rims["left_eye"]]
+    shown = PartTexels.of(raster, surface.of("body") & ~surface.sockets & ~np.any(list(folds.values()), axis=0))
+    places = shown.blend(surface.rest, surface.triangles)
+    texture.reshape(-1, 3)[shown.texels[places[:, 1] > eye[:, 1].mean()]] = dark
+    place_lids(texture, surface, surface.rest, raster)
+    lids = PartTexels.of(raster, folds["left_eye"])
+    distance, nearest = cKDTree(places).query(lids.blend(surface.rest, surface.triangles))
+    brightness = texture.reshape(-1, 3)[lids.texels].mean(1)
+    beside = (distance < 0.0005) & (places[nearest, 1] > eye[:, 1].mean() + 0.002)
+    assert beside.sum() > 20
+    assert brightness[beside].mean() == pytest.approx(dark.mean(), abs=0.3 * (light - dark).mean())
 
 
 def test_what_a_hand_lies_on_is_not_taken_from_frames(surface: TemplateSurface) -> None:

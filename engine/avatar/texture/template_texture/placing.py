@@ -34,6 +34,9 @@ UPPER_LID_SKIN_EYE_WIDTHS = 0.2
 """Widths of an eye from the rim of its upper lid to where shut lids have the colour of the skin above, which is in the shade of the brow."""
 SHUT_LASH_SHADE_SHARE, SHUT_LASH_WIDTH_METRES = 0.5, 0.0007
 """Of the light, what lashes take along a shut lid's rim, and metres over which that fades."""
+LID_BORDER_METRES, LID_BORDER_TEXELS = 0.002, 12
+"""Metres over which a shut lid's painted skin goes over to what frames show beside it, and texels there that are asked for their
+mean."""
 LASH_RIM_STEPS = 8
 """Places between two vertices of a rim from which it is measured."""
 WRIST_LENGTH_METRES, CUFF_LENGTH_METRES = 0.03, 0.004
@@ -110,14 +113,21 @@ def place_lids(
         middles = places[surface.triangles].mean(1)
         near = np.isfinite(loop.query(middles, distance_upper_bound=LOWER_LID_SKIN_EYE_WIDTHS * width)[0])
         about = PartTexels.of(raster, skin & near & (middles[:, 1] < rim[:, 1].mean()))
-        lids = PartTexels.of(raster, folded)
+        beside, lids = PartTexels.of(raster, skin & near), PartTexels.of(raster, folded)
         if not len(about.texels) or not len(lids.texels):
             continue
         tone = np.median(flat[about.texels], axis=0)
-        away = loop.query(lids.blend(places, surface.triangles))[0]
+        on_lids = lids.blend(places, surface.triangles)
+        away = loop.query(on_lids)[0]
         share = np.clip(away / (UPPER_LID_SKIN_EYE_WIDTHS * width), 0, 1)[:, None]
         skin_light = (1 - SHUT_LASH_SHADE_SHARE * np.exp(-away / SHUT_LASH_WIDTH_METRES))[:, None]
-        lids.put(texture, skin_light * (tone + share * (flat[lids.texels] - tone)))
+        painted = skin_light * (tone + share * (flat[lids.texels] - tone))
+        distance, which = cKDTree(beside.blend(places, surface.triangles)).query(
+            on_lids, min(LID_BORDER_TEXELS, len(beside.texels))
+        )
+        distance, which = (np.reshape(one, (len(on_lids), -1)) for one in (distance, which))
+        seen = flat[beside.texels][which].mean(1)
+        lids.put(texture, painted + np.exp(-distance[:, :1] / LID_BORDER_METRES) * (seen - painted))
 
 
 def place_hands(
