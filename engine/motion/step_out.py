@@ -187,10 +187,10 @@ def _blend(
 
 @dataclass(frozen=True)
 class _Track:
-    """Where the toe joint of a foot is (F, 3), and the world turns of foot and toes (F, 4)."""
+    """Where the toe joint of a foot is (F, 3), and the world rotations of foot and toes (F, 4)."""
 
     toe: Array
-    turns: Array
+    rotations: Array
     toes: Array
 
 
@@ -200,9 +200,9 @@ def _tracks(skeleton: Skeleton, clip: Clip) -> list[_Track]:
     tracks = []
     for sole in soles(skeleton):
         ankle, toe = sole.joints[2:]
-        turns = world[:, ankle]
-        joint = places[:, ankle] + rotation.rotate(turns, sole.toe)
-        tracks.append(_Track(joint, turns, world[:, toe] if toe >= 0 else turns))
+        rotations = world[:, ankle]
+        joint = places[:, ankle] + rotation.rotate(rotations, sole.toe)
+        tracks.append(_Track(joint, rotations, world[:, toe] if toe >= 0 else rotations))
     return tracks
 
 
@@ -215,12 +215,12 @@ def _stepped(sole: Sole, own: _Track, clip_foot: _Track, window: _Window, times:
     gap = float(np.linalg.norm((clip_foot.toe[end] - own.toe[0])[[0, 2]]))
     high = min(STEP_LIFT * leg, gap / 3) * np.sin(np.pi * u) ** 2 * window.lifted
     toe = toe + high[:, None] * [0, 1, 0]
-    turns = rotation.slerp(np.broadcast_to(own.turns, clip_foot.turns.shape), clip_foot.turns, share)
+    rotations = rotation.slerp(np.broadcast_to(own.rotations, clip_foot.rotations.shape), clip_foot.rotations, share)
     toes = rotation.slerp(np.broadcast_to(own.toes, clip_foot.toes.shape), clip_foot.toes, share)
-    ankle = toe - rotation.rotate(turns, sole.toe)
-    depth = -sole.points(ankle, turns, toes)[..., 1].min(-1)
+    ankle = toe - rotation.rotate(rotations, sole.toe)
+    depth = -sole.points(ankle, rotations, toes)[..., 1].min(-1)
     ankle = ankle + (np.maximum(depth, 0) * np.minimum(times / 0.2, 1))[:, None] * [0, 1, 0]
-    return HeldFoot(turns, toes, ankle, np.ones(len(times)))
+    return HeldFoot(rotations, toes, ankle, np.ones(len(times)))
 
 
 def _eased(share: Array) -> Array:

@@ -46,11 +46,14 @@ BONE_END_LANDMARKS = {
 
 @dataclass(frozen=True)
 class FlatPose:
-    """`places` (J, 2): the joints in the picture, pixels. `turns` (J,): each joint's turn in the world from the T-pose, radians, from x
-    to y, which is up."""
+    """Where a drawing has its joints.
+
+    places : (J, 2) in the picture, pixels.
+    angles : (J,) radians by which each is turned in the world from the T-pose, from x to y, which is up.
+    """
 
     places: NDArray[np.float64]
-    turns: NDArray[np.float64]
+    angles: NDArray[np.float64]
 
 
 def flat_pose(figure: Figure) -> FlatPose:
@@ -65,9 +68,9 @@ def flat_pose(figure: Figure) -> FlatPose:
     neck = chest + max(0.0, 1 - chin / max(float(np.linalg.norm(head)), 1e-6)) * head
     places = {"Hips": hips, "Neck": neck, "Head": neck + HEAD_JOINT_SHARE * (at["Nose"] - neck)}
     places |= {name: hips + share * (chest - hips) for name, share in SPINE_JOINT_SHARES.items()}
-    turns = dict.fromkeys(("Hips", *SPINE_JOINT_SHARES), upright) | {"Neck": nod, "Head": nod}
+    angles = dict.fromkeys(("Hips", *SPINE_JOINT_SHARES), upright) | {"Neck": nod, "Head": nod}
     for side in SIDE_NAMES:
-        places[f"{side}Shoulder"], turns[f"{side}Shoulder"] = (
+        places[f"{side}Shoulder"], angles[f"{side}Shoulder"] = (
             chest + COLLARBONE_JOINT_SHARE * (at[f"{side}Shoulder"] - chest),
             upright,
         )
@@ -75,14 +78,14 @@ def flat_pose(figure: Figure) -> FlatPose:
             begin, end = at[f"{side}{mark}"], at[f"{side}{BONE_END_LANDMARKS[joint]}"]
             places[f"{side}{joint}"] = begin
             straight = T_POSE_DIRECTIONS.get(f"{side}{joint}")
-            turns[f"{side}{joint}"] = 0.0 if straight is None else _turn(end - begin, straight[:2])
-        places[f"{side}ToeBase"], turns[f"{side}ToeBase"] = at[f"{side}Ankle"], 0.0
+            angles[f"{side}{joint}"] = 0.0 if straight is None else _turn(end - begin, straight[:2])
+        places[f"{side}ToeBase"], angles[f"{side}ToeBase"] = at[f"{side}Ankle"], 0.0
         wrist, tip = at[f"{side}Wrist"], at[f"{side}Index"]
         for finger in FINGER_NAMES:
             for number, share in enumerate(FINGER_JOINTS, 1):
                 places[f"{side}Hand{finger}{number}"] = wrist + share * (tip - wrist)
-                turns[f"{side}Hand{finger}{number}"] = turns[f"{side}Hand"]
-    return FlatPose(np.stack([places[name] for name in rig.names]), np.array([turns[name] for name in rig.names]))
+                angles[f"{side}Hand{finger}{number}"] = angles[f"{side}Hand"]
+    return FlatPose(np.stack([places[name] for name in rig.names]), np.array([angles[name] for name in rig.names]))
 
 
 def fit_drawing(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
@@ -98,7 +101,7 @@ def fit_drawing(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
     )
     distance = camera.focal * DRAWING_HEIGHT_METRES / (rows.stop - rows.start)
     pose, parents = flat_pose(figure), human.rig.parents
-    own = pose.turns - np.where(parents >= 0, pose.turns[parents], 0)
+    own = pose.angles - np.where(parents >= 0, pose.angles[parents], 0)
     root = camera.unproject(pose.places[:1], np.array([distance]))[0]
     fit = Fit(
         np.zeros(0, np.float32),
@@ -122,7 +125,7 @@ def flat_skeleton(pose: FlatPose, fitted: FittedBody, ground: float) -> Skeleton
             ground + 0.2 * (ankle[1] - ground),
             ankle[2] + TOES_FORWARD_METRES,
         ]
-    back = Rotation.from_rotvec(np.outer(-pose.turns, [0.0, 0.0, 1.0]))
+    back = Rotation.from_rotvec(np.outer(-pose.angles, [0.0, 0.0, 1.0]))
     heads = seen.copy()
     for joint, parent in enumerate(rig.parents):
         if parent >= 0:

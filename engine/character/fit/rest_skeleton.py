@@ -25,22 +25,26 @@ def rest_skeleton(fitted: FittedBody, space: BodySpace) -> Skeleton:
 def kept_transforms(fitted: FittedBody, space: BodySpace) -> NDArray[np.float32]:
     """(J, 4, 4) what brings the template in T-pose to the rest of a character, in which kept joints are as pictured."""
     straight = space.skeleton(fitted.fit.coefficients)
-    turns = np.where(fitted.kept[:, None, None], fitted.fit.rotations, np.eye(3))
-    return pose_transforms(straight, _quaternions(turns)[None], straight.heads[None, 0])[0]
+    rotations = np.where(fitted.kept[:, None, None], fitted.fit.rotations, np.eye(3))
+    return pose_transforms(straight, _quaternions(rotations)[None], straight.heads[None, 0])[0]
 
 
 @dataclass(frozen=True)
 class PicturedJoints:
-    """The `rest` skeleton, the `turns` (J, 4) of its joints in the picture, quaternions (x, y, z, w), and where its `root` (3,) is
-    there, metres, with the picture's camera at the origin."""
+    """How the joints of a skeleton stand in the picture.
+
+    rest : the skeleton at rest.
+    rotations : (J, 4) of its joints in the picture, quaternions (x, y, z, w).
+    root : (3,) where its root is there, metres, with the picture's camera at the origin.
+    """
 
     rest: Skeleton
-    turns: NDArray[np.float32]
+    rotations: NDArray[np.float32]
     root: NDArray[np.float32]
 
     def transforms(self) -> NDArray[np.float64]:
         """(J, 4, 4) from rest to the picture."""
-        return pose_transforms(self.rest, self.turns[None], self.root[None])[0].astype(np.float64)
+        return pose_transforms(self.rest, self.rotations[None], self.root[None])[0].astype(np.float64)
 
     def seen_from(self, eye: NDArray[np.floating]) -> PicturedJoints:
         """This skeleton in a world in which the picture's camera stands at `eye` (3,)."""
@@ -58,5 +62,5 @@ def pictured_joints(fitted: FittedBody, space: BodySpace) -> PicturedJoints:
     return PicturedJoints(rest_skeleton(fitted, space), _quaternions(own), root)
 
 
-def _quaternions(turns: NDArray[np.floating]) -> NDArray[np.float32]:
-    return np.asarray(Rotation.from_matrix(turns).as_quat(), np.float32)
+def _quaternions(rotations: NDArray[np.floating]) -> NDArray[np.float32]:
+    return np.asarray(Rotation.from_matrix(rotations).as_quat(), np.float32)

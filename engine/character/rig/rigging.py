@@ -84,7 +84,7 @@ def bind(
 
 def pictured_clip(joints: PicturedJoints) -> Clip:
     """How somebody stands in their picture."""
-    return Clip("pictured", 30.0, joints.turns[None], joints.root[None])
+    return Clip("pictured", 30.0, joints.rotations[None], joints.root[None])
 
 
 def at_rest(

@@ -137,7 +137,7 @@ def _hold(skeleton: Skeleton, clip: Clip, contacts: Contacts) -> Clip:
         turns = world[:, ankle]
         own = HeldFoot(turns, world[:, toe] if toe >= 0 else turns, places[:, ankle], np.zeros(len(root)))
         foot = _plant(sole, own, contacts[:, side], clip.fps)
-        depth = -sole.points(foot.ankle, foot.turns, foot.toes)[..., 1].min(-1)
+        depth = -sole.points(foot.ankle, foot.rotations, foot.toes)[..., 1].min(-1)
         foot.ankle = foot.ankle + np.maximum(depth, 0)[:, None] * [0, 1, 0]
         feet.append((sole, foot))
     root = root - hip_lowering(feet, places, clip.fps)[:, None] * [0, 1, 0]
@@ -149,10 +149,10 @@ def _hold(skeleton: Skeleton, clip: Clip, contacts: Contacts) -> Clip:
 def _plant(sole: Sole, own: HeldFoot, stands: NDArray[np.bool_], fps: float) -> HeldFoot:
     """The foot's way with the ball at one place in each span of standing."""
     frames = len(stands)
-    yaw, tilt = _yaw_and_tilt(own.turns, sole)
+    yaw, tilt = _yaw_and_tilt(own.rotations, sole)
     yaw = np.unwrap(yaw)
     pitch, roll = _flattened(tilt @ sole.lateral, MAX_FLAT_PITCH), _flattened(tilt @ sole.forward, MAX_FLAT_ROLL)
-    turns, toes, ankle = own.turns.copy(), own.toes.copy(), own.ankle.copy()
+    rotations, toes, ankle = own.rotations.copy(), own.toes.copy(), own.ankle.copy()
     pieces = true_runs(stands)
     for first, last in pieces:
         here = slice(first, last + 1)
@@ -161,16 +161,16 @@ def _plant(sole: Sole, own: HeldFoot, stands: NDArray[np.bool_], fps: float) -> 
             heading = np.full(last - first + 1, np.median(heading))
         level = rotation.about("y", heading)
         tilted = pitch[here, None] * sole.lateral + roll[here, None] * sole.forward
-        turns[here] = rotation.multiply(level, rotation.from_vector(tilted))
+        rotations[here] = rotation.multiply(level, rotation.from_vector(tilted))
         lifted = np.minimum(pitch[here, None], 0) * sole.lateral
         toes[here] = rotation.multiply(level, rotation.from_vector(lifted))
-        from_ball = ankle_over_ball(sole, turns[here], level, pitch[here])
+        from_ball = ankle_over_ball(sole, rotations[here], level, pitch[here])
         anchor = np.median(own.ankle[here] - from_ball, axis=0) * [1, 0, 1]
         ankle[here] = anchor + from_ball
     held = np.zeros(frames)
     for first, last in pieces:
         held[first : last + 1] = 1
-    return _blend(own, HeldFoot(turns, toes, ankle, held), pieces, fps)
+    return _blend(own, HeldFoot(rotations, toes, ankle, held), pieces, fps)
 
 
 def _flattened(angles: Array, flat: float) -> Array:
@@ -196,15 +196,15 @@ def _blend(own: HeldFoot, planted: HeldFoot, pieces: list[tuple[int, int]], fps:
                     weight = 0.5 + 0.5 * np.cos(np.pi * distance / span)
                     weights[frame] += weight
                     moves[frame] += weight * (planted.ankle[edge] - own.ankle[edge])
-                    bends[frame] += weight * _change(own.turns[edge], planted.turns[edge])
+                    bends[frame] += weight * _change(own.rotations[edge], planted.rotations[edge])
                     toe_bends[frame] += weight * _change(own.toes[edge], planted.toes[edge])
     over = np.maximum(weights, 1)
     free = planted.held == 0
-    turns, toes, ankle = planted.turns.copy(), planted.toes.copy(), planted.ankle.copy()
+    rotations, toes, ankle = planted.rotations.copy(), planted.toes.copy(), planted.ankle.copy()
     ankle[free] = (own.ankle + moves / over)[free]
-    turns[free] = rotation.multiply(rotation.from_vector(bends / over), own.turns)[free]
+    rotations[free] = rotation.multiply(rotation.from_vector(bends / over), own.rotations)[free]
     toes[free] = rotation.multiply(rotation.from_vector(toe_bends / over), own.toes)[free]
-    return HeldFoot(turns, toes, ankle, np.maximum(planted.held, np.minimum(weights[:, 0], 1)))
+    return HeldFoot(rotations, toes, ankle, np.maximum(planted.held, np.minimum(weights[:, 0], 1)))
 
 
 def _change(old: Array, new: Array) -> Array:

@@ -27,13 +27,13 @@ KNEE_AXIS = (1.0, 0.0, 0.0)
 class HeldFoot:
     """One foot over time.
 
-    turns : (F, 4) of the foot in the world.
+    rotations : (F, 4) of the foot in the world.
     toes : (F, 4) of the toes in the world.
     ankle : (F, 3) where it is.
     held : (F,) how far the foot is held.
     """
 
-    turns: Array
+    rotations: Array
     toes: Array
     ankle: Array
     held: Array
@@ -46,7 +46,7 @@ def set_legs(world: Array, places: Array, feet: Sequence[tuple[Sole, HeldFoot]])
         hip, knee, ankle, toe = sole.joints
         limb = (places[:, hip], places[:, knee], places[:, ankle])
         world[:, hip], world[:, knee], _ = two_bones(limb, (world[:, hip], world[:, knee]), foot.ankle, KNEE_AXIS)
-        world[:, ankle] = foot.turns
+        world[:, ankle] = foot.rotations
         if toe >= 0:
             world[:, toe] = foot.toes
 

@@ -200,7 +200,7 @@ def _straighten_legs(world: Array, feet: list[tuple[Sole, HeldFoot]]) -> None:
     for sole, foot in feet:
         hip, knee, ankle, _ = sole.joints
         pelvis = _yaw(world[:, hip])
-        world[:, [hip, knee, ankle]] = rotation.about("y", pelvis + (_yaw(foot.turns) - pelvis) * 0.6)[:, None]
+        world[:, [hip, knee, ankle]] = rotation.about("y", pelvis + (_yaw(foot.rotations) - pelvis) * 0.6)[:, None]
 
 
 def _lay_hand(world: Array, skeleton: Skeleton, side: str, arm: Arm, root: Array) -> None:
