@@ -21,8 +21,8 @@ CORNER_REACH_EYE_DISTANCES = (0.06, 0.16)
 """Eye distances from a mouth's corner up to which its line is eased, and from which on it stays."""
 SOFTNESS_EYE_DISTANCES = 0.015
 """Sigma of what takes its place."""
-ROUND_OPENINGS = (0.15, 0.45)
-"""Openings of a mouth, its gap over its width, from which on it is eased, and wholly."""
+ROUND_OPENINGS, GAPING_OPENINGS = (0.15, 0.45), (0.45, 0.7)
+"""Openings of a mouth, its gap over its width, from which on it is eased where the mouth is narrower than the picture's, and wholly; and where it is as wide."""
 
 
 class CornerSeams:
@@ -41,8 +41,10 @@ class CornerSeams:
 
     def share(self, face: NDArray[np.floating]) -> float:
         """How far the mouth of a face (478, 2 or 3) is rounded, [0, 1]."""
-        narrow = float(smoothstep(1 - mouth_width(face) / self._width, *NARROW_MOUTH_SHARES))
-        return self._most * narrow * float(smoothstep(float(mouth_opening(face)), *ROUND_OPENINGS))
+        opening = float(mouth_opening(face))
+        narrow = smoothstep(1 - mouth_width(face) / self._width, *NARROW_MOUTH_SHARES)
+        rounded = max(narrow * smoothstep(opening, *ROUND_OPENINGS), smoothstep(opening, *GAPING_OPENINGS))
+        return self._most * float(rounded)
 
     def ease(
         self, frame: NDArray[np.uint8], origin: NDArray[np.float32], scale: float, face: NDArray[np.floating]
