@@ -20,7 +20,7 @@ def context(tmp_path: Path) -> Iterator[Context]:
 
 @pytest.fixture
 def context_on_any(tmp_path: Path, database_url: str) -> Iterator[Context]:
-    """The same on each kind of database."""
+    """An opened context over an empty database of each kind."""
     yield from _opened(Settings(data_dir=tmp_path / "data", database_url=database_url, kinds=[], disk_reserve_mb=0))
 
 

@@ -22,8 +22,8 @@ FALLS_SECONDS, RISES_SECONDS = 0.1, 0.2
 
 
 def slow_lids(meshes: NDArray[np.floating], neutral: int, fps: float) -> None:
-    """Hold the lids of meshes (N, 478, 3) to these speeds, in place: upper lids go down to where they have to be, and the skin above them half
-    the way. The `neutral` frame stays as it is: all others are measured by it."""
+    """Hold the lids of meshes (N, 478, 3) to these speeds, in place. Upper lids go down to where they have to be, and the
+    skin above them goes half the way. The `neutral` frame stays as it is: all others are measured by it."""
     upper, lower = np.array(LID_EDGE_VERTEX_PAIRS).T
     gap = np.linalg.norm(meshes[:, upper, :2] - meshes[:, lower, :2], axis=-1)
     share = gap / np.maximum(gap[neutral], 1e-6)

@@ -7,7 +7,12 @@ import pytest
 from made_face import placed, shut
 
 from engine.face_animation.driver_tracking.lid_speed import FALLS_SECONDS, RISES_SECONDS, held_openness, slow_lids
-from engine.face_animation.motion_transfer.lids_and_lips import CLOSED_GAP_SHARE, lid_ratio
+from engine.face_animation.motion_transfer.lids_and_lips import (
+    CLOSED_GAP_SHARE,
+    LID_EDGE_VERTEX_PAIRS,
+    LID_SKIN_VERTEX_PAIRS,
+    lid_ratio,
+)
 
 
 @pytest.mark.parametrize("fps", [24.0, 30.0, 60.0])
@@ -63,4 +68,8 @@ def test_lids_of_meshes_go_down_earlier_and_up_later_and_nothing_else_moves() ->
     assert (np.diff(open_by[7:11]) < 0).all()
     assert (np.diff(open_by[10:15]) >= 0).all()
     np.testing.assert_array_equal(open_by[:7], 1)
+    skin, lid = np.array(LID_SKIN_VERTEX_PAIRS)[:, 0], np.array(LID_EDGE_VERTEX_PAIRS)[:, 0]
+    moved = meshes - before
+    assert np.abs(moved[9, lid]).max() > 0
+    np.testing.assert_allclose(moved[:, skin], 0.5 * moved[:, lid], atol=1e-3, err_msg="the skin goes half the way")
     np.testing.assert_allclose(meshes[:, [1, 13, 14, 152, 145, 374]], before[:, [1, 13, 14, 152, 145, 374]])

@@ -24,6 +24,19 @@ def test_who_waits_gets_what_comes() -> None:
     assert taken == [5]
 
 
+def test_what_was_taken_is_not_had_again() -> None:
+    place: Newest[int] = Newest()
+    place.put(5)
+    assert place.take() == 5
+    taken: list[int | None] = []
+    waiting = threading.Thread(target=lambda: taken.append(place.take()))
+    waiting.start()
+    waiting.join(0.2)
+    place.put(6)
+    waiting.join()
+    assert taken == [6]
+
+
 def test_once_it_is_closed_there_is_nothing_and_nobody_waits() -> None:
     place: Newest[int] = Newest()
     place.put(5)
