@@ -12,19 +12,20 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.figure.face_region import in_profile
+from engine.character.figure.face_region import face_ellipse, in_profile
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human
+from engine.character.hybrid.hair_mask import hair_beside_the_face, hair_on_the_shoulders
 from engine.character.hybrid.limbs import WEIGHT_SMOOTHING_ROUNDS, Limbs
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import HEAD_LABEL, TRUNK_LABEL
+from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, TRUNK_LABEL
 from engine.character.shell.template_mesh import TemplateMesh
 from engine.character.surface.depth_order import INSET_PIXELS
 from engine.character.surface.front_and_back import ClosedMesh
 from engine.geometry.mesh.adjacency import neighbours
 from engine.imaging.masks.mask_distance import dilate_mask
-from engine.imaging.masks.mask_pieces import largest_piece
+from engine.imaging.masks.mask_pieces import largest_piece, mask_height
 from engine.render.rasteriser import rasterise
 
 MIN_SHOWN_HEAD_WEIGHT = 0.3
@@ -38,6 +39,8 @@ be."""
 NECK_SURROUND_SHARE, COLLAR_DEPTH_SHARE, MAX_FALLEN_HAIR_SHARE = 0.25, 0.03, 0.27
 """How far about jaw and neck falling hair is looked for, and how far off them it is at least, both in heights of the
 head. And how much of it there may be, as a share of what jaw and neck cover."""
+FALLEN_HAIR_SHARE = 1.2
+"""How far from that of the head hair is looked for on the body, in heights of the head and its neck."""
 MOUTH_LANDMARK = 62
 """Of the 68 points of a face, the middle of the upper lip's lower edge."""
 NECK_OVERLAP_METRES = 0.1
@@ -71,6 +74,41 @@ def hair_keeps_to_the_head(
     fallen = (beyond & at_neck).sum() / max(neck.sum(), 1)
     beside = (covered & (labels.labels < 0)).sum() / max(covered.sum(), 1)
     return bool(loose < MAX_LOOSE_HAIR_SHARE and fallen < MAX_FALLEN_HAIR_SHARE and beside < MAX_UNCOVERED_SHARE)
+
+
+def head_is_known(
+    figure: Figure, silhouette: Silhouette, labels: Labels, mesh: TemplateMesh, template: NDArray[np.float64]
+) -> bool:
+    """Whether the `template`'s head (V, 3), picture space, is where the person's is. No where that is not known: no face is seen, or one in
+    profile, whose turn is not found, or the picture cuts the head off."""
+    if figure.face is None or in_profile(figure):
+        return False
+    skull = template[mesh.head > 0.5]
+    places = (skull[:, :2] - silhouette.to_grid[:, 2]) / np.diag(silhouette.to_grid)
+    height, width = silhouette.alpha.shape
+    if (places < 0).any() or (places > [width - 1, height - 1]).any():
+        return False
+    covered = _covered(mesh, template, mesh.parts[:, HEAD_LABEL] > MIN_SHOWN_HEAD_WEIGHT, labels.labels.shape)
+    return bool((covered & (labels.labels < 0)).sum() < MAX_UNCOVERED_SHARE * covered.sum())
+
+
+def with_hair_apart(
+    figure: Figure, silhouette: Silhouette, labels: Labels, mesh: TemplateMesh, template: NDArray[np.float64]
+) -> Labels:
+    """Labels in which hair that does not keep to the `template`'s head (V, 3) is what the head holds before all else."""
+    head = labels.labels == HEAD_LABEL
+    face = face_ellipse(figure, silhouette.to_grid, head)
+    if face is None or hair_keeps_to_the_head(figure, silhouette, labels, mesh, template):
+        return labels
+    covered = _covered(mesh, template, mesh.parts[:, HEAD_LABEL] > MIN_SHOWN_HEAD_WEIGHT, labels.labels.shape)
+    hair = hair_beside_the_face(silhouette.rgb, head, covered, face)
+    body = np.isin(labels.labels, (TRUNK_LABEL, *ARM_LABELS))
+    hair |= hair_on_the_shoulders(silhouette.rgb, hair, body, face, FALLEN_HAIR_SHARE * mask_height(covered))
+    if not hair.any():
+        return labels
+    held = np.full(labels.labels.shape, -1, np.int8) if labels.held is None else labels.held.copy()
+    held[hair] = HEAD_LABEL
+    return replace(labels, labels=np.where(hair, -1, labels.labels).astype(np.int8), held=held)
 
 
 def _covered(

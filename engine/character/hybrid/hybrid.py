@@ -12,19 +12,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.character.figure.face_region import face_ellipse
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
-from engine.character.hybrid.head import hair_keeps_to_the_head, joined_at_the_neck, with_head, without_head
+from engine.character.hybrid.hair_volume import hair_volume
+from engine.character.hybrid.head import head_is_known, joined_at_the_neck, with_hair_apart, with_head, without_head
 from engine.character.hybrid.limbs import Limbs, cut_off, joined_in_depth, limbs_of
 from engine.character.hybrid.outline_warp import drawn_to_the_outline
 from engine.character.hybrid.trunk import soft_beside_limbs, trunk_labels, trunk_layer
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARM_LABELS
+from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL
 from engine.character.parts.strange_colours import strange_colours
 from engine.character.shell.piece import Piece
 from engine.character.shell.props import props_of
-from engine.character.shell.shell import Shell, shaped, shell_of
+from engine.character.shell.shell import Shell, as_fitted, shaped, shell_of
 from engine.character.shell.template_mesh import template_mesh
 from engine.character.surface.face_warp import seen_face
 from engine.character.surface.front_and_back import ClosedMesh, stitch_front_and_back
@@ -67,11 +69,13 @@ def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
     mesh, human = template_mesh(), load_human()
     camera = silhouette.camera(fitted.picture_camera())
     labels = labels.bare
+    with_its_head = head_is_known(figure, silhouette, labels, mesh, as_fitted(silhouette, fitted)[1])
+    if with_its_head:
+        labels = with_hair_apart(figure, silhouette, labels, mesh, as_fitted(silhouette, fitted)[1])
     own = trunk_labels(labels)
     strange = strange_colours(silhouette.rgb, own.labels)
     template = pose_template(fitted, camera, human)
     shape = shaped(figure, silhouette, fitted, labels)
-    with_its_head = hair_keeps_to_the_head(figure, silhouette, labels, mesh, shape.template)
     seen = own
     if with_its_head:
         own = without_head(own)
@@ -90,8 +94,32 @@ def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
     pictured = drawn_to_the_outline(pictured, limbs, shown, trunk, silhouette.soft, own.held)
     covering = Piece("trunk", trunk.vertices, trunk.triangles, trunk.bones.astype(np.intp), trunk.weights)
     pieces = props_of(mesh, pictured, silhouette, [covering], own.held)
+    if own.held is not None and (own.held == HEAD_LABEL).any():
+        front, back = _depths(pictured, shown, trunk, (own.labels.shape[0], own.labels.shape[1]))
+        ellipse = face_ellipse(figure, silhouette.to_grid, seen.labels == HEAD_LABEL)
+        hair = (
+            None
+            if ellipse is None
+            else hair_volume(
+                mesh, pictured, figure.rgb, silhouette.to_grid, own.held == HEAD_LABEL, front, back, ellipse
+            )
+        )
+        pieces += [] if hair is None else [hair]
     shell = shell_of(mesh, replace(shape, pictured=pictured), silhouette, fitted, pieces)
     return Hybrid(shell, limbs, trunk, own, strange)
+
+
+def _depths(
+    places: NDArray[np.float64], triangles: NDArray[np.int32], trunk: ClosedMesh, shape: tuple[int, int]
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """How near and how far (h, w) what is shown reaches, infinite where nothing is."""
+    both = np.concatenate([places, trunk.vertices])
+    faces = np.concatenate([triangles, trunk.triangles + len(places)])
+    found = []
+    for towards in (1.0, -1.0):
+        raster = rasterise(both * [1, 1, -towards], faces, shape)
+        found.append(np.where(raster.triangle >= 0, -towards * raster.depth, -towards * np.inf).astype(np.float32))
+    return found[0], found[1]
 
 
 def limbs_alone(hybrid: Hybrid) -> Shell:

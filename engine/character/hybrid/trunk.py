@@ -16,7 +16,7 @@ from engine.body.parts import vertex_parts
 from engine.body.rig import Rig
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, TRUNK_LABEL
+from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, LEG_LABELS, TRUNK_LABEL
 from engine.character.parts.occlusion import completed
 from engine.character.parts.regions import Region
 from engine.character.surface.drape import drape
@@ -55,7 +55,8 @@ def trunk_region(labels: Labels, template: PosedTemplate, rig: Rig) -> Region:
     """The trunk's pixels with the head's, in one piece, and the template's triangles that are theirs. `labels`: of `trunk_labels`."""
     part = vertex_parts(rig)[template.triangles]
     limbs = before_the_trunk(labels)
-    own = np.asarray((~np.isin(part, LIMB_LABELS)).any(1), np.bool_)
+    others = LIMB_LABELS if (labels.labels == HEAD_LABEL).any() else (*LIMB_LABELS, HEAD_LABEL)
+    own = np.asarray((~np.isin(part, others)).any(1), np.bool_)
     if labels.cloth is not None and labels.cloth.hangs:
         own = own | _within_cloth(labels, template, part)
     seen = (labels.labels >= 0) & ~limbs

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -38,7 +39,7 @@ def bind_shell(
     transforms = joints.transforms()
     parts = [_Part(shell.rest[corners], mesh.uv_triangles, mesh.uv, mesh.bones[corners], mesh.weights[corners])]
     if shell.pieces:
-        beside = _Beside(figure, silhouette, texture)
+        beside = _Beside(figure, silhouette, texture, shell.pieces)
         texture = beside.texture
         parts[0] = parts[0].charted(beside.of_chart(mesh.uv))
         for piece in shell.pieces:
@@ -82,26 +83,25 @@ class _Part:
 
 class _Beside:
     """A `texture` of the template's chart and, to its right, the picture around the person, who goes on beyond their outline in the colours
-    next to it."""
+    next to it; and then what pieces have of their own."""
 
-    def __init__(self, figure: Figure, silhouette: Silhouette, chart: NDArray[np.uint8]) -> None:
+    def __init__(
+        self, figure: Figure, silhouette: Silhouette, chart: NDArray[np.uint8], pieces: Sequence[Piece]
+    ) -> None:
         self.to_picture = np.linalg.inv(np.vstack([silhouette.to_grid, [0, 0, 1]]))[:2]
         within = distance_transform_edt(silhouette.alpha > 0.5) > MIXED_COLOUR_BAND_PIXELS / float(
             silhouette.to_grid[0, 0]
         )
         nearest = distance_transform_edt(~within, return_distances=False, return_indices=True)
-        rows, columns = bounding_box(silhouette.alpha > 0.5)
-        self.first = np.array([max(columns.start - CROP_MARGIN_PIXELS, 0), max(rows.start - CROP_MARGIN_PIXELS, 0)])
-        spread = figure.rgb[nearest[0], nearest[1]][
-            self.first[1] : rows.stop + CROP_MARGIN_PIXELS, self.first[0] : columns.stop + CROP_MARGIN_PIXELS
-        ]
-        height, width = chart.shape[:2]
-        self.scale = min(1.0, height / spread.shape[0], width / spread.shape[1])
+        rows, columns = bounding_box(silhouette.alpha > 0.5, CROP_MARGIN_PIXELS)
+        self.first = np.array([columns.start, rows.start])
+        spread = figure.rgb[nearest[0][rows, columns], nearest[1][rows, columns]]
+        height, self.width = chart.shape[:2]
+        self.scale = min(1.0, height / spread.shape[0], self.width / spread.shape[1])
         small = cv2.resize(spread, None, fx=self.scale, fy=self.scale, interpolation=cv2.INTER_AREA)
-        self.texture = np.zeros((height, width + small.shape[1], 3), np.uint8)
-        self.texture[:, :width] = chart
-        self.texture[: small.shape[0], width:] = small
-        self.width = width
+        own = [piece.colours.rgb for piece in pieces if piece.colours is not None]
+        self.texture, self.starts = _side_by_side([chart, np.asarray(small, np.uint8), *own])
+        self.own = [id(rgb) for rgb in own]
 
     def of_chart(self, uv: NDArray[np.floating]) -> NDArray[np.float64]:
         """Where the chart's points (S, 2) are in the texture."""
@@ -109,7 +109,22 @@ class _Beside:
 
     def of_piece(self, piece: Piece) -> NDArray[np.float64]:
         """Where the colours of a piece's vertices (N, 2) are in the texture."""
+        height, width = self.texture.shape[:2]
+        if (colours := piece.colours) is not None:
+            rows, columns = colours.rgb.shape[:2]
+            places = 0.5 + colours.places * [columns - 1, rows - 1]
+            start = np.array([self.starts[2 + self.own.index(id(colours.rgb))], 0])
+            return np.asarray((places + start) / [width, height])
         pixels = piece.vertices[:, :2] @ self.to_picture[:, :2].T + self.to_picture[:, 2]
         places = (pixels - self.first + 0.5) * self.scale + [self.width, 0]
-        height, width = self.texture.shape[:2]
-        return np.asarray(np.clip(places / [width, height], [(self.width + 1) / width, 0], 1))
+        end = self.starts[2] if len(self.starts) > 2 else width
+        return np.asarray(np.clip(places, [self.width + 1, 0], [end - 1, height]) / [width, height])
+
+
+def _side_by_side(pictures: Sequence[NDArray[np.uint8]]) -> tuple[NDArray[np.uint8], list[int]]:
+    """Pictures in one, as high as the first, and the column at which each begins."""
+    starts = [0, *np.cumsum([one.shape[1] for one in pictures]).tolist()]
+    whole = np.zeros((pictures[0].shape[0], starts[-1], 3), np.uint8)
+    for one, start in zip(pictures, starts, strict=False):
+        whole[: one.shape[0], start : start + one.shape[1]] = one
+    return whole, starts[:-1]

@@ -82,6 +82,8 @@ def part_outlines(labels: Labels) -> Outlines:
             if part != HEAD_LABEL:
                 hidden = np.isin(beside, ARM_LABELS)
                 weight[hidden] = HIDDEN_TRUNK_BORDER_WEIGHT
+        if labels.held is not None:
+            weight[labels.held[np.clip(y, 0, height - 1), np.clip(x, 0, width - 1)] >= 0] = 0
         x, y = points.astype(int).T
         kept = (weight > 0) & free[y, x] & (np.arange(len(points)) % 2 == 0)
         points = points + np.where(weight < 1, PART_UNDERLAP_PIXELS, BORDER_OFFSET_PIXELS)[:, None] * normals

@@ -9,6 +9,18 @@ from numpy.typing import NDArray
 
 
 @dataclass(frozen=True)
+class Colours:
+    """A picture of a piece's own.
+
+    places : (N, 2) float64, where in it each vertex is, from 0 to 1 across and down.
+    rgb : (A, B, 3) uint8.
+    """
+
+    places: NDArray[np.float64]
+    rgb: NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
 class Piece:
     """A closed surface in the grid's picture space.
 
@@ -17,6 +29,7 @@ class Piece:
     triangles : (M, 3) int32, counter-clockwise seen from outside in metres.
     bones : (N, 4) int, the joints that move it, strongest first.
     weights : (N, 4) float32.
+    colours : its own; the picture's at its vertices' places unless they are given.
     """
 
     kind: str
@@ -24,3 +37,4 @@ class Piece:
     triangles: NDArray[np.int32]
     bones: NDArray[np.intp]
     weights: NDArray[np.float32]
+    colours: Colours | None = None

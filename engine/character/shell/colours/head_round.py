@@ -7,7 +7,7 @@ is well seen, and elsewhere by where hair begins on heads. A hat is hair of anot
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -46,6 +46,8 @@ HAIR_SMOOTHING_METRES = 0.01
 """Metres along the head over which the hair's colour is averaged."""
 CENTRE_WEIGHT = 0.3
 """How much the middle counts beside the sides for the colour of hair."""
+TEMPLE_RADIANS = (0.6, 0.78)
+"""Radians from its middle from which on a face goes on beside the eyes by itself, and from which on it does so wholly."""
 EDGE_METRES = 0.004
 """Metres over which hair and ears go over into skin."""
 SIDE_SKIN_RADIANS, JAW_RADIANS = 0.7, 1.2
@@ -77,25 +79,42 @@ class _Kinds:
 
 def head_round(
     colours: NDArray[np.float32], source: NDArray[np.bool_], facing: NDArray[np.float32]
-) -> NDArray[np.float32]:
-    """The colours (A, `UNROLLED_COLUMNS`, 3) of the unrolled head, as `round.coloured_round` has those of other parts."""
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """The colours (A, `UNROLLED_COLUMNS`, 3) of the unrolled head, as `round.coloured_round` has those of other parts, and how far (A,
+    `UNROLLED_COLUMNS`) the picture is believed, from 0 to 1."""
+    everywhere = np.ones(source.shape, np.float32)
     if not source.any():
-        return colours
+        return colours, everywhere
     head = head_map()
     face = head.above("chin") & (head.angle < FACE_EDGE_RADIANS)
     middle = head.between("chin", "hairline") & (head.angle < CHEEK_EDGE_RADIANS)
     colours, known = _both_cheeks(colours, source & (facing > MIN_WELL_SEEN_COSINE), face, middle)
     kinds = _kinds(head, colours, known)
+    side = head.between("chin", "brow") & (head.angle > TEMPLE_RADIANS[0])
+    if not kinds.falls and (known & side).any():
+        known = known & ~side
+        kinds = replace(_kinds(head, colours, known), falls=kinds.falls)
+    believed = _believed(head, source.shape, falls=kinds.falls)
     streaks = strand_noise((len(colours), UNROLLED_COLUMNS))
     skin = _skin(head, colours, kinds)
     if not kinds.hair.any():
-        return np.where(known[..., None], colours, skin).astype(np.float32)
+        return np.where(known[..., None], colours, skin).astype(np.float32), believed
     share = _soft(hair_share(head, kinds.hair, known, streaks, falls=kinds.falls))
     filled = share * _hair(colours, kinds, facing, streaks) + (1 - share) * skin
     if not kinds.falls:
         ear = _soft(head.ears)
         filled = ear * kinds.skin + (1 - ear) * filled
-    return np.where(known[..., None], colours, filled).astype(np.float32)
+    return np.where(known[..., None], colours, filled).astype(np.float32), believed
+
+
+def _believed(head: HeadMap, shape: tuple[int, int], *, falls: bool) -> NDArray[np.float32]:
+    """How far the picture is believed (A, `UNROLLED_COLUMNS`): not between eye and ear, unless hair falls there. A sideburn, an ear, the shadow
+    before it and the wall beside are elsewhere on every head, and drawn out over its side; skin goes on by itself."""
+    if falls:
+        return np.ones(shape, np.float32)
+    least, all_ = TEMPLE_RADIANS
+    temple = np.clip((head.angle - least) / (all_ - least), 0, 1) * head.between("chin", "brow")
+    return 1 - np.asarray(cv2.GaussianBlur(temple.astype(np.float32), (0, 0), EDGE_METRES / ROW_METRES), np.float32)
 
 
 def _kinds(head: HeadMap, colours: NDArray[np.float32], known: NDArray[np.bool_]) -> _Kinds:

@@ -95,10 +95,11 @@ def paint_shell(
         seen = told.of(points)
         evidence[part.name] = seen.colours, seen.source & part.covered, points[..., 3]
     rows, sure = [], []
+    trust: NDArray[np.float32] | None = None
     for part in parts:
         own = evidence[part.name]
         if part.name == "head":
-            around, known = head_round(*own), np.ones(len(own[0]), np.float32)
+            (around, trust), known = head_round(*own), np.ones(len(own[0]), np.float32)
         else:
             if (other := OPPOSITE_LIMB.get(part.name)) in evidence:
                 own = with_the_other(own, evidence[other])
@@ -121,7 +122,12 @@ def paint_shell(
         part_of_it = Raster(raster.triangle[strip], raster.barycentrics[strip], raster.depth[strip])
         points = interpolate(told.attributes, triangles, part_of_it)
         seen = told.of(points)
-        shown[strip] = np.minimum(seen.shown, 1 - points[..., HEAD_ATTRIBUTE_INDEX] * (1 - _well_seen(points[..., 3])))
+        believed = _well_seen(points[..., 3])
+        if trust is not None:
+            head = [part.name for part in parts].index("head")
+            at = interpolate(places[:, head].astype(np.float32), triangles, part_of_it)
+            believed = believed * _at(trust, at[..., 1], at[..., 2])
+        shown[strip] = np.minimum(seen.shown, 1 - points[..., HEAD_ATTRIBUTE_INDEX] * (1 - believed))
         painted[strip] = seen.colours
     soft = _softened(np.where(wanted, shown, 0))
     drawn = np.where(wanted, raster.triangle, -1)
@@ -131,6 +137,13 @@ def paint_shell(
     painted *= np.where(drawn >= 0, soft + (1 - soft) * shade, 1)[..., None]
     out = np.clip(painted + 0.5, 0, 255).astype(np.uint8)
     return _beyond_the_chart(out)
+
+
+def _at(values: NDArray[np.float32], rows: NDArray[np.floating], angles: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Values (A, `UNROLLED_COLUMNS`) of an unrolled part at rows and angles (...), radians."""
+    columns = ((angles + np.pi) / (2 * np.pi) * UNROLLED_COLUMNS - 0.5).astype(np.float32)
+    flat = np.ascontiguousarray(rows, np.float32) - np.float32(0.5)
+    return np.asarray(cv2.remap(values, columns, flat, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32)
 
 
 def _among(triangles: NDArray[np.int32], some: NDArray[np.int32]) -> NDArray[np.bool_]:

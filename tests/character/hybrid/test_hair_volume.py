@@ -1,0 +1,183 @@
+"""Hair that falls beside a face: told from skin and clothes, and a shell around the head. The template stands for the person."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from engine.character.figure.face_region import within_oval
+from engine.character.fit.template_fit import load_human, pose_template
+from engine.character.hybrid.hair_colours import COLUMNS, hair_round
+from engine.character.hybrid.hair_mask import hair_beside_the_face, hair_on_the_shoulders
+from engine.character.hybrid.hair_volume import hair_volume
+from engine.character.parts.labels import HEAD_LABEL
+from engine.character.shell.piece import Piece
+from engine.character.shell.template_mesh import template_mesh
+from engine.geometry.mesh.welding import is_closed
+from engine.render.rasteriser import rasterise
+from tests.character.shell.test_displacement import SHAPE, arms_down, covered, on_grid
+from tests.character.shell.test_pieces import volume
+
+SKIN, HAIR, SHIRT, HAT = (215, 170, 145), (50, 34, 26), (225, 225, 220), (160, 30, 40)
+STANDS_OFF, FALLS = 9, 14
+"""Pixels that hair is wider than the head to each side, and ends below the chin."""
+
+
+@pytest.fixture(scope="module")
+def body() -> NDArray[np.float64]:
+    return on_grid(pose_template(arms_down(), arms_down().picture_camera(), load_human()), template_mesh())
+
+
+@pytest.fixture(scope="module")
+def skull(body: NDArray[np.float64]) -> NDArray[np.float64]:
+    return body[template_mesh().head > 0.9]
+
+
+@pytest.fixture(scope="module")
+def face(body: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The ellipse around the landmarks, and the forehead."""
+    points = body[template_mesh().renamed(load_human().face), :2]
+    low, high = points.min(0), points.max(0)
+    low[1] -= 0.3 * (high[1] - low[1])
+    return np.array([*(low + high) / 2, *(high - low) / 2, 0.0])
+
+
+@pytest.fixture(scope="module")
+def head(body: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """What the template's head and neck cover."""
+    mesh = template_mesh()
+    own = mesh.triangles[(mesh.parts[:, HEAD_LABEL] > 0.3)[mesh.triangles].all(1)]
+    return np.asarray(rasterise(body * [1, 1, -1], own, SHAPE).triangle >= 0)
+
+
+@pytest.fixture(scope="module")
+def hair(skull: NDArray[np.float64], face: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """A bob: round above, straight beside the face, to below the chin."""
+    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
+    middle, half = float(np.median(skull[:, 0])), np.ptp(skull[:, 0]) / 2 + STANDS_OFF
+    centre = skull[:, 1].min() - 4 + half
+    dome = np.hypot(x - middle, y - centre) < half
+    straight = (np.abs(x - middle) < half) & (y >= centre) & (y < skull[:, 1].max() + FALLS)
+    beside = np.abs(x - face[0]) > 0.92 * face[2]
+    return (dome | (straight & beside)) & ~within_oval(face * [1, 1, 0.92, 0.92, 1], SHAPE)
+
+
+def noisy(rgb: NDArray[np.integer]) -> NDArray[np.uint8]:
+    return np.clip(rgb + np.random.default_rng(1).normal(0, 4, rgb.shape), 0, 255).astype(np.uint8)
+
+
+def test_hair_is_told_from_the_face_and_the_neck(
+    head: NDArray[np.bool_], hair: NDArray[np.bool_], face: NDArray[np.float64]
+) -> None:
+    rgb = noisy(np.where(hair[..., None], HAIR, np.where(head[..., None], SKIN, SHIRT)))
+    found = hair_beside_the_face(rgb, head | hair, head, face)
+    assert (found & hair).sum() > 0.95 * (found | hair).sum()
+    bald = noisy(np.where(head[..., None], SKIN, SHIRT))
+    assert not hair_beside_the_face(bald, head, head, face).any(), "nothing is loose"
+
+
+@pytest.mark.parametrize(("shirt", "is_found"), [(SHIRT, True), (HAIR, False)], ids=["on white", "on its own colour"])
+def test_it_is_followed_down_the_shoulders_where_they_have_other_colours(
+    body: NDArray[np.float64],
+    head: NDArray[np.bool_],
+    hair: NDArray[np.bool_],
+    face: NDArray[np.float64],
+    shirt: tuple[int, int, int],
+    is_found: bool,
+) -> None:
+    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
+    trunk = covered(body) & ~head & ~hair
+    last = np.flatnonzero(hair.any(1))[-1]
+    lock = trunk & (y < last + 40) & (np.abs(x - face[0]) > face[2]) & (np.abs(x - face[0]) < face[2] + 14)
+    rgb = noisy(np.where((hair | lock)[..., None], HAIR, np.where(head[..., None], SKIN, shirt)))
+    found = hair_on_the_shoulders(rgb, hair, trunk, face, 80)
+    assert (found & lock).sum() > 0.9 * (found | lock).sum() if is_found else not found.any()
+
+
+@pytest.fixture(scope="module")
+def picture(hair: NDArray[np.bool_], skull: NDArray[np.float64]) -> NDArray[np.uint8]:
+    """A hat over hair."""
+    rows = np.arange(SHAPE[0])[:, None, None]
+    brim = skull[:, 1].min() + 0.3 * np.ptp(skull[:, 1])
+    return noisy(np.where(hair[..., None], np.where(rows < brim, HAT, HAIR), SKIN))
+
+
+@pytest.fixture(scope="module")
+def piece(
+    body: NDArray[np.float64], hair: NDArray[np.bool_], face: NDArray[np.float64], picture: NDArray[np.uint8]
+) -> Piece:
+    mesh = template_mesh()
+    near = rasterise(body * [1, 1, -1], mesh.triangles, SHAPE)
+    far = rasterise(body, mesh.triangles, SHAPE)
+    front = np.where(near.triangle >= 0, -near.depth, -np.inf).astype(np.float32)
+    back = np.where(far.triangle >= 0, far.depth, np.inf).astype(np.float32)
+    made = hair_volume(mesh, body, picture, np.eye(2, 3), hair, front, back, face)
+    assert made is not None
+    return made
+
+
+def test_it_is_a_closed_shell_with_the_outline_of_the_hair(
+    piece: Piece, body: NDArray[np.float64], hair: NDArray[np.bool_]
+) -> None:
+    assert is_closed(piece.triangles) and volume(piece) > 0
+    np.testing.assert_allclose(piece.weights.sum(1), 1, atol=1e-6)
+    own = rasterise(piece.vertices * [1, 1, -1], piece.triangles, SHAPE).triangle >= 0
+    both = own | covered(body)
+    wanted = hair | covered(body)
+    assert (both & wanted).sum() > 0.985 * (both | wanted).sum()
+
+
+def test_it_is_behind_the_head_and_before_its_sides_and_open_at_the_face(
+    piece: Piece,
+    body: NDArray[np.float64],
+    skull: NDArray[np.float64],
+    face: NDArray[np.float64],
+    hair: NDArray[np.bool_],
+) -> None:
+    mesh = template_mesh()
+    depths = []
+    for towards in (1.0, -1.0):
+        for places, triangles in ((piece.vertices, piece.triangles), (body, mesh.triangles)):
+            raster = rasterise(places * [1, 1, -towards], triangles, SHAPE)
+            depths.append(np.where(raster.triangle >= 0, -raster.depth, -np.inf))
+    hair_front, body_front, hair_back, body_back = depths
+    inner = within_oval(face * [1, 1, 0.8, 0.8, 1], SHAPE)
+    assert (hair_front < body_front)[inner].mean() > 0.97
+    assert (hair_front > body_front)[hair].mean() > 0.85
+    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
+    behind = (np.abs(x - np.median(skull[:, 0])) < 10) & (y > skull[:, 1].min() + 8) & (y < skull[:, 1].max())
+    assert (hair_back > body_back)[behind].mean() > 0.97
+
+
+def test_around_the_back_it_has_the_colours_of_its_rows(piece: Piece) -> None:
+    assert piece.colours is not None
+    rgb = piece.colours.rgb.astype(float)
+    assert rgb.shape[1] == COLUMNS
+    behind = rgb[:, COLUMNS // 2 - 20 : COLUMNS // 2 + 20].mean(1)
+    height = len(rgb)
+    for rows, colour in ((slice(4, height // 8), HAT), (slice(height // 2, height - 4), HAIR)):
+        assert np.abs(behind[rows] - colour).max() < 20
+
+
+def test_hair_that_is_nowhere_is_no_volume(body: NDArray[np.float64], picture: NDArray[np.uint8]) -> None:
+    nothing = np.zeros(SHAPE, np.bool_)
+    depth = np.zeros(SHAPE, np.float32)
+    face = np.array([200.0, 60.0, 20.0, 30.0, 0.0])
+    assert hair_volume(template_mesh(), body, picture, np.eye(2, 3), nothing, depth, depth, face) is None
+
+
+def test_in_front_it_is_the_picture() -> None:
+    """A half cylinder of radius 20, of which the left side is dark and the right one light."""
+    rows, angles = np.arange(40.0), np.linspace(0.2, 2 * np.pi - 0.2, 40)
+    ring = np.stack(np.broadcast_arrays(50 + 20 * np.sin(angles)[None], rows[:, None] + 10), 2)
+    y, x = np.mgrid[:70, :100]
+    hair = (np.abs(x - 50) < 20) & (y >= 10) & (y < 50)
+    rgb = np.where(hair[..., None], np.where(x[..., None] < 50, 60, 160), 255).astype(np.uint8).repeat(3, 2)
+    found = hair_round(rgb, np.eye(2, 3), hair, ring, np.broadcast_to(angles, (40, 40))).astype(float)
+    turn = np.linspace(0.2, 2 * np.pi - 0.2, COLUMNS)
+    right, left = (np.cos(turn) > 0.6) & (turn < np.pi), (np.cos(turn) > 0.6) & (turn > np.pi)
+    assert np.abs(found[:, right & (np.sin(turn) > 0.3)] - 160).max() < 6
+    assert np.abs(found[:, left & (np.sin(turn) < -0.3)] - 60).max() < 6
+    behind = found[:, COLUMNS // 2].mean()
+    assert 90 < behind < 130, "from one side to the other"
