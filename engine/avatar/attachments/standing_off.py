@@ -96,9 +96,12 @@ def standing_volume(body: BodySurface, silhouettes: Silhouettes) -> StandingVolu
     asked = _stand_off(places, body)
     depths, views = silhouettes.depths_beside(places[asked], of_head[asked])
     stands[tuple(cells[asked][(depths > 0) & (views >= MIN_BESIDE_VIEWS)].T)] = True
-    piece, count = ndimage.label(stands)
-    found = [origin + spacing * np.argwhere(piece == k) for k in range(1, count + 1) if _large(piece, k)]
-    pieces = [StandingPiece(one, _covered(one, body)) for one in sorted(found, key=len, reverse=True)]
+    own = np.argwhere(stands)
+    piece = ndimage.label(stands)[0][stands]
+    number = np.bincount(piece)
+    large = [k for k in np.argsort(-number, kind="stable") if number[k] * spacing**3 > MIN_PIECE_CUBIC_METRES]
+    found = [origin + spacing * own[piece == k] for k in large]
+    pieces = [StandingPiece(places, _covered(places, body)) for places in found]
     return StandingVolume(VisualHull(occupied, origin, spacing), pieces)
 
 
@@ -138,7 +141,3 @@ def _about(vertices: NDArray[np.float64], origin: NDArray[np.float64], shape: ND
     empty = np.ones(shape, np.bool_)
     empty[tuple(((vertices - origin) / side).astype(int).T)] = False
     return np.asarray(ndimage.distance_transform_edt(empty) < MAX_WORN_METRES / side)
-
-
-def _large(piece: NDArray[np.integer], number: int) -> bool:
-    return int((piece == number).sum()) * VOLUME_SPACING_METRES**3 > MIN_PIECE_CUBIC_METRES
