@@ -32,7 +32,7 @@ MIN_SHOWN_HEAD_WEIGHT = 0.3
 """Share of the head in what moves a vertex that may show in its outline."""
 HAIR_DEPTH_SHARE = 0.09
 """How far hair that keeps to the skull stands off it, as a share of the head's height."""
-MAX_LOOSE_HAIR_SHARE, MAX_UNCOVERED_SHARE = 0.06, 0.13
+MAX_LOOSE_HAIR_SHARE, MAX_UNCOVERED_SHARE = 0.06, 0.22
 """Share of what the picture shows of the head that may be further off, and share of the template's head that may lie
 beside the person, for it to be a head of that shape. Beyond, hair is loose, or the head is not where it is taken to
 be."""
