@@ -17,6 +17,8 @@ from engine.imaging.masks.colour_segmentation import (
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.imaging.masks.mask_pieces import mask_height, pieces_touching, without_small_pieces
 
+MOUTH_DEPTH_SHARE = 0.35
+"""How far below a face's middle, as a share of half its height, what is narrow may be a collar."""
 MIN_LOCK_SHARE = 0.12
 """Half the width of a lock of hair at least, as a share of half a face's width: a collar's edge is narrower."""
 SURELY_HAIR_SHARE = 0.06
@@ -71,6 +73,7 @@ def hair_beside_the_face(
     radius = max(1, round(MIN_LOCK_SHARE * float(face[2])))
     disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1, 2 * radius + 1))
     locks = cv2.morphologyEx((hair & ~oval).astype(np.uint8), cv2.MORPH_OPEN, disk) > 0
+    locks |= hair & ~oval & (np.arange(len(head))[:, None] < face[1] + MOUTH_DEPTH_SHARE * face[3])
     return pieces_touching(without_small_pieces(locks, MIN_HAIR_PIECE_PIXELS), loose)
 
 

@@ -38,6 +38,7 @@ class HairRings:
     left, right : its outline.
     inner_left, inner_right : where hair ends towards the face; nan on a side that shows none.
     ends : radians from the front at which hair begins on such a side.
+    meets : radians from the front at which both sides meet: behind, or where a lock that falls on one side alone ends.
     near, far : how deep it is in front and behind, z of picture space.
     axis, middle : the column and the depth of the head's middle, of all rows.
     """
@@ -48,6 +49,7 @@ class HairRings:
     inner_left: NDArray[np.float64]
     inner_right: NDArray[np.float64]
     ends: NDArray[np.float64]
+    meets: NDArray[np.float64]
     near: NDArray[np.float64]
     far: NDArray[np.float64]
     axis: float
@@ -95,9 +97,18 @@ def hair_rings(
     waist = float(np.median(skull[:, 1]))
     lower = np.clip((rows - waist) / max(float(high[1]) - waist, 1), 0, 1)
     ends = BEHIND_THE_EAR_RADIANS + lower * (AT_THE_NAPE_RADIANS - BEHIND_THE_EAR_RADIANS)
-    return HairRings(
-        rows.astype(np.float64), left, right, inner[0], inner[1], ends, near, far, axis, float(low[2] + high[2]) / 2
-    )
+    meets = _meeting(np.isfinite(outer), rows > high[1])
+    middle = float(low[2] + high[2]) / 2
+    return HairRings(rows.astype(np.float64), left, right, inner[0], inner[1], ends, meets, near, far, axis, middle)
+
+
+def _meeting(there: NDArray[np.bool_], below: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Radians from the front (R,) at which the sides of rings meet, which have hair or not, `there` (2, R): `below` (R,) the chin a lock that falls
+    on one side alone goes no further than that."""
+    meets = np.full(len(below), np.pi)
+    meets[below & there[1] & ~there[0]] = BEHIND_THE_EAR_RADIANS
+    meets[below & there[0] & ~there[1]] = 2 * np.pi - BEHIND_THE_EAR_RADIANS
+    return np.asarray(gaussian_filter1d(meets, DEPTH_ROW_SMOOTHING, mode="nearest"))
 
 
 def _sides(hair: NDArray[np.bool_], centre: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

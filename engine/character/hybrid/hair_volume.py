@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.hybrid.hair_colours import hair_round
-from engine.character.hybrid.hair_rings import HairRings, hair_rings
+from engine.character.hybrid.hair_rings import BEHIND_THE_EAR_RADIANS, HairRings, hair_rings
 from engine.character.shell.piece import Colours, Piece
 from engine.character.shell.template_mesh import TemplateMesh
 
@@ -68,9 +68,15 @@ def hair_volume(
 
 def _angles(of: HairRings) -> NDArray[np.float64]:
     """The angles (R, N) of a ring's vertices, radians from the front, from where hair ends on the right around the back to the left."""
+    meets = of.meets[:, None]
+    alone = (np.pi - meets) / (np.pi - BEHIND_THE_EAR_RADIANS)  # 1 where hair is on the right alone, -1 on the left
     right, left = (of.opening(one)[:, None] for one in (True, False))
+    right, left = (
+        right + np.clip(-alone, 0, 1) * (meets - right),
+        left + np.clip(alone, 0, 1) * (2 * np.pi - meets - left),
+    )
     along = np.linspace(0, 1, RING_VERTICES // 2)
-    halves = [right + along * (np.pi - right), np.pi + along * (np.pi - left)]
+    halves = [right + along * (meets - right), meets + along * (2 * np.pi - left - meets)]
     return np.asarray(np.concatenate(halves, 1))  # behind, both sides have a vertex of their own
 
 

@@ -160,6 +160,24 @@ def test_around_the_back_it_has_the_colours_of_its_rows(piece: Piece) -> None:
         assert np.abs(behind[rows] - colour).max() < 20
 
 
+def test_a_lock_that_falls_on_one_side_alone_does_not_go_round_the_back(
+    body: NDArray[np.float64],
+    hair: NDArray[np.bool_],
+    face: NDArray[np.float64],
+    skull: NDArray[np.float64],
+    picture: NDArray[np.uint8],
+) -> None:
+    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
+    last = int(np.flatnonzero(hair.any(1))[-1])
+    lock = (y > last - 2) & (y < last + 60) & (x > face[0] + face[2]) & (x < face[0] + face[2] + 14)
+    deep = np.full(SHAPE, float(skull[:, 2].mean()), np.float32)
+    made = hair_volume(template_mesh(), body, picture, np.eye(2, 3), hair | lock, deep, deep - 10, face)
+    assert made is not None
+    low = made.vertices[made.vertices[:, 1] > last + 20]
+    assert low[:, 0].min() > face[0] + 0.5 * face[2]
+    assert low[:, 1].max() > last + 55
+
+
 def test_hair_that_is_nowhere_is_no_volume(body: NDArray[np.float64], picture: NDArray[np.uint8]) -> None:
     nothing = np.zeros(SHAPE, np.bool_)
     depth = np.zeros(SHAPE, np.float32)
