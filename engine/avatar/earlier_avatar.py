@@ -154,8 +154,8 @@ def _jpeg_size(data: bytes) -> tuple[int, int]:
 def _filmed(file: GltfFile, accessors: Accessors, skeleton: Skeleton, axes: Array) -> Clip:
     """The pose in which the person was filmed, one frame."""
     animation = next(one for one in file.parts["animations"] if one.name == FILMED_CLIP_NAME)
-    turns = np.tile(rotation.IDENTITY_QUATERNION, (len(skeleton.names), 1)).astype(np.float64)
-    turned = np.zeros(len(turns), np.bool_)
+    rotations = np.tile(rotation.IDENTITY_QUATERNION, (len(skeleton.names), 1)).astype(np.float64)
+    turned = np.zeros(len(rotations), np.bool_)
     root = skeleton.heads[0].astype(np.float64)
     joint_of = {node: joint for joint, node in enumerate(file.parts["skins"][0]["joints"])}
     for channel in animation.channels:
@@ -164,11 +164,11 @@ def _filmed(file: GltfFile, accessors: Accessors, skeleton: Skeleton, axes: Arra
             continue
         first = accessors.numbers(_sampler(animation, channel).output)[0]
         if channel.target.path == "rotation":
-            turns[joint], turned[joint] = rotation.normalize(first.reshape(4)), True
+            rotations[joint], turned[joint] = rotation.normalize(first.reshape(4)), True
         elif joint == 0:
             root = _near(first.reshape(1, 3))[0].astype(np.float64)
     above = rotation.from_matrix(axes_above(skeleton, axes))
-    own = rotation.chain(above, turns, rotation.inverse(rotation.from_matrix(axes)))
+    own = rotation.chain(above, rotations, rotation.inverse(rotation.from_matrix(axes)))
     own = np.where(turned[:, None], own, rotation.IDENTITY_QUATERNION)
     return Clip(FILMED_CLIP_NAME, 30.0, own[None].astype(np.float32), root[None].astype(np.float32))
 

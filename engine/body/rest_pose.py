@@ -29,15 +29,15 @@ def t_pose(
     skeleton, the ends (B, 3) of its bones and the vertices (V, 3): metres, the hips above the origin.
     """
     heads, tails = rig.joints(vertices)
-    turns = np.broadcast_to(np.eye(3), (len(rig.names), 3, 3)).copy()  # of each bone in the world
+    rotations = np.broadcast_to(np.eye(3), (len(rig.names), 3, 3)).copy()  # of each bone in the world
     for bone, name in enumerate(rig.names):
         parent = rig.parents[bone]
         if name in T_POSE_DIRECTIONS:
             ends = _end(rig, heads, tails, bone) - heads[bone]
-            turns[bone] = shortest_rotation(ends, np.array(T_POSE_DIRECTIONS[name]))
+            rotations[bone] = shortest_rotation(ends, np.array(T_POSE_DIRECTIONS[name]))
         elif parent >= 0 and name not in WORLD_ALIGNED_BONES:
-            turns[bone] = turns[parent]
-    own = np.stack([turns[p].T @ turns[b] if p >= 0 else turns[b] for b, p in enumerate(rig.parents)])
+            rotations[bone] = rotations[parent]
+    own = np.stack([rotations[p].T @ rotations[b] if p >= 0 else rotations[b] for b, p in enumerate(rig.parents)])
     transforms = bone_transforms(rig.parents, heads, own)
     posed = skin(vertices, rig.bones, rig.weights, transforms)
     placed = [np.einsum("bij,bj->bi", transforms[:, :3, :3], ends) + transforms[:, :3, 3] for ends in (heads, tails)]

@@ -27,15 +27,15 @@ def add_skeleton(gltf: gl.GLTF2, buffer: Buffer, skeleton: Skeleton, axes: NDArr
         if parent >= 0:
             children[parent].append(joint)
     offsets = skeleton.offsets()
-    turns = None
+    rotations = None
     if axes is not None:
         above = axes_above(skeleton, axes)
         offsets = np.einsum("jki,jk->ji", above, offsets)
-        turns = rotation.from_matrix(np.einsum("jki,jkl->jil", above, axes))
+        rotations = rotation.from_matrix(np.einsum("jki,jkl->jil", above, axes))
     for joint, offset in enumerate(offsets):
         node = gl.Node(name=skeleton.names[joint], translation=offset.tolist(), children=children[joint])
-        if turns is not None:
-            node.rotation = turns[joint].tolist()
+        if rotations is not None:
+            node.rotation = rotations[joint].tolist()
         gltf.nodes.append(node)
     gltf.nodes.append(gl.Node(name=ROOT_NAME, children=np.flatnonzero(skeleton.parents < 0).tolist()))
     gltf.skins = [

@@ -84,11 +84,11 @@ def _describe(stage: Usd.Stage, mesh: SkinnedMesh, clip: Clip, name: str, synthe
     offsets = mesh.skeleton.offsets()
     translations, rotations = animation.CreateTranslationsAttr(), animation.CreateRotationsAttr()
     animation.CreateScalesAttr(Vt.Vec3hArray(len(offsets), Gf.Vec3h(1, 1, 1)))
-    for code, (turns, place) in enumerate(zip(keys.rotations, keys.root, strict=True)):
+    for code, (turned, place) in enumerate(zip(keys.rotations, keys.root, strict=True)):
         places = offsets.copy()
         places[mesh.skeleton.parents < 0] = place
         translations.Set(Vt.Vec3fArray.FromNumpy(places), code)
-        rotations.Set(Vt.QuatfArray([Gf.Quatf(float(w), float(x), float(y), float(z)) for x, y, z, w in turns]), code)
+        rotations.Set(Vt.QuatfArray([Gf.Quatf(float(w), float(x), float(y), float(z)) for x, y, z, w in turned]), code)
     UsdSkel.BindingAPI.Apply(skeleton.GetPrim()).CreateAnimationSourceRel().SetTargets([animation.GetPath()])
     shape = _add_mesh(stage, mesh, name, skeleton)
     shape.GetPrim().ApplyAPI(UsdShade.MaterialBindingAPI)

@@ -155,10 +155,10 @@ def _first_guess(
     model: BodyModel, carried: LandmarkModel, chosen: NDArray[np.intp], places: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Arms half lowered, the whole body turned and placed as the landmarks are."""
-    turns = np.zeros((len(FITTED_JOINTS), 3))
+    rotation_vectors = np.zeros((len(FITTED_JOINTS), 3))
     for side, sign in (("Left", -1), ("Right", 1)):
-        turns[FITTED_JOINTS.index(f"{side}Arm"), 2] = sign * MEAN_LOWERED_ARMS_RADIANS
-    parameters = np.concatenate([np.zeros(3), turns.ravel(), np.zeros(model.coefficients)])
+        rotation_vectors[FITTED_JOINTS.index(f"{side}Arm"), 2] = sign * MEAN_LOWERED_ARMS_RADIANS
+    parameters = np.concatenate([np.zeros(3), rotation_vectors.ravel(), np.zeros(model.coefficients)])
     at = model.poser(parameters[None]).carry(carried)[0, chosen]
     turn = Rotation.align_vectors(places - places.mean(0), at - at.mean(0))[0]
     parameters[3:6] = turn.as_rotvec()
@@ -179,14 +179,14 @@ def _residuals(
     posed = model.poser(parameters)
     off = (posed.carry(carried)[:, chosen] - places) / sigmas[:, None]
     off = off / np.sqrt(1 + (off**2).sum(-1, keepdims=True) / COARSE_LANDMARK_CUTOFF_SIGMAS**2)
-    _, turns, coefficients = model.poser.split(parameters)
+    _, rotation_vectors, coefficients = model.poser.split(parameters)
     stiff = np.array([STIFF_WEIGHT if name in STIFF_JOINTS else 1.0 for name in FITTED_JOINTS[1:]]).repeat(3)
     heights = posed.carry(model.soles)[..., 1]
     return np.concatenate(
         [
             off.reshape(len(off), -1),
-            pose_prior(turns) * stiff,
-            joint_limits(turns),
+            pose_prior(rotation_vectors) * stiff,
+            joint_limits(rotation_vectors),
             SHAPE_WEIGHT * coefficients,
             np.minimum(heights, 0) / SOLE_SIGMA,
         ],

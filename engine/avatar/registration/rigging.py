@@ -42,9 +42,9 @@ def unposed(
     """Vertices (V, 3) in a pose brought to T-pose with the joints `rest` (J, 3): linear blend skinning by `bones` and `weights`
     (V, K) undone."""
     shifts = pose.joints - np.einsum("jab,jb->ja", pose.rotations, rest)
-    turns = np.einsum("vk,vkab->vab", weights, pose.rotations[bones])
+    blended = np.einsum("vk,vkab->vab", weights, pose.rotations[bones])
     moved = np.einsum("vk,vka->va", weights, shifts[bones])
-    left, spread, right = np.linalg.svd(turns)
+    left, spread, right = np.linalg.svd(blended)
     spread = np.clip(spread, MIN_BLEND_STRETCH_RATIO, MAX_BLEND_STRETCH_RATIO)
     back = right.transpose(0, 2, 1) / spread[:, None, :] @ left.transpose(0, 2, 1)
     return np.asarray(np.einsum("vab,vb->va", back, vertices - moved))

@@ -42,28 +42,28 @@ class ArticulatedHand:
         rest = model.mean + np.tensordot(np.asarray(coefficients), model.basis[: len(coefficients)], 1)
         self.rest = (rest - rest[0]).astype(np.float64)
 
-    def rotations(self, turns: NDArray[np.float64], angles: NDArray[np.float64]) -> NDArray[np.float64]:
+    def rotations(self, wrist_vectors: NDArray[np.float64], angles: NDArray[np.float64]) -> NDArray[np.float64]:
         """(N, 16, 3, 3) the hand's turn (N, 3), a rotation vector in the forearm's axes, and for its angles (N,
         `HAND_ANGLE_COUNT`) those of the joints 1 to 3 of each finger, each in its parent's axes."""
-        vectors = np.zeros((len(turns), 16, 3))
+        vectors = np.zeros((len(wrist_vectors), 16, 3))
         thumb, others = angles[:, :5], angles[:, 5:].reshape(-1, 4, 4)
         vectors[:, 1] = thumb[:, :3]
         vectors[:, 2], vectors[:, 3] = (thumb[:, [k]] * self.model.bend[0] for k in (3, 4))
-        spreads = np.zeros((len(turns), 4, 3))
+        spreads = np.zeros((len(wrist_vectors), 4, 3))
         for finger in range(4):
             spreads[:, finger] = others[:, finger, :1] * self.model.spread
             for joint in range(3):
                 vectors[:, 4 + 3 * finger + joint] = others[:, finger, [1 + joint]] * self.model.bend[1 + finger]
         found = rotation_matrices(vectors)
         found[:, 4::3] = rotation_matrices(spreads) @ found[:, 4::3]
-        found[:, 0] = rotation_matrices(turns)
+        found[:, 0] = rotation_matrices(wrist_vectors)
         return found
 
-    def places(self, turns: NDArray[np.float64], angles: NDArray[np.float64]) -> NDArray[np.float64]:
+    def places(self, wrist_vectors: NDArray[np.float64], angles: NDArray[np.float64]) -> NDArray[np.float64]:
         """Landmarks (N, 21, 3) in metres around the wrist, in the world's axes."""
-        rotations = self.rotations(turns, angles)
+        rotations = self.rotations(wrist_vectors, angles)
         hand = self.forearm_axes @ rotations[:, 0]
-        places = np.zeros((len(turns), 21, 3))
+        places = np.zeros((len(wrist_vectors), 21, 3))
         for k, finger in enumerate(FINGER_NAMES):
             axes, before = hand, 0
             for joint, landmark in enumerate(finger_landmarks(finger)):

@@ -46,16 +46,16 @@ def pose_prior(rotation_vectors: NDArray[np.float64]) -> NDArray[np.float64]:
 def joint_limits(rotation_vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """How far elbows and knees are bent the wrong way, legs stretched behind, and necks and heads twisted beyond what they
     can, (N, 8) in standard deviations, for rotation vectors (N, T, 3)."""
-    turns, at = rotation_vectors, FITTED_JOINTS.index
+    at = FITTED_JOINTS.index
     wrong = [
-        turns[:, at("LeftForeArm"), 1],
-        -turns[:, at("RightForeArm"), 1],
-        -turns[:, at("LeftLeg"), 0],
-        -turns[:, at("RightLeg"), 0],
-        turns[:, at("LeftUpLeg"), 0] - 0.15,
-        turns[:, at("RightUpLeg"), 0] - 0.15,
-        np.abs(turns[:, at("Neck"), 1] + turns[:, at("Head"), 1]) - 1.4,
-        np.abs(turns[:, at("Neck"), 0] + turns[:, at("Head"), 0]) - 1.0,
+        rotation_vectors[:, at("LeftForeArm"), 1],
+        -rotation_vectors[:, at("RightForeArm"), 1],
+        -rotation_vectors[:, at("LeftLeg"), 0],
+        -rotation_vectors[:, at("RightLeg"), 0],
+        rotation_vectors[:, at("LeftUpLeg"), 0] - 0.15,
+        rotation_vectors[:, at("RightUpLeg"), 0] - 0.15,
+        np.abs(rotation_vectors[:, at("Neck"), 1] + rotation_vectors[:, at("Head"), 1]) - 1.4,
+        np.abs(rotation_vectors[:, at("Neck"), 0] + rotation_vectors[:, at("Head"), 0]) - 1.0,
     ]
     return np.asarray(np.maximum(np.stack(wrong, 1), 0) / JOINT_LIMIT_SIGMA)
 

@@ -46,9 +46,9 @@ class PosePrior:
 
     def residuals(self, bundle: Bundle) -> NDArray[np.float64]:
         """(C, 6) how far the cameras are turned and shifted from what is expected, in pixels of error."""
-        turns = bundle.rotations @ self.rotations.transpose(0, 2, 1)
-        shifts = bundle.translations - np.einsum("cij,cj->ci", turns, self.translations)
-        return np.concatenate([Rotation.from_matrix(turns).as_rotvec() / self.turn, shifts / self.shift], axis=1)
+        rotated_by = bundle.rotations @ self.rotations.transpose(0, 2, 1)
+        shifts = bundle.translations - np.einsum("cij,cj->ci", rotated_by, self.translations)
+        return np.concatenate([Rotation.from_matrix(rotated_by).as_rotvec() / self.turn, shifts / self.shift], axis=1)
 
 
 @dataclass(frozen=True)
@@ -179,7 +179,7 @@ def _expect(
 def _moved(bundle: Bundle, freedom: Freedom, change: NDArray[np.float64]) -> Bundle:
     """The free cameras turned and shifted by (F, 6)."""
     rotations, translations = bundle.rotations.copy(), bundle.translations.copy()
-    turns = Rotation.from_rotvec(change[:, :3]).as_matrix()
-    rotations[freedom.cameras] = turns @ rotations[freedom.cameras]
-    translations[freedom.cameras] = np.einsum("cij,cj->ci", turns, translations[freedom.cameras]) + change[:, 3:]
+    rotated_by = Rotation.from_rotvec(change[:, :3]).as_matrix()
+    rotations[freedom.cameras] = rotated_by @ rotations[freedom.cameras]
+    translations[freedom.cameras] = np.einsum("cij,cj->ci", rotated_by, translations[freedom.cameras]) + change[:, 3:]
     return replace(bundle, rotations=rotations, translations=translations)

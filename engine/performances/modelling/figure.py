@@ -187,24 +187,24 @@ def rigid_motion(before: NDArray[np.floating], after: NDArray[np.floating]) -> N
 
 
 def _rotations(rig: Rig, pose: Pose) -> NDArray[np.float64]:
-    turns = np.tile(np.eye(3), (len(rig.names), 1, 1))
+    rotations = np.tile(np.eye(3), (len(rig.names), 1, 1))
     pitch, yaw, roll = pose.head
     for name, share in NECK_SHARES.items():
         turn = Rotation.from_euler("YXZ", [share * yaw, share * pitch, -share * roll], degrees=True)
-        turns[rig.index(name)] = turn.as_matrix()
+        rotations[rig.index(name)] = turn.as_matrix()
     for side, sign in (("L", 1), ("R", -1)):
         lift = Rotation.from_euler("z", sign * 1.1 * pose.breath, degrees=True)
-        turns[rig.index(f"clavicle.{side}")] = lift.as_matrix()
-    turns[rig.index("spine01")] = Rotation.from_euler("x", -0.5 * pose.breath, degrees=True).as_matrix()
-    return turns
+        rotations[rig.index(f"clavicle.{side}")] = lift.as_matrix()
+    rotations[rig.index("spine01")] = Rotation.from_euler("x", -0.5 * pose.breath, degrees=True).as_matrix()
+    return rotations
 
 
 def _arms_down(rig: Rig, shape: NDArray[np.float32]) -> NDArray[np.float32]:
-    turns = np.tile(np.eye(3), (len(rig.names), 1, 1))
+    rotations = np.tile(np.eye(3), (len(rig.names), 1, 1))
     for side, sign in (("L", 1), ("R", -1)):
         for bone, angle in (("clavicle", -5), ("upperarm01", -34)):
-            turns[rig.index(f"{bone}.{side}")] = Rotation.from_euler("z", sign * angle, degrees=True).as_matrix()
-    return skin(shape, rig.bones, rig.weights, bone_transforms(rig.parents, rig.joints(shape)[0], turns))
+            rotations[rig.index(f"{bone}.{side}")] = Rotation.from_euler("z", sign * angle, degrees=True).as_matrix()
+    return skin(shape, rig.bones, rig.weights, bone_transforms(rig.parents, rig.joints(shape)[0], rotations))
 
 
 def _compact(points: sp.csr_array, quads: NDArray[np.int32]) -> tuple[sp.csr_array, NDArray[np.int32]]:

@@ -106,23 +106,23 @@ def with_feet(
     rest = in_shoes(skin, models.feet, bare) if shoes else bare
     joints = np.asarray(models.space.joints(coefficients), np.float64)
     whole = skin.regions["lower_feet"]
-    moved, places, turns = body.vertices.copy(), body.joints.copy(), body.rotations.copy()
+    moved, places, rotations = body.vertices.copy(), body.joints.copy(), body.rotations.copy()
     for side, mask in zip(SIDE_NAMES, models.feet.masks, strict=True):
         foot = _foot(models, side, np.flatnonzero(mask & whole), rest, joints)
         ankle, toes = (models.space.names.index(f"{side}{name}") for name in ("Foot", "ToeBase"))
-        start = _start(foot, places[ankle], turns[ankle])
+        start = _start(foot, places[ankle], rotations[ankle])
         elsewhere = skin.triangles[~np.isin(skin.triangles, foot.numbers).any(1)]
         sights = foot_sights(silhouettes, foot.moved(foot.places, start[None])[0], body.vertices, elsewhere)
         found = _laid(foot, start, side, landmarks, cloud, sights)
         moved[foot.numbers] = foot.moved(foot.places, found[None])[0]
         ground = np.array([joints[ankle, 0], rest[mask, 1].min(), joints[ankle, 2]])
         places[[ankle, toes]] = foot.moved(joints[[ankle, toes]] - ground, found[None])[0]
-        turns[[ankle, toes]] = _about_vertical(found[3])
+        rotations[[ankle, toes]] = _about_vertical(found[3])
     knee = joints[models.space.names.index("LeftLeg"), 1]
     legs = np.isin(np.array(models.rig.names)[skin.bones[:, 0]], [f"{side}Leg" for side in SIDE_NAMES])
     bent = ((legs & (bare[:, 1] < BENT_KNEE_HEIGHT_SHARE * knee)) | skin.regions["feet"]) & ~whole
     deformation = LaplacianDeformation(body.vertices, skin.triangles, handles(len(moved), np.flatnonzero(~bent)))
-    return replace(body, vertices=deformation(moved[~bent]), joints=places, rotations=turns)
+    return replace(body, vertices=deformation(moved[~bent]), joints=places, rotations=rotations)
 
 
 def _foot(

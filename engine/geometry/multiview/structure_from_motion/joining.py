@@ -199,8 +199,8 @@ def _seen(side: _Side, places: NDArray[np.float64]) -> tuple[NDArray[np.float64]
     """How far (O, 2) pixels the points at `places` (M, 3) are seen from where they were, and how that changes with the places
     (O, 2, 3); what is behind a camera is `BEHIND_CAMERA_PIXELS` off, and does not change."""
     bundle = side.bundle
-    turns = bundle.rotations[side.camera]
-    at = np.einsum("oij,oj->oi", turns, places[side.pair]) + bundle.translations[side.camera]
+    rotations = bundle.rotations[side.camera]
+    at = np.einsum("oij,oj->oi", rotations, places[side.pair]) + bundle.translations[side.camera]
     before = at[:, 2] > MIN_POINT_DEPTH
     deep = np.where(before, at[:, 2], 1.0)[:, None]
     flat = at[:, :2] / deep
@@ -212,4 +212,4 @@ def _seen(side: _Side, places: NDArray[np.float64]) -> tuple[NDArray[np.float64]
     by_flat = stretch[:, None, None] * np.eye(2) + growth[:, None, None] * flat[:, :, None] * flat[:, None, :]
     by_eye = np.concatenate([by_flat, -(by_flat @ flat[:, :, None])], axis=2) / deep[:, :, None]
     off[~before], by_eye[~before] = BEHIND_CAMERA_PIXELS, 0.0
-    return off, by_eye @ turns
+    return off, by_eye @ rotations
