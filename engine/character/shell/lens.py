@@ -163,9 +163,9 @@ def _carried(
     )
     of_arm = np.zeros(len(mesh.names), np.bool_)
     of_arm[np.unique(mesh.bones[mesh.parts[:, list(ARM_LABELS)].sum(1) > 0.99, 0])] = True
-    if dense[:, of_arm].sum() < MIN_ARM_WEIGHT_SHARE * dense.sum():
-        dense[:, of_arm] = 0
-        dense[:, mesh.names.index("Hips")] += 1e-4
+    arms = dense[:, of_arm].sum() > MIN_ARM_WEIGHT_SHARE * dense.sum()
+    dense[:, ~of_arm if arms else of_arm] = 0  # between an arm and what it leaves it would be drawn out
+    dense[:, int(dense.sum(0).argmax()) if arms else mesh.names.index("Hips")] += 1e-4
     used = np.flatnonzero(dense.any(0))
     dense[:, used] = lattice.smoothed(dense[:, used], WEIGHT_SMOOTHING_VERTICES)
     bones = np.argsort(-dense, 1)[:, :4]
