@@ -14,6 +14,7 @@ from engine.character.parts.label_map import Labels
 from engine.character.shell.colours.ear_shade import ear_shade
 from engine.character.shell.colours.evidence import witness
 from engine.character.shell.colours.head_round import head_round
+from engine.character.shell.colours.light_of_the_picture import light_of_the_picture
 from engine.character.shell.colours.round import BackTexture, coloured_round, with_the_other
 from engine.character.shell.colours.unrolled import UNROLLED_COLUMNS, unrolled_parts
 from engine.character.shell.shell import Shell
@@ -131,8 +132,11 @@ def paint_shell(
         painted[strip] = seen.colours
     soft = _softened(np.where(wanted, shown, 0))
     drawn = np.where(wanted, raster.triangle, -1)
-    _filled(painted, soft, drawn, raster.barycentrics, triangles, places.astype(np.float32),
+    model = np.zeros_like(painted)
+    _filled(model, np.zeros_like(soft), drawn, raster.barycentrics, triangles, places.astype(np.float32),
             np.concatenate(rows), np.concatenate(sure), firsts)  # fmt: skip
+    model += light_of_the_picture(painted - model, soft)
+    painted = soft[..., None] * painted + (1 - soft[..., None]) * model
     shade = interpolate(ear_shade()[:, None], triangles, Raster(drawn, raster.barycentrics, raster.depth))[..., 0]
     painted *= np.where(drawn >= 0, soft + (1 - soft) * shade, 1)[..., None]
     out = np.clip(painted + 0.5, 0, 255).astype(np.uint8)
