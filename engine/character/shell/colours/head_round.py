@@ -48,6 +48,8 @@ CENTRE_WEIGHT = 0.3
 """How much the middle counts beside the sides for the colour of hair."""
 TEMPLE_RADIANS = (0.6, 0.78)
 """Radians from its middle from which on a face goes on beside the eyes by itself, and from which on it does so wholly."""
+FULLY_SEEN_COSINES = (0.75, 0.88)
+"""Cosines to the viewer from which on the side of a turned head is seen more and more, and wholly, as it is."""
 EDGE_METRES = 0.004
 """Metres over which hair and ears go over into skin."""
 SIDE_SKIN_RADIANS, JAW_RADIANS = 0.7, 1.2
@@ -90,11 +92,11 @@ def head_round(
     middle = head.between("chin", "hairline") & (head.angle < CHEEK_EDGE_RADIANS)
     colours, known = _both_cheeks(colours, source & (facing > MIN_WELL_SEEN_COSINE), face, middle)
     kinds = _kinds(head, colours, known)
-    side = head.between("chin", "brow") & (head.angle > TEMPLE_RADIANS[0])
+    side = head.between("chin", "brow") & (head.angle > TEMPLE_RADIANS[0]) & (facing < FULLY_SEEN_COSINES[0])
     if not kinds.falls and (known & side).any():
         known = known & ~side
         kinds = replace(_kinds(head, colours, known), falls=kinds.falls)
-    believed = _believed(head, source.shape, falls=kinds.falls)
+    believed = _believed(head, facing, falls=kinds.falls)
     streaks = strand_noise((len(colours), UNROLLED_COLUMNS))
     skin = _skin(head, colours, kinds)
     if not kinds.hair.any():
@@ -107,13 +109,15 @@ def head_round(
     return np.where(known[..., None], colours, filled).astype(np.float32), believed
 
 
-def _believed(head: HeadMap, shape: tuple[int, int], *, falls: bool) -> NDArray[np.float32]:
+def _believed(head: HeadMap, facing: NDArray[np.float32], *, falls: bool) -> NDArray[np.float32]:
     """How far the picture is believed (A, `UNROLLED_COLUMNS`): not between eye and ear, unless hair falls there. A sideburn, an ear, the shadow
     before it and the wall beside are elsewhere on every head, and drawn out over its side; skin goes on by itself."""
     if falls:
-        return np.ones(shape, np.float32)
+        return np.ones(facing.shape, np.float32)
     least, all_ = TEMPLE_RADIANS
     temple = np.clip((head.angle - least) / (all_ - least), 0, 1) * head.between("chin", "brow")
+    least, all_ = FULLY_SEEN_COSINES
+    temple = temple * (1 - np.clip((facing - least) / (all_ - least), 0, 1))
     return 1 - np.asarray(cv2.GaussianBlur(temple.astype(np.float32), (0, 0), EDGE_METRES / ROW_METRES), np.float32)
 
 
