@@ -78,9 +78,10 @@ def _parameter(item: Input, place: int, alone: bool) -> click.Parameter:
     if alone or (place == 0 and item.media in ("image", "photos")):
         return click.Argument([item.name], required=item.always_needed, metavar=item.name.upper())
     flag = "--" + item.name.replace("_", "-")
-    required = item.always_needed
+    built_in_names = ", ".join(built_in.names(item.library)) if names and item.library is not None else ""
+    told = f"{item.description} Built in: {built_in_names}." if built_in_names else item.description
     return click.Option(
-        [flag, item.name], required=required, metavar=metavar, help=item.description, shell_complete=_names_of(item)
+        [flag, item.name], required=item.always_needed, metavar=metavar, help=told, shell_complete=_names_of(item)
     )
 
 

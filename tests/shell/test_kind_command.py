@@ -76,6 +76,14 @@ def test_files_that_correct_are_options(tmp_path: Path, environment: dict[str, s
     assert "--mask IMAGE" in shown and "--labels IMAGE" in shown
 
 
+def test_help_names_what_is_built_in() -> None:
+    driver = " ".join(told("portrait", "--help").stdout.split())
+    assert "Built in: idle, idle- strong, happy," in driver or "Built in: idle, idle-strong, happy," in driver
+    assert "Built in: idle, walk, run, jump, sit, wave, dance, bow." in " ".join(
+        told("character", "--help").stdout.split()
+    )
+
+
 def test_options_are_flags_and_these_count_more(tmp_path: Path, environment: dict[str, str]) -> None:
     (tmp_path / "a.png").write_bytes(PICTURE)
     order = ("tiny", tmp_path / "a.png", "-o", tmp_path / "out", "--options", '{"seconds": 60}')
