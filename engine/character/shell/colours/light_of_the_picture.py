@@ -6,18 +6,18 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-LIGHT_SCALE, LIGHT_TEXELS, MAX_LIGHT_LEVELS, FULLY_SHOWN = 4, 40.0, 30.0, 0.9
+LIGHT_DOWNSAMPLING, LIGHT_TEXELS, MAX_LIGHT_LEVELS, FULLY_SHOWN = 4, 40.0, 30.0, 0.9
 """How much smaller light is looked at; texels over which it goes on; grey levels of it at most; and how far a texel is shown that says so."""
 
 
 def light_of_the_picture(change: NDArray[np.float32], shown: NDArray[np.float32]) -> NDArray[np.float32]:
     """By how much (S, S, 3) what is filled is to be lighter, so that it meets what is `shown` (S, S) as light as that is: the picture's `change` (S, S,
     3) beside it, less and less away from it."""
-    size = (shown.shape[1] // LIGHT_SCALE, shown.shape[0] // LIGHT_SCALE)
+    size = (shown.shape[1] // LIGHT_DOWNSAMPLING, shown.shape[0] // LIGHT_DOWNSAMPLING)
     sure = (shown > FULLY_SHOWN).astype(np.float32)
     step = np.clip(change, -MAX_LIGHT_LEVELS, MAX_LIGHT_LEVELS) * sure[..., None]
     small, weight = (cv2.resize(one, size, interpolation=cv2.INTER_AREA) for one in (step, sure))
-    sigma = LIGHT_TEXELS / LIGHT_SCALE
+    sigma = LIGHT_TEXELS / LIGHT_DOWNSAMPLING
     around, count = (cv2.GaussianBlur(one, (0, 0), sigma) for one in (small, weight))
     away = cv2.distanceTransform((weight < 0.5).astype(np.uint8), cv2.DIST_L2, 5) / sigma
     light = around / np.maximum(count, 1e-4)[..., None] * np.exp(-away)[..., None]
