@@ -8,6 +8,7 @@ hair nor clothes. So each is what it is good at, and limbs reach into the trunk:
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,14 @@ from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
 from engine.character.hybrid.hair_volume import hair_volume
-from engine.character.hybrid.head import head_is_known, joined_at_the_neck, with_hair_apart, with_head, without_head
+from engine.character.hybrid.head import (
+    hair_keeps_to_the_head,
+    head_is_known,
+    joined_at_the_neck,
+    with_hair_apart,
+    with_head,
+    without_head,
+)
 from engine.character.hybrid.limbs import Limbs, cut_off, joined_in_depth, limbs_of
 from engine.character.hybrid.outline_warp import drawn_to_the_outline
 from engine.character.hybrid.trunk import soft_beside_limbs, trunk_labels, trunk_layer
@@ -32,6 +40,8 @@ from engine.character.surface.face_warp import seen_face
 from engine.character.surface.front_and_back import ClosedMesh, stitch_front_and_back
 from engine.render.rasteriser import rasterise
 
+LooseHair = Literal["shell", "relief"]
+"""What a head is whose hair does not keep to it."""
 SHOULDER_NEARNESS = 0.3
 """How near to a shoulder, from 0 to 1 there, the arm and the trunk are one surface."""
 
@@ -64,14 +74,20 @@ class Hybrid:
         )
 
 
-def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Hybrid:
-    """Both surfaces of a person: `figure` and `silhouette` as they were found, the `fitted` template, and the `labels` of its parts."""
+def make_hybrid(
+    figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels, loose_hair: LooseHair = "shell"
+) -> Hybrid:
+    """Both surfaces of a person: `figure` and `silhouette` as they were found, the `fitted` template, and the `labels` of its parts.
+
+    `loose_hair`: what a head is whose hair does not keep to it: the template's, with a `shell` of hair around it, or the `relief`'s.
+    """
     mesh, human = template_mesh(), load_human()
     camera = silhouette.camera(fitted.picture_camera())
     labels = labels.bare
-    with_its_head = head_is_known(figure, silhouette, labels, mesh, as_fitted(silhouette, fitted)[1])
-    if with_its_head:
-        labels = with_hair_apart(figure, silhouette, labels, mesh, as_fitted(silhouette, fitted)[1])
+    head = (figure, silhouette, labels, mesh, as_fitted(silhouette, fitted)[1])
+    with_its_head = head_is_known(*head) if loose_hair == "shell" else hair_keeps_to_the_head(*head)
+    if with_its_head and loose_hair == "shell":
+        labels = with_hair_apart(*head)
     own = trunk_labels(labels)
     strange = strange_colours(silhouette.rgb, own.labels)
     template = pose_template(fitted, camera, human)
