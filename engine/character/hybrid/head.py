@@ -58,15 +58,10 @@ def hair_keeps_to_the_head(
 ) -> bool:
     """Whether the head, hair and all, has the shape of the `template`'s (V, 3), picture space. No where that is not
     known: no face is seen, or one in profile, whose turn is not found, or the picture cuts the head off."""
-    if figure.face is None or in_profile(figure):
-        return False
     own = labels.labels == HEAD_LABEL
-    skull = template[mesh.head > 0.5]
-    places = (skull[:, :2] - silhouette.to_grid[:, 2]) / np.diag(silhouette.to_grid)
-    height, width = silhouette.alpha.shape
-    if not own.any() or (places < 0).any() or (places > [width - 1, height - 1]).any():
+    if not own.any() or not _turned_to_the_viewer(figure, silhouette, mesh, template):
         return False
-    of_head, size = mesh.parts[:, HEAD_LABEL] > MIN_SHOWN_HEAD_WEIGHT, np.ptp(skull[:, 1])
+    of_head, size = mesh.parts[:, HEAD_LABEL] > MIN_SHOWN_HEAD_WEIGHT, np.ptp(template[mesh.head > 0.5, 1])
     covered, neck = (_covered(mesh, template, each, own.shape) for each in (of_head, of_head & _below_the_mouth(mesh)))
     loose = (own & ~dilate_mask(covered, round(HAIR_DEPTH_SHARE * size))).sum() / own.sum()
     at_neck = dilate_mask(neck, round(NECK_SURROUND_SHARE * size)) & ~dilate_mask(
@@ -83,12 +78,7 @@ def head_is_known(
 ) -> bool:
     """Whether the `template`'s head (V, 3), picture space, is where the person's is. No where that is not known: no face is seen, or one in
     profile, whose turn is not found, or the picture cuts the head off."""
-    if figure.face is None or in_profile(figure):
-        return False
-    skull = template[mesh.head > 0.5]
-    places = (skull[:, :2] - silhouette.to_grid[:, 2]) / np.diag(silhouette.to_grid)
-    height, width = silhouette.alpha.shape
-    if (places < 0).any() or (places > [width - 1, height - 1]).any():
+    if not _turned_to_the_viewer(figure, silhouette, mesh, template):
         return False
     covered = _covered(mesh, template, mesh.parts[:, HEAD_LABEL] > MIN_SHOWN_HEAD_WEIGHT, labels.labels.shape)
     return bool((covered & (labels.labels < 0)).sum() < MAX_UNKNOWN_SHARE * covered.sum())
@@ -111,6 +101,17 @@ def with_hair_apart(
     held = np.full(labels.labels.shape, -1, np.int8) if labels.held is None else labels.held.copy()
     held[hair] = HEAD_LABEL
     return replace(labels, labels=np.where(hair, -1, labels.labels).astype(np.int8), held=held)
+
+
+def _turned_to_the_viewer(
+    figure: Figure, silhouette: Silhouette, mesh: TemplateMesh, template: NDArray[np.float64]
+) -> bool:
+    """Whether a face is seen, not in profile, and the picture has all of the `template`'s head (V, 3)."""
+    if figure.face is None or in_profile(figure):
+        return False
+    places = (template[mesh.head > 0.5, :2] - silhouette.to_grid[:, 2]) / np.diag(silhouette.to_grid)
+    height, width = silhouette.alpha.shape
+    return bool((places >= 0).all() and (places <= [width - 1, height - 1]).all())
 
 
 def _covered(

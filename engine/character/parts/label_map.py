@@ -51,7 +51,8 @@ class Labels:
     hidden : (h, w) int8 the arm whose hand is in a pocket there, or behind other cloth, -1 elsewhere.
     behind : of crossed arms the one that the other hides.
     cloth : what goes round both legs.
-    held : (h, w) int8 the arm whose hand holds what is there, labelled as its; -1 elsewhere, None where nothing is held.
+    held : (h, w) int8 the part that holds what is there, an arm, or the head of hair that stands off; -1 elsewhere, None where nothing
+        is held.
     """
 
     labels: NDArray[np.int8]

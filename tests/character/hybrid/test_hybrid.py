@@ -181,6 +181,16 @@ def test_limbs_are_drawn_to_the_outline(made: tuple[Hybrid, Character, Character
     assert np.abs(moved[edges[:, 0]] - moved[edges[:, 1]]).max() < 2.5, "pixels between neighbours"
 
 
+def test_what_is_held_draws_no_limb_to_its_outline(made: tuple[Hybrid, Character, Character]) -> None:
+    """The same outline, all of which is that of something held."""
+    hybrid = made[0]
+    mask = cv2.GaussianBlur((hybrid.labels.labels >= 0).astype(np.float32), (0, 0), 1)
+    held = np.where(cv2.dilate(mask, np.ones((15, 15))) > 0, ARM_LABELS[0], -1).astype(np.int8)
+    pictured, triangles = hybrid.shell.pictured, limbs_alone(hybrid).mesh.triangles
+    moved = drawn_to_the_outline(pictured, hybrid.limbs, triangles, hybrid.trunk, np.roll(mask, 2, 1), held)
+    np.testing.assert_array_equal(moved, pictured)
+
+
 def test_at_shoulders_the_trunk_ends_beneath_the_shell(made: tuple[Hybrid, Character, Character]) -> None:
     """Where an arm is cut from it, the trunk's front is behind the arm's, so that its border is no step."""
     hybrid = made[0]

@@ -12,7 +12,7 @@ from engine.character.fit.template_fit import FittedBody, load_human, pose_templ
 from engine.character.rig.measures import picture_camera, pose
 from engine.character.rig.shell_binding import bind_shell
 from engine.character.shell.at_rest import shell_at_rest
-from engine.character.shell.piece import Piece
+from engine.character.shell.piece import Colours, Piece
 from engine.character.shell.shell import Shell
 from engine.character.shell.template_mesh import template_mesh
 from engine.geometry.mesh.welding import is_closed, weld
@@ -62,3 +62,22 @@ def test_a_piece_comes_with_the_colours_of_the_picture(made: tuple[FittedBody, S
     assert (colours[-4:] == [0, 200, 0]).all() and (colours[:-4] == [250, 0, 0]).mean() > 0.99
     seen = picture_camera(character, fitted, (800, 600)).project(pose(character, character.pictured))
     np.testing.assert_allclose(seen[-4:, :2], corners[:, :2], atol=0.05)
+
+
+def test_a_piece_with_colours_of_its_own_has_those(made: tuple[FittedBody, Silhouette, Shell]) -> None:
+    """Its upper half is blue and its lower one white, whatever the picture has there, and a piece beside it has the picture's."""
+    fitted, silhouette, shell = made
+    corners = np.array([[300, 400, 0], [320, 400, 0], [300, 420, 0], [320, 420, 20]], np.float64)
+    faces = np.array([[0, 1, 2], [1, 3, 2], [0, 2, 1], [1, 2, 3]], np.int32)
+    weights = np.tile(np.array([1, 0, 0, 0], np.float32), (4, 1))
+    own = np.concatenate([np.full((16, 24, 3), [0, 0, 250], np.uint8), np.full((16, 24, 3), 255, np.uint8)])
+    colours = Colours(np.array([[0.0, 0], [1, 0], [0, 1], [1, 1]]), own)
+    pieces = tuple(Piece("Head", corners, faces, np.zeros((4, 4), np.intp), weights, one) for one in (None, colours))
+    figure = replace(figure_with(None), rgb=silhouette.rgb)
+    chart = np.full((64, 64, 3), [250, 0, 0], np.uint8)
+    mesh = bind_shell(replace(shell, pieces=pieces), figure, silhouette, fitted, chart).mesh
+    size = np.array(mesh.texture.shape[1::-1])
+    x, y = np.clip(np.rint(mesh.uv * size - 0.5).astype(int), 0, size - 1).T
+    found = mesh.texture[y, x]
+    assert (found[-8:-4] == [0, 200, 0]).all(), "the picture's"
+    assert (found[-4:-2] == [0, 0, 250]).all() and (found[-2:] == 255).all()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 import pytest
@@ -129,3 +131,21 @@ def test_at_rest_it_is_what_the_pictured_joints_bring_to_the_picture() -> None:
     np.testing.assert_allclose(
         shell_at_rest(mesh, straight, places, places, camera, fitted), straight, atol=6e-3
     )  # of six influences four are kept
+
+
+def test_a_border_beside_what_is_held_is_no_outline(template: NDArray[np.float64]) -> None:
+    """What a hand is hidden by has an edge there, the hand has none."""
+    labels = labels_of(template)
+    arm = BODY_PARTS.index("left_arm")
+    y = np.nonzero(labels.labels == arm)[0]
+    rows = np.arange(SHAPE[0])[:, None]
+    hidden = (labels.labels == arm) & (rows > y.max() - 12)
+    bare = replace(labels, labels=np.where(hidden, -1, labels.labels).astype(np.int8))
+    held = replace(bare, held=np.where(hidden, arm, -1).astype(np.int8))
+    cut = y.max() - 12
+
+    def along_the_cut(one: Labels) -> int:
+        points = part_outlines(one).of(arm).points
+        return int((np.abs(points[:, 1] - cut) < 1.5).sum())
+
+    assert along_the_cut(bare) > along_the_cut(held) + 2

@@ -118,3 +118,20 @@ def test_what_is_held_is_a_ball_of_its_own_depth_whose_front_is_before_the_hand(
     assert (nearest[0] > nearest[1])[ball].mean() > 0.8
     volumes = 4 / 3 * np.pi * radius**3
     assert 0.6 * volumes < volume(piece) < 1.1 * volumes
+
+
+def test_a_loose_piece_goes_with_the_arm_or_with_the_rest(body: NDArray[np.float64]) -> None:
+    """A flap between forearm and thigh: drawn out between both it would be a sail as the arm is raised."""
+    mesh = template_mesh()
+    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
+    arm = body[mesh.share("LeftForeArm") > 0.9]
+    leg = body[mesh.share("LeftUpLeg") > 0.9]
+    rows = (y > arm[:, 1].max() - 50) & (y < arm[:, 1].max())
+    between = rows & (x > min(leg[:, 0].max(), arm[:, 0].min()) - 2) & (x < max(leg[:, 0].max(), arm[:, 0].min()) + 2)
+    of_arm = np.flatnonzero(mesh.parts[:, BODY_PARTS.index("left_arm")] > 0.99)
+    joints = np.unique(mesh.bones[of_arm, 0])
+    found = [one for one in props_of(mesh, body, silhouette_of(covered(body) | between), []) if one.kind == "soft"]
+    assert found
+    for piece in found:
+        share = (piece.weights * np.isin(piece.bones, joints)).sum()
+        assert share == pytest.approx(0, abs=1e-3) or share == pytest.approx(piece.weights.sum(), rel=1e-2)
