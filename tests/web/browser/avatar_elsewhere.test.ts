@@ -70,20 +70,28 @@ function calls<Of>(page: Page) {
 describe('in TalkingHead', () => {
   it('stands as its poses mean it, whose angles are those of Ready Player Me’s joints', async () => {
     const call = calls<TalkingHeadPage>(await open('talking_head'));
-    const at = (name: string) => call('joint', name);
+    const at = (...names: string[]) => call('joints', ...names) as Promise<[number, number, number][]>;
+    const sides = ['Left', 'Right'] as const;
     // relaxed: hands beside the hips, palms' length before and behind them, feet below
-    await expect.poll(async () => (await at('LeftArm'))[1] - (await at('LeftHand'))[1]).toBeGreaterThan(0.35);
-    const [hips, head, left, right] = [await at('Hips'), await at('Head'), await at('LeftHand'), await at('RightHand')];
-    expect(left[0] - hips[0]).toBeGreaterThan(0.1);
-    expect(right[0] - hips[0]).toBeLessThan(-0.1);
-    for (const hand of [left, right]) expect(Math.hypot(hand[0] - hips[0], hand[2] - hips[2])).toBeLessThan(0.45);
-    expect(head[1] - hips[1], 'upright').toBeGreaterThan(0.5);
-    for (const side of ['Left', 'Right'] as const) {
-      const [knee, foot, toes] = [await at(`${side}Leg`), await at(`${side}Foot`), await at(`${side}ToeBase`)];
-      expect(hips[1] - knee[1]).toBeGreaterThan(0.35);
-      expect(knee[1] - foot[1]).toBeGreaterThan(0.3);
-      expect(toes[2] - foot[2], 'feet point forward').toBeGreaterThan(0.03);
-      expect(toes[1]).toBeLessThan(foot[1]);
+    await expect
+      .poll(async () => {
+        const [arm, hand] = await at('LeftArm', 'LeftHand');
+        return arm![1] - hand![1];
+      })
+      .toBeGreaterThan(0.35);
+    const [hips, head, left, right, ...legs] = await at(
+      ...['Hips', 'Head', 'LeftHand', 'RightHand'],
+      ...sides.flatMap((side) => [`${side}Leg`, `${side}Foot`, `${side}ToeBase`]),
+    );
+    expect(left![0] - hips![0]).toBeGreaterThan(0.1);
+    expect(right![0] - hips![0]).toBeLessThan(-0.1);
+    for (const hand of [left!, right!]) expect(Math.hypot(hand[0] - hips![0], hand[2] - hips![2])).toBeLessThan(0.45);
+    expect(head![1] - hips![1], 'upright').toBeGreaterThan(0.5);
+    for (const [knee, foot, toes] of [legs.slice(0, 3), legs.slice(3)]) {
+      expect(hips![1] - knee![1]).toBeGreaterThan(0.35);
+      expect(knee![1] - foot![1]).toBeGreaterThan(0.3);
+      expect(toes![2] - foot![2], 'feet point forward').toBeGreaterThan(0.03);
+      expect(toes![1]).toBeLessThan(foot![1]);
     }
   });
 

@@ -12,8 +12,8 @@ export interface TalkingHeadPage {
   targets: () => string[];
   /** How far a morph target goes now. */
   influence: (name: string) => number;
-  /** Where a joint is in the world. */
-  joint: (name: string) => Place;
+  /** Where joints are in the world, all at one instant: it never stands still. */
+  joints: (...names: string[]) => Place[];
   /** Stand still once a morph target goes so far, and say how many pixels it changes then, and how many of those are above the eyes. */
   shaped: (name: string, least: number) => Promise<{ pixels: number; above: number }>;
 }

@@ -63,7 +63,7 @@ const page: TalkingHeadPage = {
     }),
   targets: () => Object.keys(face.morphTargetDictionary!),
   influence: (name) => face.morphTargetInfluences![face.morphTargetDictionary![name]!]!,
-  joint: (name) => place(name).toArray(),
+  joints: (...names) => names.map((name) => place(name).toArray()),
   shaped: async (name, least) => {
     const [index, influences] = [face.morphTargetDictionary![name]!, face.morphTargetInfluences!];
     while (influences[index]! < least) await new Promise(requestAnimationFrame);
