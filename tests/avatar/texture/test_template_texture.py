@@ -11,7 +11,13 @@ from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.texture.template_surface import TemplateSurface, template_surface
 from engine.avatar.texture.template_texture.eyes import Eyeballs, painted_eyes, persons_eyes
 from engine.avatar.texture.template_texture.hands import hand_bones, painted_hand, past_wrist
-from engine.avatar.texture.template_texture.mouth import painted_lining, painted_teeth, painted_tongue
+from engine.avatar.texture.template_texture.mouth import (
+    MIN_MOUTH_LIGHT_SHARE,
+    mouth_light,
+    painted_lining,
+    painted_teeth,
+    painted_tongue,
+)
 from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.avatar.texture.template_texture.placing import place_lids
 from engine.body.rig import HUMAN_RIG, Rig
@@ -198,3 +204,13 @@ def test_fine_texels_are_the_same_texels_more_often(surface: TemplateSurface) ->
     assert (texture.reshape(-1, 3)[coarse.texels] == 77).all() and (texture == 77).any(2).sum() < 1.4 * len(
         coarse.texels
     )
+
+
+def test_what_is_deeper_in_the_mouth_is_darker() -> None:
+    places = np.zeros((40, 3))
+    places[:, 2] = np.linspace(0.0, -0.08, 40)
+    light = mouth_light(places)
+    assert light[0] == pytest.approx(1)
+    assert (np.diff(light) < 0).all()
+    assert light[-1] == pytest.approx(MIN_MOUTH_LIGHT_SHARE, abs=0.02)
+    assert not len(mouth_light(places[:0]))

@@ -12,7 +12,7 @@ from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import FACE_UNITS, Template
 from engine.geometry.deformation.deformation_transfer import DeformationTransfer
 from engine.geometry.mesh.surface import triangle_areas
-from engine.geometry.registration.rigid import fit_similarity
+from engine.geometry.registration.rigid import fit_rigid, fit_similarity
 
 RIGID_PARTS = (
     *("left_eye", "right_eye", "upper_teeth", "lower_teeth", "tongue"),
@@ -36,7 +36,8 @@ def transferred_units(template: Template, skin: Skin, rest: NDArray[np.floating]
     T-pose are `rest` (V, 3).
 
     The skin's by deformation transfer from the template's own, and in a blink with the upper lid's rim on the lower's; those of
-    `RIGID_PARTS` turned and scaled as the parts are.
+    `RIGID_PARTS` turned and scaled as the parts are. A tongue lies in the lower jaw and goes where that goes. Where it
+    moves by itself it rises to its place in the template.
     """
     dense = template.face_units.dense(FACE_UNITS)
     own = np.asarray(rest, np.float64)
@@ -49,6 +50,11 @@ def transferred_units(template: Template, skin: Skin, rest: NDArray[np.floating]
         moved = np.zeros_like(offsets)
         for part, vertices in parts.items():
             moved[vertices] = placed[part].offsets(offsets[vertices])
+        tongue, jaw = parts["tongue"], parts["lower_teeth"]
+        if moved[jaw].any():
+            moved[tongue] = fit_rigid(own[jaw], own[jaw] + moved[jaw])(own[tongue]) - own[tongue]
+        elif moved[tongue].any():
+            moved[tongue] += (placed["lower_teeth"](template.vertices[tongue]) - own[tongue]).mean(0)
         if name in EYE_OF_BLINK_UNIT:
             _blink(template, skin, own, name, moved)
         else:

@@ -41,8 +41,13 @@ SIDED_MOUTH_UNITS = (
     "mouthUpperUp",
 )
 """Face units that press skin against teeth; of the latter both sides do."""
-TONGUE_HEIGHT_SHARE = 0.6
+TONGUE_HEIGHT_SHARE = 0.45
 """Of the template's tongue's, which fills a mouth that opens."""
+TONGUE_TIP_METRES = 0.012
+"""Metres of the template behind the foremost of the tongue within which it is its tip, and of the lower teeth within which they meet
+it."""
+TONGUE_BELOW_INCISORS_METRES = 0.003
+"""Metres by which the tip of a tongue that lies in the jaw is below the edge of the lower incisors."""
 SETBACK_STEP_METRES, MAX_SETBACK_METRES = 0.0005, 0.03
 """Metres by which teeth are set back at a time, and at most."""
 FOLLOWED_SKIN_VERTICES = 4
@@ -66,12 +71,22 @@ def place_parts(
     placed = _in_mouth(template, skin, own, after, head)
     back = _back_in_expressions(template, skin, after, placed, head)
     mouth = placed(own) - back * head.rotation[:, 2]
-    tongue, up = template.vertices_of("tongue"), head.rotation[:, 1]
-    height = (mouth[tongue] - mouth[tongue].mean(0)) @ up
-    mouth[tongue] += (TONGUE_HEIGHT_SHARE - 1) * height[:, None] * up
+    tongue = template.vertices_of("tongue")
+    mouth[tongue] = _lying_tongue(template, mouth, head.rotation[:, 1])
     out[inside] = _behind_lips(skin, after, mouth[inside], head)
     out[skin.vertices] = after
     return out
+
+
+def _lying_tongue(template: Template, mouth: NDArray[np.float64], up: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The tongue's vertices, flat behind the lower incisors, of a `mouth` (V, 3) whose upwards is `up` (3,)."""
+    tongue, teeth = template.vertices_of("tongue"), template.vertices_of("lower_teeth")
+    own = mouth[tongue]
+    flat = own + (TONGUE_HEIGHT_SHARE - 1) * ((own - own.mean(0)) @ up)[:, None] * up
+    ahead = [template.vertices[part, 2] for part in (tongue, teeth)]
+    tip, incisors = (depth > depth.max() - TONGUE_TIP_METRES for depth in ahead)
+    edge = (mouth[teeth[incisors]] @ up).max() - TONGUE_BELOW_INCISORS_METRES
+    return np.asarray(flat + (edge - (flat[tip] @ up).max()) * up)
 
 
 def head_change(skin: Skin, before: NDArray[np.float64], after: NDArray[np.float64]) -> Similarity:

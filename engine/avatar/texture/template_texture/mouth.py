@@ -21,6 +21,20 @@ GAP_WIDTH_METRES = 0.00022
 """Metres: half the dark gap between two teeth."""
 LINING_DARKENING_METRES = 0.055
 """Metres behind the lips at which the mouth's lining has become as dark as the throat."""
+MOUTH_LIGHT_REACH_METRES, MIN_MOUTH_LIGHT_SHARE = 0.018, 0.12
+"""Metres behind the incisors, or the tongue's tip, over which the light that falls between open lips sinks to a third,
+and the least of it."""
+
+
+def mouth_light(places: NDArray[np.floating]) -> NDArray[np.float32]:
+    """(N,) which share of the light on the foremost of a part's `places` (N, 3) falls on each in a mouth that is open.
+    Engines light it as if there were no lips before it."""
+    if not len(places):
+        return np.zeros(0, np.float32)
+    behind = places[:, 2].max() - places[:, 2]
+    return np.asarray(
+        MIN_MOUTH_LIGHT_SHARE + (1 - MIN_MOUTH_LIGHT_SHARE) * np.exp(-behind / MOUTH_LIGHT_REACH_METRES), np.float32
+    )
 
 
 def painted_teeth(places: NDArray[np.floating], upper: bool) -> NDArray[np.float32]:

@@ -16,7 +16,7 @@ from engine.avatar.texture.template_texture.hand_colours import face_skin, hand_
 from engine.avatar.texture.template_texture.hand_joining import HandSurface, joined_hand
 from engine.avatar.texture.template_texture.hands import HandBones, hand_bones, painted_hand, past_wrist
 from engine.avatar.texture.template_texture.lid_shadow import lash_shadow, lid_shadow
-from engine.avatar.texture.template_texture.mouth import painted_lining, painted_teeth, painted_tongue
+from engine.avatar.texture.template_texture.mouth import mouth_light, painted_lining, painted_teeth, painted_tongue
 from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.avatar.texture.views import FrameView
 from engine.body.rig import Rig
@@ -53,7 +53,8 @@ def place_mouth(texture: NDArray[np.uint8], surface: TemplateSurface, raster: Ra
         texels = PartTexels.fine(surface.atlas, surface.of(part), len(texture))
         places = texels.blend(surface.rest, surface.triangles)
         upper = part == "upper_teeth"
-        texels.put(texture, painted_tongue(places) if part == "tongue" else painted_teeth(places, upper))
+        painted = painted_tongue(places) if part == "tongue" else painted_teeth(places, upper)
+        texels.put(texture, painted * mouth_light(places)[:, None])
     lining = PartTexels.of(raster, surface.mouth)
     lining.put(texture, painted_lining(lining.blend(surface.rest, surface.triangles)))
 

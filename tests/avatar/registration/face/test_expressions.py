@@ -29,6 +29,14 @@ def test_a_mouth_that_opens_leaves_the_upper_lip(models: HumanModels, fitted: Fi
     assert np.abs(fitted.expressions["jawOpen"][lip] - own).max() < 0.002
 
 
+def test_a_tongue_goes_where_the_lower_jaw_goes(models: HumanModels, fitted: FittedTemplate) -> None:
+    jaw, tongue = (models.template.vertices_of(part) for part in ("lower_teeth", "tongue"))
+    for name in ("jawOpen", "jawLeft", "jawForward"):
+        moved = fitted.rest + fitted.expressions[name]
+        away = [np.linalg.norm(of[jaw[:, None]] - of[tongue], axis=2) for of in (fitted.rest, moved)]
+        assert np.abs(away[1] - away[0]).max() < 0.001, name
+
+
 def test_visemes_are_sums_of_units() -> None:
     assert len(VISEMES) == 15
     assert {unit for weights in VISEMES.values() for unit in weights} <= set(FACE_UNITS)

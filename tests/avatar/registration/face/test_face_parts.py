@@ -11,6 +11,7 @@ from engine.avatar.registration.face.face_parts import (
     MOUTH_PARTS,
     SHOWN_INCISORS_METRES,
     TEETH_DEPTH_METRES,
+    TONGUE_BELOW_INCISORS_METRES,
     head_change,
     place_parts,
 )
@@ -85,3 +86,12 @@ def test_teeth_that_would_stick_out_are_set_back(models: HumanModels, person: Kn
     placed = place_parts(template, skin, person.vertices, lean)
     at = template.vertices_of("upper_teeth")
     assert winding_numbers(placed[at], lean, skin.triangles[skin.visible]).min() > 0.5
+
+
+def test_a_tongue_lies_below_the_edge_of_the_lower_incisors(models: HumanModels, person: KnownPerson) -> None:
+    template, skin = models.template, models.skin
+    own, fitted = template.vertices[skin.vertices].astype(np.float64), person.vertices[skin.vertices]
+    upright = place_parts(template, skin, person.vertices, fitted) @ head_change(skin, own, fitted).rotation
+    tongue, teeth = (upright[template.vertices_of(part)] for part in ("tongue", "lower_teeth"))
+    tip, incisors = (part[part[:, 2] > part[:, 2].max() - 0.012] for part in (tongue, teeth))
+    assert tip[:, 1].max() - incisors[:, 1].max() == pytest.approx(-TONGUE_BELOW_INCISORS_METRES, abs=0.0015)
