@@ -30,10 +30,11 @@ def in_lid_fold(
     rim: NDArray[np.integer],
     eyeball: NDArray[np.integer],
 ) -> NDArray[np.bool_]:
-    """(T,) which of the triangles (T, 3) of a skin are near the `rim` of an eye's lids and not seen from before the `eyeball`.
+    """(T,) which of the triangles (T, 3) of a skin meet the `rim` of an eye's lids, or are near it and not seen from before the
+    `eyeball`.
 
     Both are numbers of `vertices` (V, 3), metres. Frames from below or aside do see some of them, at grazing angles, and show
-    lashes, shadow and eyeball there; what shut lids show is skin.
+    lashes, shadow and eyeball there; what shut lids show is skin. At the rim itself pixels are of lid and eyeball both.
     """
     middle = sphere(vertices[eyeball])[0]
     loop = vertices[rim]
@@ -65,7 +66,7 @@ def in_lid_fold(
         hidden |= upper & (touched[corners[near]].sum(1) >= 2)
     out = np.zeros(len(corners), np.bool_)
     out[near[hidden]] = True
-    return out
+    return out | np.isin(corners, rim).any(1)
 
 
 def _above_corners(pixels: NDArray[np.float32], rim: NDArray[np.float32]) -> NDArray[np.bool_]:

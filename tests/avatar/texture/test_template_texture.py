@@ -70,6 +70,8 @@ def test_what_lies_in_a_lid_s_fold_is_not_taken_from_frames_and_painted_like_the
         middles = surface.rest[surface.triangles[folded]].mean(1)
         assert 10 < folded.sum() < 400 and np.linalg.norm(middles - eye.mean(0), axis=1).max() < 0.025
         assert not stitched[folded].any()
+        at_rim = np.isin(surface.triangles, surface.lid_rims[part]).any(1)
+        assert (folded | surface.sockets)[at_rim].all()  # nowhere along the rim is lid and eyeball of one pixel
     assert not stitched[surface.sockets].any()
     raster = texel_raster(surface.atlas, 1024)
     texture = np.full((1024, 1024, 3), (180, 130, 110), np.uint8)
