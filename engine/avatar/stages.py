@@ -28,7 +28,8 @@ from engine.avatar.landmarks.worn_on_face import worn_on_face
 from engine.avatar.options import KnownLens
 from engine.avatar.registration.feet.foot_outlines import Silhouette
 from engine.avatar.registration.fitted_template import FittedTemplate
-from engine.avatar.registration.models import load_models
+from engine.avatar.registration.head_outline import HEAD_BESIDE_FRAMES, MAX_HEAD_BESIDE_SHARE, beside_share
+from engine.avatar.registration.models import HumanModels, load_models
 from engine.avatar.registration.register import Scan, register
 from engine.avatar.texture.avatar_texture import AvatarTexture, avatar_texture
 from engine.avatar.texture.template_surface import template_surface
@@ -228,9 +229,22 @@ def in_metres(height_m: float | None) -> Similarity:
 
 def fit_template(body: ClipScan, head: ClipScan | None, check: Callable[[], None]) -> FittedTemplate:
     """The template fitted to the clouds: section 3.4. What is found to stand off it is no part of the body, which is fitted once more
-    without: under a hat is a head. Raises what `register` raises."""
+    without: under a hat is a head. It is noticed where the head lies beside what frames have of the person. Raises what
+    `register` raises."""
     check()
     human = load_models()
+    fitted = _fitted_without_worn(human, body, head, check)
+    visible = human.skin.regions["head"] & ~human.skin.regions["inner"]
+    own = fitted.vertices[human.skin.vertices[visible]]
+    if beside_share(own, body.silhouettes) <= MAX_HEAD_BESIDE_SHARE:
+        return fitted
+    return replace(fitted, notices=(*fitted.notices, HEAD_BESIDE_FRAMES))
+
+
+def _fitted_without_worn(
+    human: HumanModels, body: ClipScan, head: ClipScan | None, check: Callable[[], None]
+) -> FittedTemplate:
+    """The template fitted to the clouds, and once more without what stands off it."""
     fitted = register(human, body.scan(), None if head is None else head.scan(), check)
     off = standing_points(human, fitted.vertices, _sighting(fitted, body, head))
     if not len(off):
