@@ -24,6 +24,7 @@ from engine.avatar.worn import Attachments, no_attachments
 from engine.geometry.camera import Camera
 from engine.geometry.mesh.surface import triangle_areas, triangulate
 from engine.geometry.point_clouds.point_cloud import PointCloud
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.geometry.texture_charts.atlas_room import cells_of, placed_between
 from engine.geometry.texture_charts.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
 
@@ -39,7 +40,7 @@ FREE_BEHIND_JAWS_METRES = 0.03
 """Metres behind the jaws' ends up to which a head is free of what does not clearly stand off: there are ears, and hair lies
 behind them."""
 OWN_RINGS = 8
-"""Rings of vertices around hands and feet, which have models of their own, on which nothing is worn: wrists and ankles."""
+"""Rings of vertices around hands and feet, which have models of their own, on which nothing is worn: ankles, and wrists as all of the arms."""
 HEAD_JOINTS = ("Head", "Jaw", "LeftEye", "RightEye")
 
 
@@ -52,7 +53,9 @@ def body_surface(human: HumanModels, vertices: NDArray[np.float64]) -> BodySurfa
     forwards = (own[skin.face_points[30]] - jaws) * [1, 0, 1]
     front = (own - jaws) @ forwards > -FREE_BEHIND_JAWS_METRES * np.linalg.norm(forwards)
     face = (skin.regions["face"] | (skin.regions["head"] & front)) & (own[:, 1] < brows + FREE_ABOVE_BROWS_METRES)
+    arms = [human.rig.index(f"{side}{bone}") for side in SIDE_NAMES for bone in ("Arm", "ForeArm")]
     modelled = grown(skin.regions["hands"] | skin.regions["feet"], skin.triangles, OWN_RINGS)
+    modelled |= np.isin(skin.bones[:, 0], arms)  # silhouettes fill the gap between a bent arm and the trunk
     return BodySurface(own, skin.triangles, modelled, face, skin.regions["head"])
 
 

@@ -170,6 +170,17 @@ def test_eyes_and_mouth_are_of_the_face_that_stays_free_and_the_crown_is_not(
     assert not body.face[body.vertices[:, 1].argmax()]
 
 
+def test_nothing_is_worn_beside_arms_where_silhouettes_fill_the_gap_to_the_trunk(
+    human: HumanModels, hatted: Hatted
+) -> None:
+    body = body_surface(human, hatted.vertices)
+    strongest = human.skin.bones[:, 0]
+    for bone in ("LeftArm", "LeftForeArm", "RightArm", "RightForeArm"):
+        arm = strongest == human.rig.index(bone)
+        assert arm.sum() > 50 and body.own[arm].all()
+    assert not body.own[human.skin.regions["head"]].any()
+
+
 def test_in_the_pose_of_the_film_it_is_where_it_was_measured(
     human: HumanModels, hatted: Hatted, found: Attachments
 ) -> None:
