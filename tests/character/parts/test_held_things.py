@@ -14,6 +14,7 @@ from engine.character.fit.template_maps import side_maps
 from engine.character.parts.held_things import held_things
 from engine.character.parts.label_map import label_parts
 from engine.character.parts.pockets import template_hand
+from engine.imaging.masks.mask_distance import distance_inside, distance_to
 from tests.character.parts.test_overlapping_legs import SIZE, standing
 
 LEFT, TORSO = BODY_PARTS.index("left_arm"), BODY_PARTS.index("torso")
@@ -102,6 +103,45 @@ def test_cloth_that_hangs_beside_the_hand_is_not_held(
     for colour in (SHIRT, ORANGE):
         rgb, labels = picture(template, (tail, colour))
         assert (held_things(rgb, labels, template, load_human().rig) < 0).all()
+
+
+@pytest.mark.parametrize(("gap", "is_held"), [(0, False), (6, True)], ids=["along the body", "beside it"])
+def test_a_strip_that_meets_the_body_along_its_side_hangs_from_it(
+    template: PosedTemplate, body: NDArray[np.bool_], hand: NDArray[np.bool_], gap: int, is_held: bool
+) -> None:
+    """Of a colour that nothing else has, as high as a forearm, between hand and leg."""
+    y, x = np.nonzero(hand)
+    rows, columns = np.mgrid[: SIZE[0], : SIZE[1]]
+    side = np.where(body & (columns < x.min() - 10), columns, -1).max(1)[:, None]
+    strip = (rows > y.min() - 20) & (rows < y.max() + 50) & (columns > side + gap) & (columns < x.min() - 2) & ~body
+    rgb, labels = picture(template, (strip, ORANGE))
+    held = held_things(rgb, labels, template, load_human().rig) == LEFT
+    assert overlap(held, strip) > 0.95 if is_held else not held.any()
+
+
+def test_a_thing_of_the_skins_colour_does_not_take_the_forearm_with_it(
+    template: PosedTemplate, body: NDArray[np.bool_], hand: NDArray[np.bool_]
+) -> None:
+    y, x = np.nonzero(hand)
+    rows, columns = np.mgrid[: SIZE[0], : SIZE[1]]
+    radius = 36
+    drum = (np.hypot(columns - x[y == y.max()].mean(), rows - y.max() - 0.6 * radius) < radius) & ~hand
+    rgb, labels = picture(template, (drum, SKIN))
+    held = held_things(rgb, labels, template, load_human().rig) == LEFT
+    assert held[drum].mean() > 0.95
+    forearm = (labels == LEFT) & (distance_inside(body) > 5) & (distance_to(hand) > 8)
+    assert forearm.sum() > 500 and not held[forearm].any()
+
+
+def test_what_lies_beside_a_shin_is_in_no_hand(
+    template: PosedTemplate, body: NDArray[np.bool_], hand: NDArray[np.bool_]
+) -> None:
+    rows, columns = np.mgrid[: SIZE[0], : SIZE[1]]
+    middle = np.nonzero(hand)[0].max() + 4 * BALL_RADIUS
+    shin = int(np.flatnonzero(body[middle]).max())
+    ball = np.hypot(columns - shin - BALL_RADIUS - 6, rows - middle) < BALL_RADIUS
+    rgb, labels = picture(template, (ball, ORANGE))
+    assert (held_things(rgb, labels, template, load_human().rig) < 0).all()
 
 
 def test_who_holds_nothing_holds_nothing(template: PosedTemplate, body: NDArray[np.bool_]) -> None:
