@@ -95,6 +95,34 @@ def test_it_is_followed_down_the_shoulders_where_they_have_other_colours(
     assert (found & lock).sum() > 0.9 * (found | lock).sum() if is_found else not found.any()
 
 
+def test_a_coat_of_its_colour_is_no_hair(
+    body: NDArray[np.float64], head: NDArray[np.bool_], hair: NDArray[np.bool_], face: NDArray[np.float64]
+) -> None:
+    """It goes on from the hair without a border, and is much more than hair is; trousers below are white."""
+    y = np.arange(SHAPE[0])[:, None]
+    trunk = covered(body) & ~head & ~hair
+    last = np.flatnonzero(hair.any(1))[-1]
+    for length, is_hair in ((30, True), (110, False)):
+        coat = trunk & (y < last + length)
+        rgb = noisy(np.where((hair | coat)[..., None], HAIR, np.where(head[..., None], SKIN, SHIRT)))
+        found = hair_on_the_shoulders(rgb, hair, trunk, face, 150)
+        assert found.any() == is_hair, "as much as that may lie there, and that may not"
+
+
+def test_a_scarf_of_its_colour_at_the_throat_is_no_hair(
+    body: NDArray[np.float64], head: NDArray[np.bool_], hair: NDArray[np.bool_], face: NDArray[np.float64]
+) -> None:
+    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
+    trunk = covered(body) & ~head & ~hair
+    last = np.flatnonzero(hair.any(1))[-1]
+    aside = np.abs(x - face[0])
+    scarf = trunk & (y < last + 40) & (aside < face[2] + 14)
+    rgb = noisy(np.where((hair | scarf)[..., None], HAIR, np.where(head[..., None], SKIN, SHIRT)))
+    found = hair_on_the_shoulders(rgb, hair, trunk, face, 80)
+    assert found[scarf & (aside > face[2])].mean() > 0.9, "beside it hair falls"
+    assert not found[aside < 0.35 * face[2]].any()
+
+
 @pytest.fixture(scope="module")
 def picture(hair: NDArray[np.bool_], skull: NDArray[np.float64]) -> NDArray[np.uint8]:
     """A hat over hair."""

@@ -1,0 +1,60 @@
+"""Rings of hair around a head that is an ellipsoid on the cylinder of its neck."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from engine.character.hybrid.hair_rings import HAIR_CLEARANCE_PIXELS, HairRings, hair_rings
+
+HEIGHT, WIDTH = 170, 200
+MIDDLE = np.array([100.0, 80.0, 0.0])
+HALF = np.array([30.0, 40.0, 36.0])
+"""Of the skull: pixels across, down and deep."""
+NECK_RADIUS, STANDS_OFF, ENDS = 14.0, 10, 160
+"""Pixels: the neck's radius, and by how much long hair is wider than the skull; and the row at which it ends."""
+
+
+def skull() -> NDArray[np.float64]:
+    """Points all over it (N, 3)."""
+    height, turn = np.meshgrid(np.linspace(-1, 1, 41), np.linspace(0, 2 * np.pi, 60, endpoint=False))
+    around = np.sqrt(1 - height**2)
+    unit = np.stack([around * np.sin(turn), height, around * np.cos(turn)], 2).reshape(-1, 3)
+    return np.asarray(MIDDLE + HALF * unit)
+
+
+def depths() -> NDArray[np.float64]:
+    """How far the nearer half of head and neck is before their middle (h, w), -inf where they are not."""
+    y, x = np.mgrid[:HEIGHT, :WIDTH]
+    head = 1 - ((x - MIDDLE[0]) / HALF[0]) ** 2 - ((y - MIDDLE[1]) / HALF[1]) ** 2
+    neck = np.where(y > MIDDLE[1], NECK_RADIUS**2 - (x - MIDDLE[0]) ** 2, -1.0)
+    either = np.maximum(HALF[2] * np.sqrt(np.maximum(head, 0)), np.sqrt(np.maximum(neck, 0)))
+    return np.where((head > 0) | (neck > 0), either, -np.inf)
+
+
+@pytest.fixture(scope="module")
+def long_hair() -> HairRings:
+    """A dome over the skull, and straight hair beside face and neck from there down."""
+    y, x = np.mgrid[:HEIGHT, :WIDTH]
+    half = HALF[0] + STANDS_OFF
+    top = MIDDLE[1] - HALF[1] - 4
+    dome = (np.hypot(x - MIDDLE[0], y - top - half) < half) & (y < MIDDLE[1] - 0.5 * HALF[1])
+    aside = np.abs(x - MIDDLE[0])
+    straight = (aside < half) & (aside > 0.9 * HALF[0]) & (y > top + half / 2) & (y < ENDS)
+    front = depths().astype(np.float32)
+    return hair_rings(dome | straight, skull(), front, -front, float(MIDDLE[0]))
+
+
+def test_the_back_of_long_hair_hangs_down_from_where_it_is_furthest(long_hair: HairRings) -> None:
+    """A neck is narrower and nearer than the head above: hair does not follow it."""
+    below = long_hair.rows > MIDDLE[1] - 0.5 * HALF[1]
+    assert (np.diff(long_hair.far[below]) < 1e-6).all()
+    furthest = -HALF[2] - STANDS_OFF - HAIR_CLEARANCE_PIXELS
+    np.testing.assert_allclose(long_hair.far[long_hair.rows > MIDDLE[1] + HALF[1]], furthest, atol=1.0)
+
+
+def test_its_outline_is_as_wide_as_it_is_seen(long_hair: HairRings) -> None:
+    beside = (long_hair.rows > MIDDLE[1]) & (long_hair.rows < ENDS - 8)
+    for right in (False, True):
+        np.testing.assert_allclose(long_hair.half(right)[beside], HALF[0] + STANDS_OFF, atol=1.0)
