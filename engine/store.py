@@ -22,6 +22,7 @@ from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 import numpy as np
 
 from engine.errors import Notice
+from engine.npz import read_npz
 
 T = TypeVar("T")
 
@@ -38,8 +39,7 @@ class StoredOutput:
     def load(self, kind: Any) -> tuple[list[Notice], Any]:
         """The notices that the stage gave and its output, of type `kind`."""
         document = json.loads((self.folder / "output.json").read_text())
-        with np.load(self.folder / "arrays.npz", allow_pickle=False) as arrays:
-            output = _unpack(kind, document["output"], {name: arrays[name] for name in arrays.files}, self.folder)
+        output = _unpack(kind, document["output"], read_npz(self.folder / "arrays.npz"), self.folder)
         return [Notice(**notice) for notice in document["notices"]], output
 
 

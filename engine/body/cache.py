@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from engine.body import makehuman
+from engine.npz import read_npz
 
 CACHE_FORMAT = 2
 """Raise it when what is stored changes; older files are then left aside."""
@@ -36,8 +37,7 @@ def cached_arrays(name: str, convert: Callable[[], Mapping[str, np.ndarray]]) ->
     """
     path = cache_folder() / "template" / f"{name}-{makehuman.version()}-{CACHE_FORMAT}.npz"
     try:
-        with np.load(path, allow_pickle=False) as stored:
-            return {key: stored[key] for key in stored.files}
+        return read_npz(path)
     except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile):
         pass
     arrays = dict(convert())

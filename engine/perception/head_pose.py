@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.geometry.camera import Camera
+from engine.npz import read_npz
 from engine.package_data import package_data
 from engine.perception.landmarks import RIGID_VERTICES, eye_centres, fiducials
 
@@ -36,15 +37,13 @@ class HeadPose:
 def canonical_face() -> NDArray[np.float32]:
     """(478, 3) mean neutral face, symmetric, frontal: origin between the eyes, x to the picture's right,
     y down, z away from the viewer, the eye distance is 1. A median over many tracked faces."""
-    with np.load(package_data("engine.perception", "canonical_face.npz")) as data:
-        return np.asarray(data["mesh"], np.float32)
+    return np.asarray(read_npz(package_data("engine.perception", "canonical_face.npz"))["mesh"], np.float32)
 
 
 @cache
 def mirror_vertices() -> NDArray[np.int16]:
     """(478,) the vertex that each one becomes in a mirrored face."""
-    with np.load(package_data("engine.perception", "canonical_face.npz")) as data:
-        return np.asarray(data["mirror"], np.int16)
+    return np.asarray(read_npz(package_data("engine.perception", "canonical_face.npz"))["mirror"], np.int16)
 
 
 def head_pose(mesh: NDArray[np.floating], size: tuple[int, int]) -> HeadPose:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.npz import read_npz
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 from engine.persona.texture.expression_weights import expression_points, expression_weights
@@ -115,14 +116,14 @@ def read_persona(path: Path) -> Persona:
         with zipfile.ZipFile(path) as archive:
             if sum(member.file_size for member in archive.infolist()) > MAX_ARRAYS_BYTES:
                 raise InputError("persona_too_large", "The persona's file is larger than any that is made here.")
-        with np.load(path, allow_pickle=False) as arrays:
-            if int(arrays["version"]) != PERSONA_FORMAT_VERSION:
-                raise InputError(
-                    "persona_unreadable", "The persona was made by another release: make it again of its photos."
-                )
-            found = {name: arrays[name] for name in _SHAPES}
-            _require_sound(found)
-            photos = {name: _photo(name, arrays, len(found["colours"])) for name in _PHOTOS}
+        arrays = read_npz(path)
+        if int(arrays["version"]) != PERSONA_FORMAT_VERSION:
+            raise InputError(
+                "persona_unreadable", "The persona was made by another release: make it again of its photos."
+            )
+        found = {name: arrays[name] for name in _SHAPES}
+        _require_sound(found)
+        photos = {name: _photo(name, arrays, len(found["colours"])) for name in _PHOTOS}
     except (OSError, ValueError, KeyError, TypeError, zipfile.BadZipFile, EOFError, NotImplementedError) as broken:
         raise InputError(
             "persona_unreadable",
