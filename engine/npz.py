@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ _ONE_AT_A_TIME = threading.Lock()
 now and then raises SystemError when two of them parse (its issue 106905)."""
 
 
-def read_npz(path: Path) -> dict[str, NDArray[np.generic]]:
+def read_npz(path: Path) -> dict[str, NDArray[Any]]:
     """Every array of an npz file by its name; none is unpickled.
 
     Raises
