@@ -333,7 +333,7 @@ def make_hybrid_character(
     gone, behind, before = (_in_the_picture(one, silhouette) for one in (limbs & ~around, hidden, arms))
     alone = replace(silhouette, alpha=silhouette.alpha * (1 - gone))
     seen = mirrored_behind(figure.rgb, behind > 0, (silhouette.alpha > OPAQUE_ALPHA) & (gone == 0) & (before == 0))
-    nothing = LimbSurfaces(np.zeros_like(limbs), np.zeros_like(limbs))
+    nothing = LimbSurfaces(np.zeros_like(limbs), np.zeros_like(limbs), before=hybrid.hair)
     tiles = _painted(replace(figure, rgb=seen), alone, own, nothing, back)
     shown = limbs_alone(hybrid)
     relief = _made_of(figure, alone, fitted, own, trunk, tiles, _left_for_a_relief(triangles, shown))

@@ -88,19 +88,29 @@ def with_hair_apart(
     figure: Figure, silhouette: Silhouette, labels: Labels, mesh: TemplateMesh, template: NDArray[np.float64]
 ) -> Labels:
     """Labels in which hair that does not keep to the `template`'s head (V, 3) is what the head holds before all else."""
-    head = labels.labels == HEAD_LABEL
-    face = face_ellipse(figure, silhouette.to_grid, head)
-    if face is None or hair_keeps_to_the_head(figure, silhouette, labels, mesh, template):
+    if hair_keeps_to_the_head(figure, silhouette, labels, mesh, template):
         return labels
-    covered = _covered(mesh, template, mesh.parts[:, HEAD_LABEL] > MIN_SHOWN_HEAD_WEIGHT, labels.labels.shape)
-    hair = hair_beside_the_face(silhouette.rgb, head, covered, face)
-    body = np.isin(labels.labels, (TRUNK_LABEL, *ARM_LABELS))
-    hair |= hair_on_the_shoulders(silhouette.rgb, hair, body, face, FALLEN_HAIR_SHARE * mask_height(covered))
+    hair = hair_beside_the_head(figure, silhouette, labels, mesh, template)
     if not hair.any():
         return labels
     held = np.full(labels.labels.shape, -1, np.int8) if labels.held is None else labels.held.copy()
     held[hair] = HEAD_LABEL
     return replace(labels, labels=np.where(hair, -1, labels.labels).astype(np.int8), held=held)
+
+
+def hair_beside_the_head(
+    figure: Figure, silhouette: Silhouette, labels: Labels, mesh: TemplateMesh, template: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """The pixels (h, w) of the grid that show hair beside the face and where it falls over the body; none where no face is found.
+    `template` (V, 3): where the body's vertices are, picture space."""
+    head = labels.labels == HEAD_LABEL
+    face = face_ellipse(figure, silhouette.to_grid, head)
+    if face is None:
+        return np.zeros_like(head)
+    covered = _covered(mesh, template, mesh.parts[:, HEAD_LABEL] > MIN_SHOWN_HEAD_WEIGHT, labels.labels.shape)
+    hair = hair_beside_the_face(silhouette.rgb, head, covered, face)
+    body = np.isin(labels.labels, (TRUNK_LABEL, *ARM_LABELS))
+    return hair | hair_on_the_shoulders(silhouette.rgb, hair, body, face, FALLEN_HAIR_SHARE * mask_height(covered))
 
 
 def _turned_to_the_viewer(

@@ -19,6 +19,7 @@ from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
 from engine.character.hybrid.hair_volume import hair_volume
 from engine.character.hybrid.head import (
+    hair_beside_the_head,
     hair_keeps_to_the_head,
     head_is_known,
     joined_at_the_neck,
@@ -30,7 +31,7 @@ from engine.character.hybrid.limbs import Limbs, cut_off, joined_in_depth, limbs
 from engine.character.hybrid.outline_warp import drawn_to_the_outline
 from engine.character.hybrid.trunk import soft_beside_limbs, trunk_labels, trunk_layer
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL
+from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, TRUNK_LABEL
 from engine.character.parts.strange_colours import strange_colours
 from engine.character.shell.piece import Piece
 from engine.character.shell.props import props_of
@@ -55,6 +56,7 @@ class Hybrid:
     trunk : the relief.
     labels : what each pixel shows of the body, as the trunk is made of them.
     strange : (h, w) bool, pixels that have not the colours of what they are labelled as.
+    hair : (h, w) bool, what of the trunk's pixels shows hair that falls over it.
     """
 
     shell: Shell
@@ -62,6 +64,7 @@ class Hybrid:
     trunk: ClosedMesh
     labels: Labels
     strange: NDArray[np.bool_]
+    hair: NDArray[np.bool_]
 
     def at_shoulders(self) -> NDArray[np.bool_]:
         """The pixels (h, w) of the grid at which shoulders are, whose surface is the arm's and the trunk's alike."""
@@ -90,6 +93,7 @@ def make_hybrid(
         labels = with_hair_apart(*head)
     own = trunk_labels(labels)
     strange = strange_colours(silhouette.rgb, own.labels)
+    fallen = hair_beside_the_head(*head) & (own.labels == TRUNK_LABEL)
     template = pose_template(fitted, camera, human)
     shape = shaped(figure, silhouette, fitted, labels)
     seen = own
@@ -122,7 +126,7 @@ def make_hybrid(
         )
         pieces += [] if hair is None else [hair]
     shell = shell_of(mesh, replace(shape, pictured=pictured), silhouette, fitted, pieces)
-    return Hybrid(shell, limbs, trunk, own, strange)
+    return Hybrid(shell, limbs, trunk, own, strange, fallen)
 
 
 def _depths(

@@ -141,18 +141,29 @@ def _without_prints(
     off = np.linalg.norm(np.concatenate([left - row, right - light - row], 1), axis=-1).astype(np.float32)
     usual = median_filter(np.median(off, 1), size, mode="nearest")[:, None]
     odd = (off > np.maximum(MIN_DIFFERENCE_RATIO * usual, MIN_DIFFERENCE_LEVELS)).astype(np.float32)
-    around = cv2.blur(odd, (1, 2 * round(PATTERN_REPEAT_METRES / 2 / step) + 1), borderType=cv2.BORDER_REPLICATE)
-    patterned = (np.quantile(around, ALL_OVER_QUANTILE, axis=1) > MIN_ALL_OVER_SHARE).astype(np.float32)
-    odd[
-        cv2.blur(patterned[:, None], (1, 2 * round(PATTERN_EXTENT_METRES / 2 / step) + 1))[:, 0]
-        > MIN_PATTERNED_ROWS_SHARE
-    ] = 0
+    odd[patterned_rows(odd, np.ones(odd.shape, np.bool_), step)] = 0
     found, columns = [], left.shape[1]
     for one, most, which in ((left, row, odd[:, :columns]), (right, row + light, odd[:, columns:])):
         soft = cv2.GaussianBlur(which, (0, 0), SIDE_BLEND_METRES / step / 2)
         share = np.clip(3 * soft, 0, 1)[..., None]
         found.append(np.asarray((1 - share) * one + share * most, np.float32))
     return found[0], found[1]
+
+
+def patterned_rows(odd: NDArray[np.float32], known: NDArray[np.bool_], step: float) -> NDArray[np.bool_]:
+    """Which rows (A,) are of a pattern that is all over: what is `odd` (A, n), 1, in its row comes again in nearly every column of which
+    enough is `known` (A, n)."""
+    size = (2 * round(PATTERN_REPEAT_METRES / 4 / step) + 1, 2 * round(PATTERN_REPEAT_METRES / 2 / step) + 1)
+    there = cv2.blur(known.astype(np.float32), size, borderType=cv2.BORDER_REPLICATE)
+    share = cv2.blur(odd * known, size, borderType=cv2.BORDER_REPLICATE) / np.maximum(there, MIN_KNOWN_CELLS_SHARE)
+    told = there >= MIN_KNOWN_CELLS_SHARE
+    patterned = np.zeros(len(odd), np.float32)
+    rows = np.flatnonzero(told.any(1))
+    if len(rows):
+        least = np.nanquantile(np.where(told, share, np.nan)[rows], ALL_OVER_QUANTILE, axis=1)
+        patterned[rows] = least > MIN_ALL_OVER_SHARE
+    far = cv2.blur(patterned[:, None], (1, 2 * round(PATTERN_EXTENT_METRES / 2 / step) + 1))[:, 0]
+    return np.asarray(far > MIN_PATTERNED_ROWS_SHARE)
 
 
 def _agreed(

@@ -67,6 +67,8 @@ class LimbSurfaces:
     """(h, w) each: what that of a limb covers, by its index."""
     heights: Mapping[int, Heights] = field(default_factory=dict)
     """How far along limbs pixels are, by their index."""
+    before: NDArray[np.bool_] | None = None
+    """(h, w) what else lies before the body, as hair."""
 
 
 def paint_limbs(

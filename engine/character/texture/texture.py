@@ -250,6 +250,8 @@ def _behind(
         within &= ~(surfaces.along & limbs)
     shown = np.isin(labels.labels, (torso, *LEG_LABELS))
     others = (labels.labels >= 0) & ~shown
+    if surfaces.before is not None:
+        others |= surfaces.before
     masks = within & (beneath == torso), shown, others, labels.labels == head
     trunk, shown, others, above = (enlarged_mask(one, size) & own for one in masks)
     return with_trunk_back(rgb, trunk, shown, others, above, scale)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.texture.behind import seen_through
+from engine.character.texture.kept_front import kept_front, levelled_to
 from engine.imaging.masks.mask_distance import dilate_mask
 
 USUAL_HEIGHT_METRES = 1.7
@@ -20,6 +21,8 @@ NEIGHBOUR_MARGIN_PIXELS = 4.0
 SHOULDER_WIDTH_SHARE, CHEST_HEIGHT_METRES = 0.85, 0.3
 """Share of the greatest width in the uppermost metres of a trunk from which on it is no neck, and its back has no neckline: above, it is as
 it is below."""
+YOKE_SOURCE_METRES = 0.15
+"""Metres below its neckline that a back's uppermost part is made of, there and back again."""
 COLUMNS_PER_PIXEL = 1.6
 """Columns of a row for each pixel of the widest: as many as half a circle has for its diameter."""
 
@@ -104,19 +107,25 @@ def with_trunk_back(
     chest = half[: max(1, round(CHEST_HEIGHT_METRES / step))]
     yoke = int(np.argmax(chest >= SHOULDER_WIDTH_SHARE * chest.max()))
     source = np.arange(rows)
-    source[:yoke] = np.minimum(2 * yoke - source[:yoke], rows - 1)
+    below = max(1, round(YOKE_SOURCE_METRES / step))
+    away = (yoke - source[:yoke]) % (2 * below)
+    source[:yoke] = np.minimum(yoke + np.minimum(away, 2 * below - away), rows - 1)
     behind = seen_through(seen[source], known[source], angle, step)
+    share = kept_front(seen, known, behind, angle, yoke, step)
+    behind = np.concatenate([levelled_to(behind, seen, share, step), share[..., None]], -1)
     left, right = axis.outline(trunk, rows, OUTLINE_SMOOTHING_PIXELS * scale)
     left, right = (np.interp(along, np.arange(rows), one) for one in (left, right))
     place = np.clip(2 * (aside - left) / np.maximum(right - left, 1) - 1, -1, 1)
     column = (np.arcsin(place) / np.pi + 0.5) * columns - 0.5
     out = rgb.copy()
-    out[y, x] = np.clip(_at(behind, column.astype(np.float32), along.astype(np.float32)) + 0.5, 0, 255).astype(np.uint8)
+    found = _at(behind, column.astype(np.float32), along.astype(np.float32))
+    kept = found[:, 3:] * shown[y, x, None]
+    out[y, x] = np.clip(kept * rgb[y, x] + (1 - kept) * found[:, :3] + 0.5, 0, 255).astype(np.uint8)
     return out
 
 
 def _at(values: NDArray[np.float32], column: NDArray[np.float32], row: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Values (A, N, 3) at places (n,) in their rows."""
+    """Values (A, N, C) at places (n,) in their rows."""
     few = 16_384  # remap takes no more at once
     parts = [
         cv2.remap(values, column[k : k + few, None], row[k : k + few, None], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)

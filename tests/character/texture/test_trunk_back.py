@@ -126,3 +126,36 @@ def test_where_both_sides_meet_there_is_no_edge() -> None:
     seen[70:130, 60:] *= 0.7
     behind = seen_through(seen, np.ones((200, 120), np.bool_), angle, 0.005)
     assert np.abs(np.diff(behind[75:125, 40:80], axis=1)).max() < 6, "grey levels from one column to the next"
+
+
+def woven() -> np.ndarray:
+    """A picture (h, w, 3) of somebody in cloth with a weave."""
+    rgb = dressed().astype(int)
+    rgb[TRUNK] += np.random.default_rng(0).integers(-4, 5, (int(TRUNK.sum()), 1))
+    return rgb.astype(np.uint8)
+
+
+BESIDE_THE_MIDDLE = np.zeros_like(TRUNK)
+BESIDE_THE_MIDDLE[80:190, 105:122] = BESIDE_THE_MIDDLE[80:190, 38:55] = True
+
+
+def test_cloth_that_is_as_its_sides_are_is_the_front_s_own() -> None:
+    rgb = woven()
+    np.testing.assert_array_equal(back(rgb)[BESIDE_THE_MIDDLE], rgb[BESIDE_THE_MIDDLE])
+
+
+def test_a_seam_line_beside_the_middle_is_not_kept() -> None:
+    rgb = woven()
+    rgb[80:150, 108:111] = WHITE
+    found = back(rgb)
+    assert off(found, CLOTH)[INSIDE].max() < 16
+    np.testing.assert_array_equal(found[80:190, 40:54], rgb[80:190, 40:54])
+
+
+def test_hair_over_both_shoulders_is_not_on_the_back() -> None:
+    rgb = dressed()
+    hair = np.zeros_like(TRUNK)
+    hair[60:110, 30:62] = hair[60:110, 98:130] = True
+    rgb[hair] = RED
+    found = back(rgb, TRUNK, hair)
+    assert off(found, CLOTH)[TRUNK].max() < 6

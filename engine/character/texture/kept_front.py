@@ -1,0 +1,120 @@
+"""What of the front is on the back as well: cloth that is like what its rows have at their sides.
+
+Real cloth with its weave, folds and pattern is better than any made of it. Whatever the sides say nothing of (ties,
+zips, words, openings) is not kept, nor is anything in the middle, where plackets, seams and creases of the front are.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import median_filter
+
+from engine.character.texture.behind import (
+    LIGHT_WINDOW_METRES,
+    MIN_DIFFERENCE_LEVELS,
+    MIN_DIFFERENCE_RATIO,
+    SIDE_END_RADIANS,
+    patterned_rows,
+)
+from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
+
+MIDDLE_RADIANS = np.radians(12.0)
+"""Radians to each side of the middle in which nothing of the front is kept."""
+ROW_COLOUR_METRES = 0.06, 0.005
+"""Metres across and along over which what is behind is one colour, to which the front is compared."""
+THREAD_METRES = 0.0025
+"""Metres over which the front's colours are one for that."""
+CLOTH_METRES, FOLD_METRES, MOTIF_METRES = 0.015, 0.006, 0.03
+"""Metres about a cell whose mean its fine detail is off; about which plain cloth is one colour; and about which a pattern is."""
+SHADE_DISCOUNT = 0.5
+"""Share of what is lighter or darker that does not count: cloth has folds."""
+MIN_UNLIKE_LEVELS = 14.0
+"""sRGB levels by which fine detail is off at least where it is unlike."""
+MIN_PATTERN_CONTRAST, DARK_LEVELS = 0.2, 20.0
+"""Contrast of a pattern in the shade: share of what it is on, with so many levels added."""
+UNLIKE_MARGIN_METRES = 0.015
+"""Metres around what is unlike that are not kept either: its rim is mixed with the cloth."""
+KEPT_BLEND_METRES, MIN_KEPT_METRES = 0.015, 0.06
+"""Metres over which what is kept begins, and that a piece of it is wide at least."""
+LEVEL_METRES, MIN_LEVEL_SHARE = 0.05, 0.05
+"""Metres over which what is not kept takes on the level of what is, and the share of what is kept there from which on it does by half."""
+
+
+def kept_front(
+    front: NDArray[np.float32],
+    known: NDArray[np.bool_],
+    behind: NDArray[np.float32],
+    angle: NDArray[np.floating],
+    yoke: int,
+    step: float,
+) -> NDArray[np.float32]:
+    """The share (A, N) of each cell's front that is on the back, from 0 to 1.
+
+    Parameters
+    ----------
+    front, known : (A, N, 3), levels, rows of something round from before, and (A, N) which of it is shown.
+    behind : (A, N, 3), levels, what the sides say is behind it (`seen_through`).
+    angle : (N,) radians from the middle.
+    yoke : the first row whose sides are those of cloth; of those above, a neck's and shoulders', nothing is kept.
+    step : metres from row to row.
+    """
+    across, along = (one / step for one in ROW_COLOUR_METRES)
+    side = np.abs(angle) > SIDE_END_RADIANS
+    sides = known & side & (np.arange(len(known)) >= yoke)[:, None]
+    row = cv2.GaussianBlur(behind, (0, 0), across, sigmaY=along, borderType=cv2.BORDER_REPLICATE)
+    cloth = _mean_of(front, known, CLOTH_METRES / step)
+    fine = _weighed(cv2.GaussianBlur(front, (0, 0), THREAD_METRES / step) - cloth, cloth)
+    contrast = np.minimum(MIN_DIFFERENCE_LEVELS, MIN_PATTERN_CONTRAST * (cloth.mean(-1) + DARK_LEVELS))
+    patterned = patterned_rows((sides & (fine > contrast))[:, side].astype(np.float32), sides[:, side], step)[:, None]
+
+    def off(what: NDArray[np.float32], least: float) -> NDArray[np.bool_]:
+        return what > _most_off(what, least, sides, step)[:, None]
+
+    motif = off(_weighed(_mean_of(front, known, MOTIF_METRES / step) - row, row), MIN_DIFFERENCE_LEVELS)
+    plain = off(_weighed(_mean_of(front, known, FOLD_METRES / step) - row, row), MIN_DIFFERENCE_LEVELS)
+    plain |= off(fine, MIN_UNLIKE_LEVELS) | (np.abs(angle) < MIDDLE_RADIANS)
+    unlike = np.where(patterned, motif, plain)
+    unlike[:yoke] = True
+    kept = known & ~dilate_mask(unlike & known, max(1, round(UNLIKE_MARGIN_METRES / step)))
+    wide = KEPT_BLEND_METRES / step
+    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * round(MIN_KEPT_METRES / 2 / step) + 1,) * 2)
+    kept = cv2.morphologyEx(kept.astype(np.uint8), cv2.MORPH_OPEN, kernel) > 0
+    way = np.clip(distance_inside(np.pad(kept, ((0, 0), (round(wide),) * 2), mode="edge")) / wide, 0, 1)
+    way = way[:, round(wide) : way.shape[1] - round(wide)]
+    return np.asarray(way * way * (3 - 2 * way), np.float32)
+
+
+def levelled_to(
+    behind: NDArray[np.float32], front: NDArray[np.float32], share: NDArray[np.float32], step: float
+) -> NDArray[np.float32]:
+    """What is behind (A, N, 3) at the level of the `front` (A, N, 3) where that is kept by a `share` (A, N) near by."""
+    soft = LEVEL_METRES / step
+    mass = cv2.GaussianBlur(share, (0, 0), soft)[..., None]
+    apart = cv2.GaussianBlur(share[..., None] * (front - behind), (0, 0), soft)
+    return np.asarray(behind + apart / (mass + MIN_LEVEL_SHARE), np.float32)
+
+
+def _mean_of(front: NDArray[np.float32], known: NDArray[np.bool_], soft: float) -> NDArray[np.float32]:
+    """The mean of what is `known` (A, N) of the front (A, N, 3) about each cell."""
+    there = known.astype(np.float32)
+    mass = cv2.GaussianBlur(there, (0, 0), soft)[..., None]
+    return np.asarray(cv2.GaussianBlur(front * there[..., None], (0, 0), soft) / np.maximum(mass, 1e-3), np.float32)
+
+
+def _weighed(apart: NDArray[np.floating], colour: NDArray[np.floating | np.integer]) -> NDArray[np.float32]:
+    """Lengths (A, N) of differences (A, N, 3) from a `colour` (A, N, 3), in which lighter and darker count half: cloth has folds."""
+    light = colour / np.maximum(np.linalg.norm(colour, axis=-1, keepdims=True), 1)
+    shade = np.sum(apart * light, -1, keepdims=True)
+    return np.asarray(np.linalg.norm(apart - SHADE_DISCOUNT * shade * light, axis=-1), np.float32)
+
+
+def _most_off(off: NDArray[np.float32], least: float, sides: NDArray[np.bool_], step: float) -> NDArray[np.float32]:
+    """By how many levels (A,) the front may be `off` (A, N): as far as is usual at the `sides` (A, N) far around, and by `least`."""
+    told = np.flatnonzero(sides.any(1))
+    if not len(told):
+        return np.full(len(off), least, np.float32)
+    usual = np.interp(np.arange(len(off)), told, np.nanmedian(np.where(sides, off, np.nan)[told], 1))
+    size = 2 * round(LIGHT_WINDOW_METRES / step) + 1
+    return np.asarray(np.maximum(MIN_DIFFERENCE_RATIO * median_filter(usual, size, mode="nearest"), least), np.float32)
