@@ -131,9 +131,16 @@ class Running:
         return self.client.get(f"/v1/jobs/{job_id}").raise_for_status().json()
 
     def until(self, job_id: str, *statuses: str, seconds: float = 180) -> dict[str, Any]:
-        """Wait until the job has one of these statuses; the job."""
-        eventually(lambda: self.job(job_id)["status"] in statuses, f"the job is {statuses}", seconds)
-        return self.job(job_id)
+        """Wait until the job has one of these statuses; the job as it was then."""
+        job: dict[str, Any] = {}
+
+        def has_come_to_it() -> bool:
+            nonlocal job
+            job = self.job(job_id)
+            return job["status"] in statuses
+
+        eventually(has_come_to_it, f"the job is {statuses}", seconds)
+        return job
 
     def until_at_rest(self, job_id: str) -> None:
         """Wait until the job is in its long stage."""

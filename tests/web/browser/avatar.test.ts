@@ -12,6 +12,7 @@ import { ended, LONG, submit } from './jobs';
 import { lacks } from './lacks';
 import { fileOf, inPython } from './media';
 import { serve } from './service';
+import { settled } from './settled';
 
 const root = resolve(import.meta.dirname, '../../..');
 const folder = mkdtempSync(join(tmpdir(), 'galatea-avatar-'));
@@ -112,28 +113,26 @@ describe('a finished avatar', () => {
     const stage = page.locator('.viewer-stage[aria-busy="false"]');
     await stage.waitFor();
     const faces = page.getByRole('region', { name: 'Expressions' });
+    const seen = async (): Promise<string> => (await stage.screenshot()).toString('base64');
+    const whole = await settled(seen);
     await faces.getByRole('button', { name: 'Close-up' }).click();
-    const still = async (): Promise<string> => {
-      let [before, now] = ['', (await stage.screenshot()).toString('base64')];
-      while (before !== now) [before, now] = [now, (await stage.screenshot()).toString('base64')];
-      return now;
-    };
-    const calm = await still();
+    await expect.poll(seen).not.toBe(whole);
+    const calm = await settled(seen);
     await faces.getByRole('button', { name: 'Surprise' }).click();
-    expect(await still()).not.toBe(calm);
+    await expect.poll(seen).not.toBe(calm);
     await faces.getByRole('button', { name: 'Reset face' }).click();
-    expect(await still()).toBe(calm);
+    await expect.poll(seen).toBe(calm);
     const blink = faces.getByRole('slider', { name: 'Eye blink, left' });
     await blink.press('End');
     await expect.poll(() => blink.getAttribute('aria-valuetext')).toBe('100%');
-    expect(await still()).not.toBe(calm);
+    await expect.poll(seen).not.toBe(calm);
     await readable(page);
 
     await page.getByRole('button', { name: 'Measured', exact: true }).click();
     await page.getByText(/^13,\d+ of the measured points/).waitFor();
     await page.getByAltText('Frames chosen from the head clip').waitFor();
     const points = page.getByRole('application', { name: /^The measured points in 3D/ });
-    const measured = (await points.screenshot()).toString('base64');
+    const measured = await settled(async () => (await points.screenshot()).toString('base64'));
     await page.getByLabel('Show the fitted shape instead of the points').check();
     await expect.poll(async () => (await points.screenshot()).toString('base64')).not.toBe(measured);
     await page.getByRole('link', { name: /^Download avatar \(GLB\)/ }).waitFor();

@@ -9,6 +9,7 @@ import { accepted, again, isMade, isOrder, launchIn3D, openCorrections, openStil
 import { LIGHT, LONG } from './jobs';
 import { lacks } from './lacks';
 import { inPython, samplePeople } from './media';
+import { onScreen } from './on_screen';
 import { address, finished, somebody } from './own_service';
 import { ask, cancelAll, jobOf, open, orderCharacter } from './page';
 
@@ -75,16 +76,6 @@ async function corrections(id = done, options: Parameters<typeof open>[2] = {}):
 /** What a click on “Make it again” sends. */
 const revision = async (page: Page): Promise<{ corrections: Record<string, any>; options: Record<string, any> }> =>
   (await revised(page)).postDataJSON();
-
-/** Where places of the picture are on the screen. */
-const onScreen = (page: Page, places: [number, number][]): Promise<[number, number][]> =>
-  page.evaluate((given) => {
-    const matrix = document.querySelector<SVGSVGElement>('[role=application] > svg')?.getScreenCTM();
-    return given.map(([x, y]) => {
-      const point = new DOMPoint(x, y).matrixTransform(matrix ?? undefined);
-      return [point.x, point.y] as [number, number];
-    });
-  }, places);
 
 async function drag(page: Page, ...places: [number, number][]): Promise<void> {
   const [first, ...rest] = await onScreen(page, places);

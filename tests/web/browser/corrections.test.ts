@@ -11,6 +11,7 @@ import { launch } from './browser';
 import { LONG } from './jobs';
 import { lacks } from './lacks';
 import { inPython, portrait } from './media';
+import { onScreen } from './on_screen';
 import { finished } from './own_service';
 import { ask, jobOf, open, order, played } from './page';
 
@@ -174,14 +175,3 @@ describe('corrections by hand', () => {
     await played(page);
   });
 });
-
-/** Where places of the picture are on the screen. */
-function onScreen(page: Page, places: Points): Promise<Points> {
-  return page.evaluate((given) => {
-    const matrix = document.querySelector<SVGSVGElement>('[role=application] > svg')?.getScreenCTM();
-    return given.map(([x, y]) => {
-      const point = new DOMPoint(x, y).matrixTransform(matrix ?? undefined);
-      return [point.x, point.y];
-    });
-  }, places) as Promise<Points>;
-}

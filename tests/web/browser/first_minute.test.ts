@@ -7,6 +7,7 @@ import { lacks } from './lacks';
 import { portrait } from './media';
 import { address } from './own_service';
 import { jobOf, open, played } from './page';
+import { settled } from './settled';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -68,12 +69,16 @@ describe('whoever comes for the first time', () => {
   it('finds nothing jump when a picture is chosen', async () => {
     const page = await open(browser);
     await page.getByRole('radio', { name: 'Happy', exact: true }).waitFor({ state: 'attached' });
-    const places = () => page.locator('.studio h2').evaluateAll((all) => all.map((one) => one.getBoundingClientRect().top));
-    const height = () => page.locator('.studio').evaluate((form) => form.getBoundingClientRect().height);
-    const before = [...(await places()), await height()];
+    /** Pixels: where each heading begins, and how high all is, of one moment. */
+    const places = () =>
+      page.locator('.studio').evaluate((form) => [
+        ...Array.from(form.querySelectorAll('h2'), (heading) => heading.getBoundingClientRect().top),
+        form.getBoundingClientRect().height,
+      ]);
+    const before = await settled(places);
     await hopper(page).click();
     await page.getByLabel('Portrait: Grace Hopper.jpg. Choose another').waitFor({ state: 'attached' });
-    await expect.poll(async () => [...(await places()), await height()]).toEqual(before);
+    await expect.poll(places).toEqual(before);
   });
 });
 

@@ -8,6 +8,7 @@ import { lacks } from './lacks';
 import { faceless } from './media';
 import { address, finished } from './own_service';
 import { cancelAll, open, openRunning, openWaiting, order } from './page';
+import { settled } from './settled';
 
 let browser: Browser;
 const done = finished.portrait;
@@ -85,26 +86,31 @@ describe('a job that succeeds', () => {
   it.each([390, 1280])('has one row of what can be done, which stays where it is whatever opens, %i pixels wide', async (width) => {
     const page = await open(browser, `#/jobs/${done}`, { viewport: { width, height: 900 }, reducedMotion: 'reduce' });
     await loaded(page);
-    const buttons = ['All files', 'Share', 'Use in code'].map((name) => page.getByRole('button', { name, exact: true }));
-    const left = page.locator('.result-actions');
+    const buttons = page.locator('.result-actions .toolbar').getByRole('button');
+    await expect.poll(() => buttons.allInnerTexts()).toEqual(['All files', 'Share', 'Use in code']);
+    /** Pixels from the row's corner, all of one moment. */
     const places = () =>
-      Promise.all(
-        buttons.map(async (button) => {
-          const [inner, outer] = [await button.boundingBox(), await left.boundingBox()];
-          return [inner!.x - outer!.x, inner!.y - outer!.y].map(Math.round);
-        }),
-      );
-    const before = await places();
-    for (const button of buttons) await button.click();
+      buttons.evaluateAll((all) => {
+        const row = document.querySelector('.result-actions')!.getBoundingClientRect();
+        return all.map((button) => {
+          const { left, top } = button.getBoundingClientRect();
+          return [left - row.left, top - row.top].map(Math.round);
+        });
+      });
+    const before = await settled(places);
+    for (const button of await buttons.all()) await button.click();
     await page.getByRole('button', { name: 'Create link' }).waitFor();
     const copy = page.getByRole('button', { name: /^Copy: / }).first();
     await copy.waitFor();
     await expect.poll(() => places()).toEqual(before);
 
-    const [inner, around, code] = [copy, page.locator('.snippet').first(), page.locator('.snippet pre').first()].map((one) => one.boundingBox());
-    const [button, snippet, text] = [(await inner)!, (await around)!, (await code)!];
-    expect(button.x + button.width).toBeLessThanOrEqual(snippet.x + snippet.width + 0.5);
-    expect(button.y + button.height).toBeLessThanOrEqual(text.y + 0.5);
+    /** Pixels by which a button to copy reaches beyond its snippet to the right, and into its text: of one moment. */
+    const beyond = () =>
+      page.locator('.snippet').first().evaluate((snippet) => {
+        const [button, text] = ['button', 'pre'].map((one) => snippet.querySelector(one)!.getBoundingClientRect());
+        return Math.max(button!.right - snippet.getBoundingClientRect().right, button!.bottom - text!.top);
+      });
+    await expect.poll(beyond).toBeLessThanOrEqual(0.5);
   });
 
   it('is made again with something changed, and the two lead to each other', async () => {

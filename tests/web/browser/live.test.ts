@@ -59,8 +59,8 @@ describe('a live portrait', () => {
     await page.getByLabel('Portrait: Grace Hopper.jpg. Choose another').waitFor({ state: 'attached' });
     await page.getByRole('button', { name: 'Drive live' }).click();
     await page.getByText('Live. Move, speak, smile.').waitFor();
+    await expect.poll(() => shown(page)).not.toBe('');
     const still = await shown(page);
-    expect(still).not.toBe('');
     await expect.poll(() => shown(page)).not.toBe(still);
     await readable(page);
     await page.setViewportSize({ width: 1280, height: 900 });

@@ -11,6 +11,7 @@ import { complaints, watch } from './complaints';
 import { LONG } from './jobs';
 import { inPython } from './media';
 import { serve } from './service';
+import { settled } from './settled';
 
 const folder = mkdtempSync(join(tmpdir(), 'galatea-persona-'));
 const letter = { name: 'letter.txt', mimeType: 'text/plain', buffer: Buffer.from('Dear aunt, here are the photos.') };
@@ -84,7 +85,7 @@ describe('photos of somebody', () => {
     const stage = page.locator('.viewer-stage[aria-busy="false"]');
     await stage.waitFor();
     const seen = async (): Promise<string> => (await stage.screenshot()).toString('base64');
-    const calm = await seen();
+    const calm = await settled(seen);
     await page.getByRole('region', { name: 'Expressions' }).getByRole('button', { name: 'Surprise' }).click();
     await expect.poll(seen).not.toBe(calm);
     await readable(page);

@@ -2,7 +2,6 @@
 
 import { type ChildProcess, execFileSync, spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { createServer } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
@@ -22,13 +21,8 @@ let address: string;
 
 beforeAll(async () => {
   execFileSync(python, ['-m', 'zipfile', '-e', inject('finished').profile, site]);
-  const port = await freePort();
-  address = `http://127.0.0.1:${port}/`;
-  server = spawn(python, ['-m', 'http.server', String(port), '--bind', '127.0.0.1'], { cwd: site, stdio: 'ignore' });
-  for (let tries = 0; ; tries++) {
-    if (await fetch(address).then(() => true, () => tries > 100)) break;
-    await new Promise((wake) => setTimeout(wake, 100));
-  }
+  server = spawn(python, ['-u', '-m', 'http.server', '0', '--bind', '127.0.0.1'], { cwd: site, stdio: ['ignore', 'pipe', 'ignore'] });
+  address = await told(server, /\((http:.*)\)/);
   browser = await launch();
 });
 afterAll(async () => {
@@ -282,11 +276,14 @@ it('comes as the script that the package has', () => {
   expect(readFileSync(join(site, 'reactive-portrait.js')).equals(built)).toBe(true);
 });
 
-function freePort(): Promise<number> {
-  return new Promise((done) => {
-    const probe = createServer().listen(0, '127.0.0.1', () => {
-      const { port } = probe.address() as { port: number };
-      probe.close(() => done(port));
+/** What a process tells of itself: the first group of the pattern. */
+function told(process: ChildProcess, pattern: RegExp): Promise<string> {
+  return new Promise((done, fail) => {
+    let output = '';
+    process.stdout!.on('data', (part: Buffer) => {
+      const found = pattern.exec((output += part.toString()))?.[1];
+      if (found) done(found);
     });
+    process.once('exit', () => fail(new Error(`it ended: ${output}`)));
   });
 }

@@ -73,6 +73,7 @@ describe('sending a video', () => {
     await page.getByText(/Uploading the video: [1-9]\d?%/).waitFor();
     await expect.poll(() => start(page).isDisabled()).toBe(true); // two at once would take the upload from one another
     await page.getByRole('button', { name: 'Pause', exact: true }).click();
+    await page.getByText(/Paused while uploading the video/).waitFor();
     const halted = await share(page);
     await page.waitForTimeout(1500);
     await expect.poll(() => share(page)).toBe(halted);

@@ -7,6 +7,7 @@ import type { AxeResults } from 'axe-core';
 import type { Locator, Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
 import { launch } from './browser';
+import { settled } from './settled';
 import { aViewer, CLIPS, differing, drawings, mode, ready, shot, still, turns } from './viewer_kit';
 
 declare global {
@@ -56,9 +57,7 @@ describe('looking around', () => {
   it('shows a clip at any of its moments, plays it, and draws only what has changed', async () => {
     const page = await open();
     await ready(page);
-    const drawn = await drawings(page);
-    await page.waitForTimeout(600);
-    await expect.poll(() => drawings(page), { message: 'at rest nothing is drawn' }).toBe(drawn);
+    await settled(() => drawings(page), 600); // at rest nothing is drawn
 
     const begin = await shot(page);
     const position = page.getByRole('slider', { name: 'Position' });
@@ -91,6 +90,7 @@ describe('looking around', () => {
     const pictures = new Set<string>();
     for (const name of CLIPS.slice(4)) {
       await motion.selectOption(name);
+      await still(page);
       const end = Number(await position.getAttribute('max'));
       for (let moment = 0; moment <= 8; moment++) {
         await position.fill(String((moment * end) / 8));

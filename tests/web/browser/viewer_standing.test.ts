@@ -32,7 +32,9 @@ describe('who is posed by hand', () => {
     };
     const before = await height();
     await bone.selectOption('LeftArm');
-    for (const slider of await page.getByRole('slider').all()) await slider.fill('40');
+    const sliders = page.getByRole('slider');
+    await sliders.first().waitFor();
+    for (const slider of await sliders.all()) await slider.fill('40');
     await expect.poll(height).toBe(before);
     await bone.selectOption('Hips');
     await page.getByRole('slider').first().fill('90');

@@ -12,6 +12,7 @@ it('is there at the first load with less than 200 kB', async () => {
   try {
     const page = await open(browser);
     await page.getByRole('radio').first().waitFor({ state: 'attached' });
+    await page.waitForLoadState('networkidle'); // nothing more is asked for
     const loaded = await page.evaluate(() =>
       performance
         .getEntriesByType('resource')
@@ -38,11 +39,12 @@ it('shows five recent works with less than 60 kB of pictures', async () => {
   try {
     const page = await open(browser);
     const posters = page.locator('.recent .entry .poster img');
-    await expect.poll(() => posters.count()).toBeGreaterThanOrEqual(2);
-    const shown = await posters.evaluateAll((images: HTMLImageElement[]) => images.map(({ src }) => src));
-    const ours = shown.filter((url) => [finished.portrait, finished.character].some((id) => url.includes(id)));
-    expect(ours).toHaveLength(2);
-    const sizes = await Promise.all(ours.map(async (url) => (await (await fetch(url)).arrayBuffer()).byteLength));
+    const ours = async (): Promise<string[]> => {
+      const shown = await posters.evaluateAll((images: HTMLImageElement[]) => images.map(({ src }) => src));
+      return shown.filter((url) => [finished.portrait, finished.character].some((id) => url.includes(id)));
+    };
+    await expect.poll(ours).toHaveLength(2);
+    const sizes = await Promise.all((await ours()).map(async (url) => (await (await fetch(url)).arrayBuffer()).byteLength));
     expect(Math.max(...sizes), 'five like the heavier one').toBeLessThan(60_000 / 5);
   } finally {
     await browser.close();
