@@ -61,6 +61,16 @@ def test_bones_keep_their_length_on_the_way_to_the_t_pose(template: Template) ->
     np.testing.assert_allclose(*lengths, atol=1e-5)
 
 
+def test_in_t_pose_the_skin_stands_on_the_ground_with_the_hips_above_the_origin(template: Template) -> None:
+    """Wherever the template was; the cages about the skin, which go lower, do not count."""
+    skin = template.vertices_of("body")
+    elsewhere = template.vertices + np.array([0.3, -0.7, 0.2], np.float32)
+    skeleton, _, posed = t_pose(load_rig(HUMAN_RIG), elsewhere, skin)
+    assert posed[:, 1].min() < -0.001
+    assert abs(posed[skin, 1].min()) < 1e-6
+    np.testing.assert_allclose(skeleton.heads[0, [0, 2]], 0, atol=1e-6)
+
+
 @pytest.mark.parametrize("end", [(0, 0, 1), (1, 0, 0), (-1, 0, 0), (0.6, -0.8, 0)])
 def test_the_shortest_turn_brings_one_direction_to_another(end: tuple[float, float, float]) -> None:
     turn = shortest_rotation(np.array([2.0, 0, 0]), np.array(end))

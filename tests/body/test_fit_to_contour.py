@@ -13,7 +13,8 @@ from engine.body.fitting.body_fitting import Fit, fit_body
 from engine.body.fitting.contour import SEARCH_INSIDE_SHARE, Contour, match_contour, skin_points, trace_contour
 from engine.body.fitting.first_guess import first_guess
 from engine.body.fitting.observation import DIRECTED_LIMBS, Observation
-from engine.body.fitting.posing import FITTED_JOINTS, POSED_SHAPE_COEFFICIENTS, forward, rotation_matrices
+from engine.body.fitting.posing import FITTED_JOINTS, POSED_SHAPE_COEFFICIENTS, BodyPoser, forward, rotation_matrices
+from engine.body.fitting.residuals import ContourMatches, project, residuals
 from engine.body.landmarks import landmark_model
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
@@ -65,6 +66,22 @@ def mask_of(truth: np.ndarray) -> np.ndarray:
     for corners in np.rint(pixels[triangulate(TEMPLATE.quads[TEMPLATE.faces("body")])] * 16).astype(np.int32):
         cv2.fillConvexPoly(mask, corners, (1,), shift=4)
     return mask > 0
+
+
+def test_who_stands_out_of_a_contour_is_further_off_than_who_stays_behind_it() -> None:
+    """By as many pixels: clothes are worn over bodies, not under them."""
+    truth = parameters({})
+    seen, _ = seen_of(truth)
+    poser = BodyPoser(SPACE)
+    some = SKIN.subset(np.arange(0, len(SKIN.joints), 50))
+    pixels = project(poser(truth[None]).carry(some), CAMERA)[0]
+    normals = np.tile([1.0, 0.0], (len(pixels), 1))
+
+    def off(pixels_out: float) -> float:
+        matches = ContourMatches(some, pixels - pixels_out * normals, normals)
+        return float((residuals(poser, MARKS, [seen], [matches], truth[None]) ** 2).sum())
+
+    assert off(0) < off(-1) < off(1)
 
 
 def fitted(truth: np.ndarray, contour: Contour | None) -> Fit:

@@ -43,6 +43,15 @@ def test_a_flat_grid_with_borders_stays_flat_and_keeps_affine_fields(smooth: boo
         np.testing.assert_array_equal(fine[:20], grid)
 
 
+def test_a_corner_that_two_faces_share_stays() -> None:
+    """Four border edges meet there: no single curve goes through, so it stays."""
+    places = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [2, 1], [2, 2], [1, 2]], float)
+    step = catmull_clark(np.array([[0, 1, 2, 3], [2, 4, 5, 6]]), len(places))
+    fine = step.points @ places
+    np.testing.assert_allclose(fine[2], places[2])
+    np.testing.assert_allclose(fine[0], [0.125, 0.125])  # (L + 6 P + R) / 8 along a border
+
+
 def test_the_template_shrinks_only_a_little(template: Template) -> None:
     faces = template.quads[slice(*template.parts["body"])]
     step = catmull_clark(faces, len(template.vertices))

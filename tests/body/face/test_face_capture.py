@@ -86,3 +86,21 @@ def test_an_iris_that_moves_towards_the_nose_is_a_look_inwards(model: FaceUnitMo
     assert found["eyeLookInRight"] == pytest.approx(0.5, abs=0.02)
     assert found["eyeLookOutRight"] == 0
     assert found["eyeLookInLeft"] == found["eyeLookOutLeft"] == 0
+
+
+@pytest.mark.parametrize(("down", "unit"), [(1, "eyeLookDown"), (-1, "eyeLookUp")])
+def test_irises_that_move_down_or_up_are_such_a_look_of_both_eyes(model: FaceUnitModel, down: int, unit: str) -> None:
+    mesh = REST.copy()
+    for irises, outer, inner in ((slice(468, 473), 33, 133), (slice(473, 478), 263, 362)):
+        mesh[irises, 1] += 0.06 * down * abs(mesh[outer, 0] - mesh[inner, 0])
+    found = dict(zip(CAPTURED_UNITS, capture_face_units(model, held(mesh), REST)[1], strict=True))
+    looks = {name for name in GAZE_UNITS if found[name] > 0.1}
+    assert looks == {f"{unit}Left", f"{unit}Right"}
+
+
+def test_nothing_is_told_of_an_iris_under_a_shut_lid(model: FaceUnitModel) -> None:
+    shut = acting(model, eyeBlinkRight=1.0)
+    shut[468:473, :2] += 0.1 * (shut[133] - shut[33])[:2]
+    found = dict(zip(CAPTURED_UNITS, capture_face_units(model, held(shut), REST)[1], strict=True))
+    assert found["eyeBlinkRight"] == 1
+    assert all(found[name] == 0 for name in GAZE_UNITS if name.endswith("Right"))

@@ -12,8 +12,8 @@ from engine.body.body_space import load_body_space
 from engine.body.fitting.body_fitting import fit_body
 from engine.body.fitting.first_guess import first_guess
 from engine.body.fitting.observation import DIRECTED_LIMBS, Crossing, Observation
-from engine.body.fitting.posing import FITTED_JOINTS, POSED_SHAPE_COEFFICIENTS, forward, rotation_matrices
-from engine.body.fitting.residuals import CROSSING_DEPTH_METRES
+from engine.body.fitting.posing import FITTED_JOINTS, POSED_SHAPE_COEFFICIENTS, BodyPoser, forward, rotation_matrices
+from engine.body.fitting.residuals import CROSSING_DEPTH_METRES, residuals
 from engine.body.landmarks import landmark_model
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
@@ -175,6 +175,19 @@ def test_where_the_world_has_its_origin_does_not_matter() -> None:
         there[0], here[0], rtol=0.02, atol=0.01
     )  # one view hardly tells how far away somebody is
     assert fits[1].reprojection == pytest.approx(fits[0].reprojection, rel=0.01)
+
+
+def test_what_no_view_shows_counts_once_however_often_somebody_is_seen() -> None:
+    """Landmarks that are met exactly and no directions: all that is left are priors, of which one body has one each."""
+    truth = somebody(3)
+    _, points = forward(SPACE, MARKS, truth)
+    pixels = (points[:, :2] * [FOCAL, -FOCAL] / -points[:, 2:] + CENTRE).astype(np.float32)
+    limbs = np.zeros((len(DIRECTED_LIMBS), 3), np.float32)
+    seen = Observation(pixels, np.ones(len(pixels), np.float32), limbs, limbs[:, 0], CAMERA)
+    once, thrice = (
+        (residuals(BodyPoser(SPACE), MARKS, [seen] * count, [None] * count, truth[None]) ** 2).sum() for count in (1, 3)
+    )
+    assert thrice == pytest.approx(once, rel=1e-4)
 
 
 def test_one_view_alone_and_as_the_only_one_of_several_are_the_same() -> None:
