@@ -131,6 +131,7 @@ def test_wrong_shapes_are_refused_and_leave_no_file(mesh: SkinnedMesh, tmp_path:
         ([good, good], "same name"),
         ([MorphTarget("a", np.array([1, 1]), np.zeros((2, 3), np.float32))], "twice"),
         ([MorphTarget("a", np.array([len(mesh.vertices)]), one)], "not there"),
+        ([MorphTarget("a", np.array([-1]), one)], "not there"),
         ([MorphTarget("a", np.array([1, 2]), one)], "displacements"),
         ([MorphTarget("a", np.array([1]), one * np.nan)], "finite"),
     ):
@@ -167,6 +168,7 @@ def test_several_materials_share_vertices_and_shapes(
     info = eyes["pbrMetallicRoughness"]["baseColorTexture"]
     assert info["extensions"]["KHR_texture_transform"] == {"offset": [0.25, 0.5], "rotation": 0.3, "scale": [2.0, 0.5]}
     assert lashes["alphaMode"] == "BLEND" and lashes["doubleSided"]
+    assert not any(one.get("doubleSided") for one in (skin, eyes))
     assert lashes["pbrMetallicRoughness"]["baseColorFactor"] == [1, 1, 1, 0.5]
     assert skin["pbrMetallicRoughness"]["baseColorTexture"]["index"] == 0
     texture = glb.json["textures"][lashes["pbrMetallicRoughness"]["baseColorTexture"]["index"]]
@@ -276,6 +278,20 @@ def test_what_a_face_does_during_a_clip_comes_back_from_its_animation(
     for column, name in enumerate(FACE_UNITS):
         given = track.weights[:, names.index(name)] if name in names else np.zeros(30, np.float32)
         np.testing.assert_array_equal(weights[:, column], [*given, given[0]])
+
+
+def test_a_face_holds_its_expression_as_long_as_a_clip_of_one_frame(
+    mesh: SkinnedMesh, face_units: list[MorphTarget], tmp_path: Path
+) -> None:
+    pose = still(mesh.skeleton)
+    track = MorphTrack(("jawOpen",), np.array([[0.75]], np.float32))
+    write_glb(tmp_path / "held.glb", CharacterModel(mesh, [pose], morphs=face_units, expressions={pose.name: track}))
+    assert validate(tmp_path / "held.glb")["messages"] == []
+    glb = Glb(tmp_path / "held.glb")
+    animation = glb.animation(pose.name)
+    (channel,) = [one for one in animation["channels"] if one["target"]["path"] == "weights"]
+    weights = glb.array(animation["samplers"][channel["sampler"]]["output"]).reshape(-1, 52)
+    np.testing.assert_array_equal(weights[:, FACE_UNITS.index("jawOpen")], [0.75, 0.75])
 
 
 def test_expressions_that_do_not_fit_the_clips_are_refused(mesh: SkinnedMesh, face_units: list[MorphTarget]) -> None:

@@ -200,6 +200,17 @@ def test_sound_that_breaks_off_is_kept_up_to_there_and_told_of(tmp_path: Path, f
         assert clicks_in(tmp_path / "out")[0] == pytest.approx(CLICKS, abs=0.015)
 
 
+@pytest.mark.parametrize("format", ["mp4", "webm"])
+def test_a_cut_within_a_gap_leaves_of_it_what_comes_after(tmp_path: Path, format: str) -> None:
+    """Of sound that is missing from 0.75 to 1.75 s, cut at 1.25 s: the click at 2 s is heard after 0.75 s."""
+    gap = lambda packets: [(time, content) for time, content in packets if not 0.75 < time < 1.75]  # noqa: E731
+    driver = remuxed(write_driver(tmp_path / "in.mov", "aac", 44100), tmp_path / "in.mkv", gap)
+    with VideoWriter(VideoTarget(tmp_path / "out", (64, 48), 25, format, sound=driver, sound_trim=(1.25, 3))) as writer:
+        for _ in range(44):
+            writer.write(np.full((48, 64, 3), 90, np.uint8))
+    assert clicks_in(tmp_path / "out")[0] == pytest.approx([0.75], abs=0.03)
+
+
 def test_sound_of_which_nothing_decodes_is_left_out(tmp_path: Path) -> None:
     spoil = lambda packets: [(time, b"\x81" * 50) for time, _ in packets]  # noqa: E731
     driver = remuxed(write_driver(tmp_path / "in.mp4", "aac"), tmp_path / "in.mkv", spoil)

@@ -46,6 +46,12 @@ def test_what_a_loop_travels_is_told_from_how_it_sways() -> None:
     np.testing.assert_allclose(closing_root(swaying(forward)), sway[0] + [0, 0, 1.4], atol=2e-3)
 
 
+def test_no_loop_travels_off_the_ground() -> None:
+    """Who climbs through a loop is down again where it begins anew."""
+    climbing = np.outer(np.arange(24) / 24, [0, 1.5, 1.4]).astype(np.float32)
+    np.testing.assert_allclose(closing_root(swaying(climbing)), [0, 0, 1.4], atol=1e-5)
+
+
 @settings(max_examples=60, deadline=None)
 @given(
     st.lists(st.tuples(st.integers(0, 5), st.floats(0, 1)), min_size=4, max_size=4).filter(
