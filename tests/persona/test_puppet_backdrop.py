@@ -27,6 +27,14 @@ def test_a_wide_picture_loses_its_sides_alone(tmp_path: Path) -> None:
     assert plate.shape == (80, 80, 3) and np.abs(plate[:, 4:-4].astype(int) - (200, 40, 40)).max() <= 2
 
 
+def test_a_tall_picture_loses_top_and_bottom_alone(tmp_path: Path) -> None:
+    tall = np.zeros((120, 40, 3), np.uint8)
+    tall[40:80] = (200, 40, 40)
+    write_image(tmp_path / "tall.png", tall)
+    plate = backdrop(GREY, (80, 80), tmp_path / "tall.png", Limits())
+    assert plate.shape == (80, 80, 3) and np.abs(plate[4:-4].astype(int) - (200, 40, 40)).max() <= 2
+
+
 def test_what_a_picture_lets_through_is_the_colour(tmp_path: Path) -> None:
     alpha = np.ones((50, 50), np.float32)
     alpha[:, :25] = 0

@@ -60,6 +60,16 @@ def test_one_who_is_alone_acts_rather_than_one_of_two(collection: Collection) ->
     assert chosen is not None and chosen.number == 1
 
 
+@pytest.mark.parametrize(("coloured", "chosen"), [(1, 0), (2, 1)])
+def test_black_and_white_acts_only_where_most_are_so(collection: Collection, coloured: int, chosen: int) -> None:
+    """Of three photographs, the first the barest, and in black and white."""
+    mesh, photo = collection[0][0], collection[1][0]
+    grey = np.repeat(photo.mean(axis=2, keepdims=True), 3, 2).astype(np.uint8)
+    photos = [grey, *[photo] * coloured, *[grey] * (2 - coloured)]
+    found = portrait_photo(as_faces([mesh] * 3), np.array([1.0, 0.95, 0.9]), lambda number: photos[number])
+    assert found is not None and found.number == chosen
+
+
 def test_photographs_that_cut_the_head_do_not_act(collection: Collection) -> None:
     mesh, photo = collection[0][0].copy(), collection[1][0]
     x, y = np.rint(mesh[1, :2]).astype(int)

@@ -30,6 +30,14 @@ def test_what_units_make_of_it_is_taken_away() -> None:
         assert root_mean_square(found - general) < 0.4 * root_mean_square(moved), names
 
 
+def test_no_more_is_taken_away_than_a_face_can_do() -> None:
+    """Of what goes thrice as far as a unit, the rest is how this person looks."""
+    units, general = load_mesh_units(), frontalise(canonical_face()[None].astype(float))[0]
+    moved = units.moved[units.names.index("jawOpen")]
+    left = ((estimated_rest(general + 3 * moved) - general) * moved).sum() / (moved**2).sum()
+    assert 1.7 < left < 2.1
+
+
 def test_an_actor_who_laughs_is_told_nearer_to_how_he_is_at_rest() -> None:
     frames = [frame.rgb for frame in read_video(video("surprise-strong"))]
     with FaceTracker(alone=True) as tracker:

@@ -70,3 +70,7 @@ def test_weights_follow_the_expression(persona: Persona, performance: Performanc
     shares = performance.weights / performance.weights.sum(axis=1, keepdims=True)
     shown = shares @ np.linalg.norm(upper - lower, axis=1)
     assert np.corrcoef(openings, shown)[0, 1] > 0.85, "wide where the mouth is wide"
+    steps, alone = (
+        np.abs(np.diff(one, axis=0)).mean() for one in (performance.weights, persona.weights(performance.faces))
+    )
+    assert steps < 0.7 * alone, "from one frame to the next"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from engine.perception.landmarks import FACE_OVAL, LIPS_INNER
+from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, mouth_opening
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.persona import Persona
 from engine.persona.results.in_average_light import in_average_light
@@ -30,6 +30,19 @@ def test_a_light_from_the_side_goes_and_the_picture_stays(persona: Persona, coll
     before, after, even = (cheeks(one, mesh) for one in (lit, made, photos[NUMBER]))
     off, left = (abs(np.log(one[0] / one[1]) - np.log(even[0] / even[1])) for one in (before, after))
     assert left < 0.4 * off, "both cheeks are lit as in the mean"
+
+
+def test_what_a_mouth_shows_stays(persona: Persona, collection: Collection) -> None:
+    """Of the one that is opened widest: a mixture of photographs has no teeth."""
+    meshes, photos = collection
+    number = int(np.argmax([mouth_opening(mesh) for mesh in meshes]))
+    mesh, photo = meshes[number].astype(np.float32), photos[number].copy()
+    inside = np.zeros(photo.shape[:2], np.uint8)
+    cv2.fillPoly(inside, [np.rint(mesh[list(LIPS_INNER), :2]).astype(np.int32)], 1)
+    photo[inside > 0] = (0, 220, 0)
+    made = in_average_light(persona, FacePhoto(photo, mesh, number)).astype(int)
+    middle = cv2.distanceTransform(inside, cv2.DIST_L2, 3) > 0.6 * cv2.distanceTransform(inside, cv2.DIST_L2, 3).max()
+    assert (made[middle][:, 1] - made[middle][:, [0, 2]].max(1) > 110).all()
 
 
 def test_what_is_in_its_own_light_keeps_it(persona: Persona, collection: Collection) -> None:

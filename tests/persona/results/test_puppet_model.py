@@ -100,6 +100,17 @@ def test_the_skin_covers_what_is_behind_it_whatever_it_does(persona: Persona, un
     assert skin.needed(far, {})[0] > 3, "what is before the face has to go far back"
 
 
+def test_what_both_sides_move_together_is_covered_too(persona: Persona, units: FaceUnits) -> None:
+    """A place that each side alone leaves behind the skin, and both bring before it."""
+    skin = BehindSkin(Puppet(persona, openings=True), units)
+    clear = skin.needed(np.array([[0.0, 0.0, -5.0]]), {})[0] - 5
+    place = np.array([[0.0, 0.0, clear + 1]])
+    ahead = {f"mouthSmile{side}": np.array([[0.0, 0.0, -0.8]]) for side in ("Left", "Right")}
+    one = {"mouthSmileLeft": ahead["mouthSmileLeft"]}
+    assert skin.needed(place, one)[0] < 0.05
+    assert skin.needed(place, ahead)[0] > 0.5
+
+
 def test_textures_of_expressions_lie_side_by_side(persona: Persona, units: FaceUnits, tmp_path: Path) -> None:
     textures = expression_textures(persona, units)
     picture, document = write_expression_textures(tmp_path, textures, True)

@@ -46,6 +46,13 @@ def test_a_surface_comes_back_from_its_slopes_and_a_hint() -> None:
     assert offset.mean() == pytest.approx(5.0)
 
 
+def test_slopes_over_the_rim_do_not_count() -> None:
+    depth = cv2.GaussianBlur(np.random.default_rng(0).normal(size=(30, 23)), (0, 0), 4) * 30
+    slopes = slopes_of(depth)
+    slopes[:, -1, 0], slopes[-1, :, 1] = 7, -9
+    np.testing.assert_allclose(screened_poisson(slopes, depth, 1e-3), depth, atol=1e-9)
+
+
 def test_without_slopes_what_is_near_is_smoothed() -> None:
     near = np.zeros((40, 40))
     near[20, 20] = 1

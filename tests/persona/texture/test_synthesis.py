@@ -66,6 +66,12 @@ def test_weights_of_frames_are_smooth_in_time() -> None:
     assert np.abs(np.diff(soft, axis=0)).mean() < 0.2 * np.abs(np.diff(hard, axis=0)).mean()
 
 
+def test_weights_of_an_expression_that_is_held_are_the_same_in_all_frames() -> None:
+    photos = points(40, 1.0)
+    held = photos[np.zeros(12, int)]
+    np.testing.assert_allclose(expression_weights(held, photos, 2.0), expression_weights(held, photos), rtol=1e-5)
+
+
 def test_photographs_that_are_all_the_same_are_the_texture() -> None:
     photo = noise(1)
     synthesis = texture_synthesis(np.array([photo] * 5), np.ones((5, *SIZE)))
@@ -140,3 +146,10 @@ def test_black_and_white_is_told_and_gets_the_others_tone() -> None:
     assert is_grey(photos).tolist() == [False, False, True]
     found = balanced(photos, np.ones((3, *SIZE)), np.ones(SIZE, np.bool_))
     assert np.abs(found[2].mean((0, 1)) - colour.mean((0, 1))).max() < 2
+
+
+def test_where_most_are_in_black_and_white_the_tone_is_of_those_in_colour() -> None:
+    colour = np.clip(noise(3, contrast=12) * [1.2, 0.9, 0.7], 0, 255).astype(np.uint8)
+    grey = np.repeat(colour.mean(axis=2, keepdims=True), 3, 2).astype(np.uint8)
+    found = balanced(np.array([grey, colour, grey]), np.ones((3, *SIZE)), np.ones(SIZE, np.bool_))
+    assert np.abs(found.mean((1, 2)) - colour.mean((0, 1))).max() < 2
