@@ -13,9 +13,14 @@ from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human
 from engine.character.hybrid.hips import at_hips, hips_behind
 from engine.character.hybrid.hybrid import Hybrid, make_hybrid
+from engine.character.hybrid.seam import with_the_trunks_colours
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import LEG_LABELS, TRUNK_LABEL
+from engine.character.shell.colours.paint import SHELL_TEXTURE_SIZE_TEXELS, texels
 from engine.character.shell.template_mesh import template_mesh
+from engine.character.texture.texture import Tiles
+from engine.geometry.mesh.surface import vertex_normals
+from engine.render.attributes import interpolate
 from tests.character.hybrid.test_hybrid import figure_and_outline
 
 Seen = tuple[Figure, FittedBody, Silhouette, Labels]
@@ -56,6 +61,30 @@ def test_a_hem_is_as_high_behind_as_in_front(seen: Seen) -> None:
         off = np.abs(behind[band].astype(int) - colour).max(1)
         assert (off < 12).mean() > 0.98
     np.testing.assert_array_equal(hips_behind(rgb, labels, silhouette, places[:0]), rgb)
+
+
+def test_backs_of_hips_have_the_hem_where_it_is_in_front(seen: Seen, hybrid: Hybrid) -> None:
+    """Of a shell that was black all over: it is left so as far as backs of legs are not level with the trunk."""
+    figure, _, silhouette, labels = seen
+    mesh, raster = hybrid.shell.mesh, texels()
+    facing = -vertex_normals(hybrid.shell.pictured, mesh.triangles)[:, 2]
+    leg = np.isin(hybrid.limbs.limb, LEG_LABELS) & (mesh.parts[:, TRUNK_LABEL] < 0.5)
+    values = np.column_stack([hybrid.shell.pictured[:, 1], facing, at_hips(hybrid), leg]).astype(np.float32)
+    y, turned, level, share = np.moveaxis(interpolate(values, mesh.triangles, raster), -1, 0)
+    behind = (raster.triangle >= 0) & (turned < -0.4) & (level > 0.3) & (share > 0.999)
+    hem = float(np.median(y[behind]))
+    to_picture = (hem - silhouette.to_grid[1, 2]) / silhouette.to_grid[1, 1]
+    height, width = silhouette.alpha.shape
+    rows = np.arange(height)[:, None, None]
+    rgb = np.broadcast_to(np.where(rows < to_picture, SHIRT, TROUSERS), (height, width, 3)).astype(np.uint8).copy()
+    rgb[silhouette.alpha < 0.5] = 255
+    white = np.full((*labels.labels.shape, 3), 255, np.uint8)
+    tiles = Tiles(white, white, white, np.zeros(labels.labels.shape, np.bool_), 1.0, np.zeros(2))
+    black = np.zeros((SHELL_TEXTURE_SIZE_TEXELS, SHELL_TEXTURE_SIZE_TEXELS, 3), np.uint8)
+    texture = with_the_trunks_colours(black, hybrid, tiles, replace(figure, rgb=rgb), silhouette)
+    for area, colour in ((behind & (y < hem - 3), SHIRT), (behind & (y > hem + 3), TROUSERS)):
+        off = np.abs(texture[area] - level[area][:, None] * colour).max(1)
+        assert area.sum() > 1000 and np.median(off) < 5
 
 
 def _in_picture(labels: Labels, silhouette: Silhouette) -> np.ndarray:

@@ -23,6 +23,7 @@ from engine.render.rasteriser import rasterise
 
 HEIGHT, WIDTH = 260, 300
 SKIN, HAIR, CLOTH, WALL = (200, 150, 120), (60, 40, 20), (30, 60, 160), (20, 230, 20)
+RIM = (250, 0, 250)
 
 
 def standing() -> Shell:
@@ -104,6 +105,44 @@ def test_what_is_shown_is_the_pictures_own(seen: tuple[Shell, Silhouette, Labels
     expected = points[surely][:, :2] * [0.8, 0.9]
     assert surely.sum() > 5000
     assert np.abs(texture[surely][:, :2] - expected).max() < 2
+
+
+def test_nothing_of_a_heads_rim_is_drawn_out_over_its_side(seen: tuple[Shell, Silhouette, Labels]) -> None:
+    """A rim of another colour, of few pixels: light from behind, a wall. Neither where a head turns away, nor between eye and ear."""
+    shell, silhouette, labels = seen
+    mesh = shell.mesh
+    rgb = dressed(shell, silhouette)
+    told = witness(rgb, silhouette, labels, shell)
+    seen_at = rasterise(shell.pictured * [1, 1, -1], mesh.triangles, (HEIGHT, WIDTH))
+    towards = interpolate(told.attributes, mesh.triangles, seen_at)[..., 3]
+    rgb[silhouette.mask & (labels.labels == BODY_PARTS.index("head")) & (towards < 0.3)] = RIM
+    texture = paint_shell(rgb, silhouette, labels, shell).astype(float)
+    of_rim = np.clip((np.minimum(texture[..., 0], texture[..., 2]) - texture[..., 1]) / RIM[0], 0, 1)
+    points = interpolate(told.attributes, mesh.triangles, texels())
+    below_eyes = shell.rest[mesh.eye, 1].mean() - interpolate(shell.rest, mesh.triangles, texels())[..., 1]
+    shown = (texels().triangle >= 0) & (points[..., 4] > 0.95) & (told.of(points).shown > 0.5)
+    turned_away = shown & (points[..., 3] < 0.2)
+    temples = shown & (points[..., 3] > 0.3) & (points[..., 3] < 0.5) & (below_eyes > 0) & (below_eyes < 0.06)
+    for area in (turned_away, temples):
+        assert area.sum() > 5000 and of_rim[area].mean() < 0.05
+
+
+def test_what_is_filled_begins_in_the_light_of_what_it_meets(seen: tuple[Shell, Silhouette, Labels]) -> None:
+    """Arms tell what each other is like all round; one of them is in the shade."""
+    shell, silhouette, labels = seen
+    bright = np.array(CLOTH) + 24
+    right = np.arange(WIDTH) < WIDTH / 2
+    rgb = np.where(silhouette.mask[..., None], np.where(right[:, None], bright, CLOTH), WALL).astype(np.uint8)
+    texture = paint_shell(rgb, silhouette, labels, shell).astype(float)
+    told = witness(rgb, silhouette, labels, shell)
+    on = texels().triangle >= 0
+    shown = on & (told.of(interpolate(told.attributes, shell.mesh.triangles, texels())).shown > 0)
+    away = cv2.distanceTransform((~shown).astype(np.uint8), cv2.DIST_L2, 5)
+    parts = interpolate(shell.mesh.parts, shell.mesh.triangles, texels())
+    for arm, colour in (("left_arm", CLOTH), ("right_arm", bright)):
+        beside = on & (parts[..., BODY_PARTS.index(arm)] > 0.9) & (away > 2) & (away < 8)
+        off = np.abs(texture[beside] - colour).max(-1)
+        assert beside.sum() > 5000 and (off > 18).mean() < 0.03
 
 
 def test_wall_that_the_mask_takes_in_is_no_source(seen: tuple[Shell, Silhouette, Labels]) -> None:
