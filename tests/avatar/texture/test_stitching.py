@@ -80,6 +80,19 @@ def test_the_lens_is_undone(ball: Ball) -> None:
     assert np.abs(found.texture.astype(float) - known_colours(ball, SIZE))[found.seen].mean() < 3
 
 
+def test_the_resolution_is_that_of_both_directions_in_the_mean(ball: Ball) -> None:
+    """What is seen aslant is as fine along its edge as from before, and as much coarser across it as it is foreshortened."""
+    camera = ring(1)[0]
+    found = stitch_texture(ball.surface, [ball.view(camera)], SIZE)
+    middles = ball.surface.vertices[ball.surface.triangles].mean(1)
+    towards = np.asarray(camera.eye) - middles
+    cosine = (middles * towards).sum(1) / np.linalg.norm(middles, axis=1) / np.linalg.norm(towards, axis=1)
+    shown = found.resolution > 0
+    expected = camera.focal / camera.depth(middles) * np.sqrt(np.maximum(cosine, 0))
+    assert shown.sum() > 300 and cosine[shown].min() < 0.5
+    np.testing.assert_allclose(found.resolution[shown], expected[shown], rtol=0.05)
+
+
 def test_views_that_miss_the_surface_are_refused(ball: Ball) -> None:
     away = ring(1)[0].aimed([0, 0, 4], [0, 0, 8])
     with pytest.raises(ValueError, match="no view shows"):

@@ -83,6 +83,21 @@ def test_what_lies_in_a_lid_s_fold_is_not_taken_from_frames_and_painted_like_the
     assert (texture[~inside] == (180, 130, 110)).all()
 
 
+def test_of_a_lower_lid_what_looks_ahead_is_in_no_fold(surface: TemplateSurface) -> None:
+    """But for what meets the rim itself: below the eye's corners nothing is narrower than lashes."""
+    corners = surface.rest[surface.triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    middles = corners.mean(1)
+    for part, folded in surface.lid_folds(surface.rest).items():
+        rim = surface.rest[surface.lid_rims[part]]
+        ahead = rim.mean(0) - surface.rest[np.unique(surface.triangles[surface.of(part)])].mean(0)
+        first, last = rim[rim[:, 0].argmin()], rim[rim[:, 0].argmax()]
+        below = middles[:, 1] < np.interp(middles[:, 0], [first[0], last[0]], [first[1], last[1]])
+        lower = folded & below & ~np.isin(surface.triangles, surface.lid_rims[part]).any(1)
+        assert lower.any() and (normals[lower] @ ahead / np.linalg.norm(ahead)).max() < 0.5
+
+
 def test_a_shut_lid_s_skin_goes_over_to_what_frames_show_beside_it(surface: TemplateSurface) -> None:
     folds = surface.lid_folds(surface.rest)
     raster = texel_raster(surface.atlas, 2048)
