@@ -10,14 +10,16 @@ from numpy.typing import NDArray
 
 from engine.face_animation.eyes.eyeball import prepare_eyes
 from engine.face_animation.eyes.eyes import lid_closing_share
-from engine.face_animation.eyes.lid_skin import (
+from engine.face_animation.eyes.lid_colours import (
     BELOW_BROW_VERTICES,
-    CREASE_PLACE_SHARE,
-    EDGE_SHADE_SHARE,
-    MAX_GRAIN_GREY_LEVELS,
     MIN_CHEEK_SHARE,
     SOCKET_SHADE_SHARE,
     UPPER_LID_STRIPS,
+)
+from engine.face_animation.eyes.lid_skin import (
+    CREASE_PLACE_SHARE,
+    EDGE_SHADE_SHARE,
+    MAX_GRAIN_GREY_LEVELS,
     draw_lid,
     lid_skins,
 )
