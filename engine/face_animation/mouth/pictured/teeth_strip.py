@@ -149,7 +149,7 @@ def teeth_strip(photo: PicturedFace, wanted: float) -> TeethStrip:
     softness = max(0.5, STRIP_SOFTNESS_EYE_DISTANCES * unit * scale)
     mask = cv2.GaussianBlur(soft_polygon(lips, size[::-1]), (0, 0), softness)
     return TeethStrip(
-        np.dstack([sharp, np.asarray(mask)]).astype(np.float32),
+        np.dstack([without_violet(sharp), np.asarray(mask)]).astype(np.float32),
         front[list(UPPER_INNER_LIP), :2],
         front[list(LOWER_INNER_LIP), :2],
         float(front[list(UPPER_INNER_LIP[4:7]), 2].mean()) + BEHIND_LIPS_EYE_DISTANCES,
@@ -158,6 +158,15 @@ def teeth_strip(photo: PicturedFace, wanted: float) -> TeethStrip:
         low.astype(np.float64),
         scale,
     )
+
+
+def without_violet(colours: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Colours (..., 3) as light as they are, none of them bluer than it is green: teeth, gums and tongues are not, but a lens leaves violet seams between them."""
+    found = np.asarray(colours, np.float32).copy()
+    weights = LUMINANCE_WEIGHTS.astype(np.float32)
+    light = found @ weights
+    found[..., 2] = np.minimum(found[..., 2], found[..., 1])
+    return np.asarray(found * (light / np.maximum(found @ weights, 1e-3))[..., None], np.float32)
 
 
 def _edge(photo: PicturedFace) -> float:

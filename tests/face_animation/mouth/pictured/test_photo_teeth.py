@@ -10,7 +10,7 @@ from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
 from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth, appearing_opening
 from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
-from engine.face_animation.mouth.pictured.teeth_strip import teeth_strip
+from engine.face_animation.mouth.pictured.teeth_strip import teeth_strip, without_violet
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES
@@ -117,3 +117,12 @@ def test_a_white_band_shows_no_crowns() -> None:
     band[(striped == (150, 135, 120)).all(axis=-1)] = (225, 215, 200)
     crowns = [teeth_strip(PicturedFace(rgb, smile), 80.0).crowns() for rgb in (striped, band)]
     assert crowns[1] < 0.04 < 0.1 < crowns[0]
+
+
+def test_no_tooth_is_violet_and_all_are_as_light_as_they_were() -> None:
+    seam, enamel, gum = (190.0, 150.0, 200.0), (225.0, 215.0, 200.0), (170.0, 70.0, 70.0)
+    found = without_violet(np.array([seam, enamel, gum]))
+    weights = np.array([0.299, 0.587, 0.114])
+    np.testing.assert_allclose(found @ weights, np.array([seam, enamel, gum]) @ weights, rtol=1e-4)
+    np.testing.assert_allclose(found[1:], (enamel, gum), rtol=1e-4)
+    assert found[0, 2] <= found[0, 1]
