@@ -19,6 +19,8 @@ USUAL_WHITE_HUE_SHARE, WHITE_HUE_SHARE_RANGE = 0.25, (0.15, 0.45)
 """Of the skin's hue in what is white, where no eye shows it, and between which it is."""
 WHITE_PERCENTILE = 60
 """Of the light beside an iris, from which on it is the white's: lids shade the rest."""
+LIGHTEST_PATCH_PERCENTILE = 97
+"""Of a picture's luminance, from which on it is its lightest patch."""
 IRIS_MARGIN_RADII = 1.2
 """Radii of the iris within which nothing is white."""
 MIN_WHITE_PIXELS = 12
@@ -29,15 +31,51 @@ def white_tint(
 ) -> NDArray[np.float64]:
     """(3,) the colour of what is white, at luminance 1, in a picture (H, W, 3) of a face at `mesh` (478, 2 or 3), with the skin's hue
     between two `shares`."""
-    skin = np.maximum(skin_colour(rgb, mesh), 1.0)
-    hue = np.log(skin / float(skin @ LUMINANCE_WEIGHTS))
     whites = np.concatenate([eye_whites(rgb, mesh, side) for side in range(2)])
-    share = USUAL_WHITE_HUE_SHARE
-    if len(whites) >= MIN_WHITE_PIXELS and float(hue @ hue) > 1e-4:
-        white = np.maximum(whites.mean(axis=0), 1.0)
-        share = float(np.log(white / float(white @ LUMINANCE_WEIGHTS)) @ hue) / float(hue @ hue)
-    tint = np.exp(float(np.clip(share, *shares)) * hue)
+    return _tint(rgb, mesh, hue_share(rgb, mesh, whites), shares)
+
+
+def teeth_tint(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], shares: tuple[float, float]) -> NDArray[np.float64]:
+    """As `white_tint`, for what stands in the light as eyes, in the shade of lids, do not: with no more of the skin's hue than the lightest of the whole picture has,
+    such as a collar or a veil.
+
+    Source: E. Land, J. McCann, Lightness and retinex theory, 1971: the lightest patch is white in the light of its
+    scene.
+    """
+    whites = np.concatenate([eye_whites(rgb, mesh, side) for side in range(2)])
+    light = rgb @ LUMINANCE_WEIGHTS
+    lightest = rgb[light >= np.percentile(light, LIGHTEST_PATCH_PERCENTILE)].astype(np.float64)
+    return _tint(rgb, mesh, min(hue_share(rgb, mesh, one) for one in (whites, lightest)), shares)
+
+
+def hue_share(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], colours: NDArray[np.floating]) -> float:
+    """How much of the hue of the skin of a face at `mesh` (478, 2 or 3) of a picture (H, W, 3) there is in the mean of `colours` (P, 3);
+    `USUAL_WHITE_HUE_SHARE` where they are too few or the skin has none."""
+    hue = _skin_hue(rgb, mesh)
+    if len(colours) < MIN_WHITE_PIXELS or float(hue @ hue) <= 1e-4:
+        return USUAL_WHITE_HUE_SHARE
+    mean = np.maximum(colours.mean(axis=0), 1.0)
+    return float(np.log(mean / float(mean @ LUMINANCE_WEIGHTS)) @ hue) / float(hue @ hue)
+
+
+def _tint(
+    rgb: NDArray[np.uint8], mesh: NDArray[np.floating], share: float, shares: tuple[float, float]
+) -> NDArray[np.float64]:
+    tint = np.exp(float(np.clip(share, *shares)) * _skin_hue(rgb, mesh))
     return np.asarray(tint / float(tint @ LUMINANCE_WEIGHTS), np.float64)
+
+
+def _skin_hue(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(3,) the logarithms of the skin's channels at luminance 1."""
+    skin = np.maximum(skin_colour(rgb, mesh), 1.0)
+    return np.asarray(np.log(skin / float(skin @ LUMINANCE_WEIGHTS)), np.float64)
+
+
+def white_luminance(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:
+    """The luminance of the whites of that eye of a face at `mesh` (478, 2 or 3) of a picture (H, W, 3) whose are lighter; 0 where too little of either is
+    seen."""
+    seen = [whites for side in range(2) if len(whites := eye_whites(rgb, mesh, side)) >= MIN_WHITE_PIXELS]
+    return max((float((whites @ LUMINANCE_WEIGHTS).mean()) for whites in seen), default=0.0)
 
 
 def eye_whites(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float64]:

@@ -7,7 +7,15 @@ import pytest
 from made_face import BROWN, SKIN, WHITE, painted, placed, shut
 from numpy.typing import NDArray
 
-from engine.face_animation.whites import WHITE_HUE_SHARE_RANGE, eye_whites, white_tint
+from engine.face_animation.skin_colour import skin_colour
+from engine.face_animation.whites import (
+    WHITE_HUE_SHARE_RANGE,
+    eye_whites,
+    hue_share,
+    teeth_tint,
+    white_luminance,
+    white_tint,
+)
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
 
 SIZE = (360, 320)
@@ -18,7 +26,7 @@ def mesh() -> NDArray[np.float32]:
     return shut(placed(120, (180, 140)), 1.6)
 
 
-def hue_share(tint: NDArray, skin: NDArray) -> float:
+def share_in(tint: NDArray, skin: NDArray) -> float:
     """How much of the skin's hue is in a tint, if it is of that hue at all."""
     hue = np.log(skin / float(skin @ LUMINANCE_WEIGHTS))
     share = float(np.log(tint) @ hue / (hue @ hue))
@@ -39,7 +47,7 @@ def test_the_tint_is_between_grey_and_the_skin_whatever_the_eyes_show(mesh: NDAr
     rgb = painted(mesh, SIZE)
     white = np.abs(rgb.astype(int) - WHITE).max(axis=2) < 12
     rgb[white] = np.array(WHITE) * cast
-    share = hue_share(white_tint(rgb, mesh), np.array(SKIN, float))
+    share = share_in(white_tint(rgb, mesh), np.array(SKIN, float))
     assert WHITE_HUE_SHARE_RANGE[0] - 0.05 <= share <= WHITE_HUE_SHARE_RANGE[1] + 0.05
 
 
@@ -49,3 +57,31 @@ def test_a_varnish_over_all_tints_whites_more_than_clean_light(mesh: NDArray) ->
     warm = rgb.copy()
     warm[white] = np.array(WHITE) * (1.0, 0.85, 0.65)
     assert white_tint(warm, mesh)[2] < white_tint(rgb, mesh)[2] - 0.03
+
+
+def test_teeth_have_no_more_of_the_skin_s_hue_than_the_lightest_of_the_picture(mesh: NDArray) -> None:
+    """The eyes' whites are as brown as shade makes them; a collar is white, or as yellow as the varnish over it."""
+    rgb = painted(mesh, SIZE)
+    white = np.abs(rgb.astype(int) - WHITE).max(axis=2) < 12
+    rgb[white] = np.array(WHITE) * (1.0, 0.8, 0.6)
+    found = []
+    for collar in ((255, 255, 255), (255, 248, 238), (255, 200, 140)):
+        rgb[-40:] = collar
+        found.append(share_in(teeth_tint(rgb, mesh, (0.05, 0.3)), skin_colour(rgb, mesh)))
+    assert found[0] == pytest.approx(0.05, abs=0.01) and found[0] < found[1] < found[2] == pytest.approx(0.3, abs=0.01)
+
+
+def test_the_skin_has_all_of_its_hue_and_grey_has_none(mesh: NDArray) -> None:
+    rgb = painted(mesh, SIZE)
+    for colour, share in ((SKIN, 1.0), ((200, 200, 200), 0.0)):
+        assert hue_share(rgb, mesh, np.tile(np.array(colour, float), (20, 1))) == pytest.approx(share, abs=0.02)
+
+
+def test_whites_are_as_light_as_the_eye_that_shows_them_better(mesh: NDArray) -> None:
+    rgb = painted(mesh, SIZE)
+    both = white_luminance(rgb, mesh)
+    assert both == pytest.approx(float(np.array(WHITE) @ LUMINANCE_WEIGHTS), rel=0.06)
+    half = rgb.copy()
+    half[:, : SIZE[0] // 2] //= 3
+    assert white_luminance(half, mesh) == pytest.approx(both, rel=0.06)
+    assert white_luminance(rgb, mesh * np.float32((0.02, 0.02, 1))) == 0, "too small to be seen"

@@ -40,9 +40,9 @@ from engine.render.surface import Surface, draw_surface, triangle_spread
 
 LIP_SOFTNESS_EYE_DISTANCES, MIN_LIP_SOFTNESS_PIXELS = 0.012, 0.8
 """Eye distances, and pixels, over which the inside passes into the lips: their edges are round, and the mesh's have corners."""
-AMBIENT_LIGHT_SHARE, TEETH_AMBIENT_LIGHT_SHARE = 0.75, 0.52
+AMBIENT_LIGHT_SHARE, TEETH_AMBIENT_LIGHT_SHARE = 0.75, 0.66
 """Of the light on a surface, that it has wherever it faces; and on teeth, whose crowns are told apart by it."""
-TEETH_FALLOFF_EYE_DISTANCES = 0.45
+TEETH_FALLOFF_EYE_DISTANCES = 0.8
 """Eye distances behind the upper teeth at which a third of the light is left on teeth: cheeks are beside them. Ramps of the other parts have theirs."""
 LIT_GAP_EYE_DISTANCES, MIN_INSIDE_LIGHT_SHARE = (0.05, 0.55), 0.3
 """Eye distances between the lips up to which hardly any light falls on the tongue and what is around it, and from which on all; and what is left of it. Teeth are
@@ -71,7 +71,7 @@ ROUNDED_NARROWING_SHARE, ROUNDED_CROWN_EYE_DISTANCES = 0.05, 0.6
 the upper row that they cover for all of it. Lips that say O are pushed forward over the teeth, though their edges are
 as high as in a smile."""
 APPEARING_OPENING_RANGE = 0.03
-"""By how much a mouth opens while its inside appears."""
+"""By how much a mouth opens while its inside appears, slowly at first: a tracker has closed lips up to 0.024 apart for a frame."""
 CAMERA_DISTANCE_PIXELS = 4096.0
 """Pixels from the eye: so far off that nearer parts are no larger."""
 AFFINE_FRAME = np.concatenate([np.zeros((1, 3)), np.eye(3)])
@@ -90,7 +90,7 @@ class ModelledMouth:
     def __init__(
         self, at: RestingMouth, colours: MouthColours, upper: bool, appearing: float = 0.0, softness: float = 0.0
     ):
-        self._at, self._appearing, self._softness = at, appearing, softness
+        self._at, self._appearing, self._softness, self._albedo = at, appearing, softness, colours.albedo
         rows = [(modelled_teeth(at, True), colours.upper)] if upper else []
         jaw = [(modelled_teeth(at, False), colours.lower), (tongue(at), colours.tongue)]
         parts = [*rows, *jaw]
@@ -127,7 +127,7 @@ class ModelledMouth:
         draw_surface(inside, False, self._surface, points.astype(np.float32), Scratch(), SAMPLES_PER_PIXEL, shade)
         if self._softness > 0:
             inside = np.asarray(cv2.GaussianBlur(inside, (0, 0), self._softness * unit))
-        lit = inside * mouth_light(face, corner, shape)[..., None]
+        lit = inside * mouth_light(face, corner, shape, self._albedo)
         sigma = max(MIN_LIP_SOFTNESS_PIXELS, max(LIP_SOFTNESS_EYE_DISTANCES, self._softness) * unit)
         mask = cv2.GaussianBlur(soft_polygon(inner - corner, shape), (0, 0), sigma)[..., None]
         part = frame[y0:y1, x0:x1]
@@ -216,7 +216,7 @@ def shown_share(face: NDArray[np.floating], appearing: float) -> float:
     """How much of the inside of a mouth is seen of a face (478, 2), from an opening of `appearing` on; all of it always where that is zero."""
     if appearing == 0:
         return 1.0
-    return float(np.clip((float(mouth_opening(face)) - appearing) / APPEARING_OPENING_RANGE, 0, 1))
+    return float(smoothstep(float(mouth_opening(face)), appearing, appearing + APPEARING_OPENING_RANGE))
 
 
 def _on_atlas(uv: NDArray[np.float32], number: int, count: int) -> NDArray[np.float32]:

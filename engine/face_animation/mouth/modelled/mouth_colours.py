@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.skin_colour import face_luminance, is_grey, skin_colour
 from engine.face_animation.smoothstep import smoothstep
-from engine.face_animation.whites import white_tint
+from engine.face_animation.whites import teeth_tint, white_luminance, white_tint
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 
@@ -32,13 +32,20 @@ MAX_TEETH_LEVEL = 250.0
 """The lightest a tooth becomes in any channel: cut off one by one, they would leave no hue of a warm light."""
 CROWN_SHADE_RANGE = 0.1
 """By how much single crowns are lighter or darker than the row."""
-MIN_TEETH_TO_SKIN_RATIO, MIN_TEETH_TO_FACE_RATIO, MAX_TEETH_TO_SKIN_RATIO = 1.3, 1.18, 1.8
+MIN_TEETH_TO_SKIN_RATIO, MIN_TEETH_TO_FACE_RATIO, MAX_TEETH_TO_SKIN_RATIO = 1.3, 1.22, 1.8
 """Of the luminance of the skin around the mouth, and of a light place of the face, that the lightest of the upper teeth has at least; the second no further than
 so many times the first. In sixteen photographs of people who smile it has 1.07 to 1.47 times that of a light place (median 1.2); a mouth may lie in the shade of its face."""
+FACE_HIGHLIGHT_PERCENTILE, MAX_TEETH_TO_HIGHLIGHT_RATIO = 97, 1.05
+"""Of the luminance within the face's oval, that of its highlights; and of theirs, or of the eyes' whites where these are lighter, that teeth have at most: they have
+1.0, 1.0 and 1.07 times the highlights' in three portraits that show them."""
+ALBEDO_LUMINANCE, MAX_CHANNEL_ALBEDO = 0.55, 0.8
+"""Of what throws light back in a mouth, of the hue of the person's skin: flesh and teeth; and of any channel of it."""
+MIN_WHITES_TO_FACE_RATIO = 1.05
+"""Of the luminance of a light place of the face, that eyes' whites have at least which are seen, and not lashes, shadow and skin."""
 LIGHT_PLACE_PERCENTILE = 75
 """Of the luminance within the face's oval, that of a light place."""
-TEETH_TINT_SHARES = (0.1, 0.33)
-"""Of the skin's hue in teeth, least and most: 0.09, 0.16, 0.18 and 0.42 in four portraits that show them."""
+TEETH_TINT_SHARES = (0.08, 0.3)
+"""Of the skin's hue in teeth beside that of enamel, least and most: whole colours have 0.09, 0.14, 0.16, 0.2 and 0.45 of it in portraits that show them."""
 LOWER_TEETH_LIGHT_SHARE = 0.75
 """Of the upper teeth's light, that lower ones have."""
 BAG_LIGHT_SHARES = (0.75, 1.4)
@@ -50,17 +57,19 @@ COLOUR_RAMP_PIXELS = (64, 16)
 
 
 class MouthColours(NamedTuple):
-    """A ramp of colours (16, 64, 3) uint8 for each part of a mouth.
+    """A ramp of colours (16, 64, 3) uint8 for each part of a mouth, and what lights its shadows.
 
     upper, lower : teeth from the gum to their edges.
     tongue : from its tip to its root.
     bag : from the lips to the throat, its roof first.
+    albedo : (3,) float64 in [0, 1], `mouth_albedo`.
     """
 
     upper: NDArray[np.uint8]
     lower: NDArray[np.uint8]
     tongue: NDArray[np.uint8]
     bag: NDArray[np.uint8]
+    albedo: NDArray[np.float64]
 
 
 def mouth_colours(
@@ -82,15 +91,11 @@ def mouth_colours(
         )
     }
     edge = (
-        light * ENAMEL_COLOUR * white_tint(rgb, mesh, TEETH_TINT_SHARES)
+        light * ENAMEL_COLOUR * teeth_tint(rgb, mesh, TEETH_TINT_SHARES)
         if teeth is None
         else _of_a_tooth(teeth, rgb, mesh)
     )
-    least = max(
-        MIN_TEETH_TO_SKIN_RATIO * luminance,
-        min(MIN_TEETH_TO_FACE_RATIO * _light_place(rgb, mesh), MAX_TEETH_TO_SKIN_RATIO * luminance),
-    )
-    edge = edge * max(least / max(float(edge @ LUMINANCE_WEIGHTS), 1.0), 1.0)
+    edge = edge * _teeth_luminance(edge, rgb, mesh) / max(float(edge @ LUMINANCE_WEIGHTS), 1.0)
     edge = edge * min(1.0, MAX_TEETH_LEVEL / float(edge.max()))
     root = edge * (DENTINE_COLOUR / ENAMEL_COLOUR)
     along, aside = np.linspace(0, 1, COLOUR_RAMP_PIXELS[0]), np.linspace(0, 1, COLOUR_RAMP_PIXELS[1])
@@ -111,13 +116,30 @@ def mouth_colours(
     ramps = [upper, LOWER_TEETH_LIGHT_SHARE * upper, furrow[:, None, None] * flat, bag]
     if is_grey(rgb, mesh):
         ramps = [np.repeat((ramp @ LUMINANCE_WEIGHTS)[..., None], 3, axis=-1) for ramp in ramps]
-    return MouthColours(*(np.clip(np.rint(ramp), 0, 255).astype(np.uint8) for ramp in ramps))
+    painted = (np.clip(np.rint(ramp), 0, 255).astype(np.uint8) for ramp in ramps)
+    return MouthColours(*painted, albedo=mouth_albedo(rgb, mesh))
 
 
-def _light_place(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:
-    """The luminance of a light place of a face at `mesh` (478, 2 or 3) of a picture (H, W, 3)."""
-    light = face_luminance(rgb, mesh)
-    return float(np.percentile(light, LIGHT_PLACE_PERCENTILE)) if len(light) else 0.0
+def mouth_albedo(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(3,) in [0, 1] the albedo of what throws light back in the mouth of a face at `mesh` (478, 2 or 3) of a picture (H, W, 3): of the skin's hue,
+    so that shadows are warm; grey in a picture that is."""
+    skin = np.maximum(skin_colour(rgb, mesh), 1.0)
+    hue = np.ones(3) if is_grey(rgb, mesh) else skin / float(skin @ LUMINANCE_WEIGHTS)
+    return np.asarray(np.minimum(ALBEDO_LUMINANCE * hue, MAX_CHANNEL_ALBEDO), np.float64)
+
+
+def _teeth_luminance(edge: NDArray[np.float64], rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:
+    """That of the lightest upper teeth, whose colour before is `edge` (3,): as light as a face asks for and as its eyes' whites are. Where these are seen, being
+    lighter than a light place of the face, teeth are no lighter than they and its highlights."""
+    skin, light = max(float(skin_colour(rgb, mesh) @ LUMINANCE_WEIGHTS), 1.0), face_luminance(rgb, mesh)
+    place, highlight = (
+        np.percentile(light, (LIGHT_PLACE_PERCENTILE, FACE_HIGHLIGHT_PERCENTILE)) if len(light) else (0.0, 255.0)
+    )
+    least = max(MIN_TEETH_TO_SKIN_RATIO * skin, min(MIN_TEETH_TO_FACE_RATIO * place, MAX_TEETH_TO_SKIN_RATIO * skin))
+    whites = white_luminance(rgb, mesh)
+    wanted = max(float(edge @ LUMINANCE_WEIGHTS), least, whites)
+    most = float(max(MAX_TEETH_TO_HIGHLIGHT_RATIO * highlight, whites))
+    return min(wanted, most) if whites > MIN_WHITES_TO_FACE_RATIO * place else wanted
 
 
 def _of_a_tooth(teeth: NDArray[np.floating], rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -17,6 +17,7 @@ from engine.face_animation.mouth.modelled.modelled_mouth import (
     MIN_LIP_SOFTNESS_PIXELS,
     shown_share,
 )
+from engine.face_animation.mouth.modelled.mouth_colours import mouth_albedo
 from engine.face_animation.mouth.modelled.mouth_light import mouth_light
 from engine.face_animation.mouth.modelled.resting_mouth import (
     MIN_FULL_OPENING,
@@ -31,7 +32,7 @@ from engine.face_animation.skin_colour import face_luminance, is_grey, skin_colo
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.perception.landmarks import INNER_MOUTH_CORNER_VERTICES, eye_distance, mouth_opening
 
-APPEARING_OPENING = 0.03
+APPEARING_OPENING = 0.015
 """Of the mouth, from which on the inside appears."""
 OWN_INSIDE_OPENING_RATIO = 1.15
 """Of a picture's own opening, up to which its own inside is shown."""
@@ -72,7 +73,7 @@ class PhotoTeeth:
         self._strip = teeth_strip(photo, float(eye_distance(mesh[:, :2])))
         self._wider, self._longer = self._size(faces[np.asarray(mouth_opening(faces)) > MIN_FULL_OPENING])
         self._gain = teeth_gain(rgb, mesh, photo, self._strip)
-        self._grey = is_grey(rgb, mesh)
+        self._grey, self._albedo = is_grey(rgb, mesh), mouth_albedo(rgb, mesh)
 
     def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], driver_frame: int) -> None:
         """As `MouthInterior.draw`."""
@@ -97,7 +98,7 @@ class PhotoTeeth:
         """(h, w, 4) the teeth's colours in the target's light, and their shares, in a part of `shape` (h, w) of the picture of a `face`
         (478, 2) whose first pixel is at `corner` (2,)."""
         layer = self.upper_teeth(self.places(face, corner, shape))
-        layer[..., :3] = self.lit(layer[..., :3]) * mouth_light(face, corner, shape)[..., None]
+        layer[..., :3] = self.lit(layer[..., :3]) * mouth_light(face, corner, shape, self._albedo)
         return layer
 
     def lit(self, colours: NDArray[np.float32]) -> NDArray[np.float32]:

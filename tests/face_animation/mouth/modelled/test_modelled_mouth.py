@@ -5,6 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
+from made_face import WHITE, painted, placed
 from scipy.spatial.transform import Rotation
 
 from engine.face_animation.mouth.modelled.jaw import CHIN_VERTICES, held_between, jaw_of
@@ -15,7 +16,11 @@ from engine.face_animation.mouth.modelled.modelled_mouth import (
     inside_light,
     jaw_behind_lips,
 )
-from engine.face_animation.mouth.modelled.mouth_colours import mouth_colours
+from engine.face_animation.mouth.modelled.mouth_colours import (
+    FACE_HIGHLIGHT_PERCENTILE,
+    MAX_TEETH_TO_HIGHLIGHT_RATIO,
+    mouth_colours,
+)
 from engine.face_animation.mouth.modelled.mouth_light import mouth_light
 from engine.face_animation.mouth.modelled.mouth_parts import (
     OVERBITE_EYE_DISTANCES,
@@ -25,6 +30,7 @@ from engine.face_animation.mouth.modelled.mouth_parts import (
     tongue,
 )
 from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
+from engine.face_animation.skin_colour import face_luminance
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
@@ -120,10 +126,12 @@ def test_both_rows_meet_behind_closed_lips() -> None:
 def test_a_person_in_black_and_white_has_a_mouth_in_black_and_white() -> None:
     face = seen(front(0.0))
     grey, red = (mouth_colours(picture(skin), face) for skin in ((150, 150, 150), (200, 150, 130)))
-    assert all((np.ptp(ramp.astype(int), axis=-1) == 0).all() for ramp in grey)
-    assert all((ramp[..., 0] >= ramp[..., 2]).all() and np.ptp(ramp.astype(int), axis=-1).max() > 20 for ramp in red)
+    assert all((np.ptp(ramp.astype(int), axis=-1) == 0).all() for ramp in grey[:4]) and np.ptp(grey.albedo) == 0
+    assert all(
+        (ramp[..., 0] >= ramp[..., 2]).all() and np.ptp(ramp.astype(int), axis=-1).max() > 20 for ramp in red[:4]
+    )
     dark = mouth_colours(picture((75, 52, 45)), face)
-    assert all(one.mean() < 0.7 * other.mean() for one, other in zip(dark, red, strict=True)), (
+    assert all(one.mean() < 0.7 * other.mean() for one, other in zip(dark[:4], red[:4], strict=True)), (
         "in the light of the skin"
     )
 
@@ -137,15 +145,41 @@ def test_the_lightest_tooth_keeps_its_hue_in_a_bright_picture() -> None:
     np.testing.assert_allclose(bright / bright.max(), usual / usual.max(), atol=0.06)
 
 
-def test_light_falls_towards_the_corners_and_the_upper_lip() -> None:
-    face = seen(front(0.3))
+def light_in(face: np.ndarray, albedo: tuple[float, float, float] = (0.5, 0.5, 0.5)) -> np.ndarray:
+    """(h, w, 3) `mouth_light` in the box of a face's inner lips."""
     low, high = np.floor(face[list(LIPS_INNER)].min(axis=0)).astype(int), face[list(LIPS_INNER)].max(axis=0)
-    light = mouth_light(face, low.astype(np.float32), tuple(int(one) for one in np.ceil(high - low)[::-1]))
+    shape = tuple(int(one) for one in np.ceil(high - low)[::-1])
+    return mouth_light(face, low.astype(np.float32), shape, np.array(albedo))
+
+
+def test_light_falls_towards_the_corners_and_the_lips() -> None:
+    light = light_in(seen(front(0.3)))[..., 0]
     row, middle = light[light.shape[0] // 2], light.shape[1] // 2
     assert (
         (np.diff(row[:middle]) >= -1e-6).all() and (np.diff(row[middle:]) <= 1e-6).all() and row[0] < 0.7 * row[middle]
     )
-    assert (np.diff(light[3:, middle]) >= -1e-6).all() and light.max() <= 1
+    column = light[:, middle]
+    assert column[light.shape[0] // 2] == light.max() == pytest.approx(1)
+    assert (np.diff(column[2 : len(column) // 2]) >= -1e-6).all() and (
+        np.diff(column[len(column) // 2 : -2]) <= 1e-6
+    ).all()
+
+
+def test_the_less_lips_part_the_less_light_falls_between_them() -> None:
+    light = [float(light_in(seen(front(angle))).max()) for angle in (0.01, 0.02, 0.05, 0.3)]
+    assert light[0] < light[1] < light[2] <= light[3] == pytest.approx(1)
+
+
+def test_flesh_that_throws_nothing_back_leaves_what_is_seen_and_a_redder_one_warms_shadows_alone() -> None:
+    """Eq. 10 by hand: at an albedo of 0.6 half the sight has (0.892 / 4 - 2.235 / 2 + 2.343) / 2 = 0.724 of the light."""
+    face = seen(front(0.3))
+    black, grey, warm = (light_in(face, albedo) for albedo in ((0.0,) * 3, (0.6,) * 3, (0.6, 0.4, 0.3)))
+    half = np.argmin(np.abs(black[..., 0] - 0.5))
+    assert grey[..., 0].ravel()[half] == pytest.approx(0.724, abs=0.02)
+    assert (
+        (grey >= black - 1e-6).all() and (warm[..., 0] >= warm[..., 1]).all() and (warm[..., 1] >= warm[..., 2]).all()
+    )
+    assert (np.ptp(warm, axis=-1)[black[..., 0] > 0.999] < 0.03).all()
 
 
 @pytest.mark.parametrize("angle", [0.5 * BARING_JAW_RADIANS[0], 0.3 * BARING_JAW_RADIANS[1]])
@@ -233,6 +267,20 @@ def test_teeth_of_a_mouth_in_the_shade_are_as_light_as_the_face_asks_for() -> No
     ring, light = np.array([140, 110, 96]) @ weights, np.array([200, 158, 137]) @ weights
     upper = mouth_colours(rgb, face).upper.astype(float)[8, -1] @ weights
     assert 1.15 * light < upper < 1.8 * ring
+
+
+def test_teeth_are_no_lighter_than_the_whites_of_eyes_that_are_seen() -> None:
+    """The same pale face, once with white eyes and once with dim ones: of these, teeth are no lighter."""
+    mesh, weights = placed(90, (160, 120)), np.array([0.299, 0.587, 0.114])
+    rgb = painted(mesh, (320, 340))
+    white = np.abs(rgb.astype(int) - WHITE).max(axis=2) < 12
+    dim = np.array(WHITE) * 0.8
+    light = []
+    for eyes in (np.array(WHITE), dim):
+        rgb[white] = eyes
+        light.append(mouth_colours(rgb, mesh).upper.astype(float)[8, -1] @ weights)
+    highlights = np.percentile(face_luminance(rgb, mesh), FACE_HIGHLIGHT_PERCENTILE)
+    assert light[1] <= light[0] and light[1] <= max(dim @ weights, MAX_TEETH_TO_HIGHLIGHT_RATIO * highlights) + 1
 
 
 def test_crowns_are_told_apart_by_their_shade(mouth: ModelledMouth) -> None:
