@@ -31,7 +31,8 @@ from engine.face_animation.rig import Rig
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.face_before_head import FaceBeforeHead
 from engine.face_animation.warping.layers import Layers, beyond_border
-from engine.face_animation.warping.unfold import unfold
+from engine.face_animation.warping.lip_edges import gives_way_around_lips
+from engine.face_animation.warping.unfold import MIN_AREA_SHARE, MIN_LIP_AREA_SHARE, unfold
 from engine.imaging.composite import composite_over, upsample_twice, warp_layer
 from engine.imaging.warping.fold_edges import smooth_folds
 from engine.imaging.window import Window
@@ -119,7 +120,10 @@ class FaceAnimation:
         self._held = np.zeros(len(target.rig.mesh.vertices), bool)
         inside = np.flatnonzero(target.rig.control.usable[:MESH_SIZE])
         depth = -rim_distance(face.mesh, face.mesh[inside, :2]) / float(eye_distance(face.mesh[:, :2]))
-        self._held[: len(inside)] = depth > FREE_RIM_EYE_DISTANCES
+        gives = gives_way_around_lips(face.mesh)[inside]
+        self._held[: len(inside)] = (depth > FREE_RIM_EYE_DISTANCES) & ~gives
+        around_lips = np.isin(target.rig.mesh.triangles, np.flatnonzero(gives)).any(axis=1)
+        self._kept = np.where(around_lips, MIN_LIP_AREA_SHARE, MIN_AREA_SHARE)
         self._landing = target.rig.details.origin(track.in_crop(neutral))
         moves = set(options.follow) - {"head"}
         self._creases = min(options.strength, 1.0) if parts.details and moves else 0.0
@@ -153,7 +157,7 @@ class FaceAnimation:
         """(V, 3) by how much a motion moves the vertices of the picture's mesh, pixels, and their depth."""
         mesh = self._rig.mesh
         moved = mesh.offsets(np.column_stack([motion.offsets, motion.depth]))
-        unfold(moved, mesh.vertices, mesh.triangles, self._held)
+        unfold(moved, mesh.vertices, mesh.triangles, self._held, self._kept)
         return moved
 
     def draw(

@@ -16,11 +16,14 @@ from engine.perception.landmarks import (
     LIPS_INNER,
     LIPS_OUTER,
     RIGHT_EYE,
+    eye_distance,
 )
 
 MIN_LIP_GAP_PIXELS = 0.5
 """Pixels between the inner edges of lips that are closed, in the mesh: it has two edges there."""
 PARTING_CONTOURS = (LIPS_OUTER, LIPS_INNER, RIGHT_EYE, LEFT_EYE)
+GIVING_WAY_EYE_DISTANCES = 0.4
+"""Eye distances from the lips' border up to which the face gives way where it would fold."""
 
 
 def parted_lips(face: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -46,3 +49,13 @@ def parting_edges(usable: NDArray[np.integer]) -> NDArray[np.int32]:
         if a in place and b in place
     ]
     return np.array(pairs, np.int32).reshape(-1, 2)
+
+
+def gives_way_around_lips(face: NDArray[np.floating]) -> NDArray[np.bool_]:
+    """(V,) which of the first vertices of a face (V, 2 or 3), V at least 468, lie around the lips' border, within them or on it, and not on their inner edges. Where a mouth is carried over to
+    a face of another shape, or its far corner is turned away, skin and lip would be folded over one another there, in steps as wide as a triangle."""
+    border = face[list(LIPS_OUTER), :2]
+    away = np.linalg.norm(face[:, None, :2] - border, axis=2).min(axis=1)
+    gives = away < GIVING_WAY_EYE_DISTANCES * float(eye_distance(face[:, :2]))
+    gives[list(LIPS_INNER)] = False
+    return np.asarray(gives, np.bool_)

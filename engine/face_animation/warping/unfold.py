@@ -16,18 +16,18 @@ import numpy as np
 
 from engine.compiled import njit
 
-MIN_AREA_SHARE = 0.2
-"""Share of its area that a triangle keeps."""
+MIN_AREA_SHARE, MIN_LIP_AREA_SHARE = 0.2, 0.08
+"""Share of its area that a triangle keeps, and in and around lips: these press one another thin, and what more they kept would be steps in their border."""
 AREA_TOLERANCE_SHARE = 0.05
-"""Share of its area by which a triangle may fall short of `MIN_AREA_SHARE`."""
+"""Share of its area by which a triangle may fall short of that."""
 MAX_UNFOLDING_ROUNDS = 40
 """After so many rounds what is left folded stays so: where the face itself leaves no room."""
 
 
 @njit(fastmath=True, nogil=True)
-def unfold(offsets, rest, triangles, held):  # type: ignore[no-untyped-def]
-    """Change offsets (V, 2 or more) of vertices `rest` (V, 2), in place, until no triangle (T, 3) with a free one keeps less than
-    `MIN_AREA_SHARE` of its area; those that are `held` (V,) stay. Returns the rounds that it took."""
+def unfold(offsets, rest, triangles, held, least):  # type: ignore[no-untyped-def]
+    """Change offsets (V, 2 or more) of vertices `rest` (V, 2), in place, until no triangle (T, 3) with a free one keeps less than a share of its
+    area, the `least` (T,); those that are `held` (V,) stay. Returns the rounds that it took."""
     place, gradient = np.zeros((3, 2)), np.zeros((3, 2))
     for turn in range(MAX_UNFOLDING_ROUNDS):
         clean = True
@@ -60,7 +60,7 @@ def unfold(offsets, rest, triangles, held):  # type: ignore[no-untyped-def]
                     if held[p] and held[q]:
                         before = (rest[p, 0] - rest[q, 0]) ** 2 + (rest[p, 1] - rest[q, 1]) ** 2
                         kept = size * min(1.0, np.sqrt(square / max(before, 1e-6)))
-            lack = MIN_AREA_SHARE * kept - sign * area
+            lack = least[t] * kept - sign * area
             if lack <= AREA_TOLERANCE_SHARE * kept:
                 continue
             clean = False

@@ -31,7 +31,7 @@ def test_what_does_not_fold_stays(sheet: NDArray) -> None:
     triangles = delaunay(sheet)
     bent = np.column_stack([0.2 * sheet[:, 1], 0.3 * sheet[:, 0] - 5, sheet[:, 0]]).astype(np.float32)
     before = bent.copy()
-    assert unfold(bent, sheet, triangles, held(sheet)) == 0
+    assert unfold(bent, sheet, triangles, held(sheet), np.full(len(triangles), MIN_AREA_SHARE)) == 0
     np.testing.assert_array_equal(bent, before)
 
 
@@ -42,7 +42,7 @@ def test_where_fixed_vertices_are_pushed_over_others_those_give_way(sheet: NDArr
     offsets[:10, 0] = push
     before = offsets.copy()
     kept = areas(sheet + before[:, :2], triangles) / areas(sheet, triangles)
-    unfold(offsets, sheet, triangles, held(sheet))
+    unfold(offsets, sheet, triangles, held(sheet), np.full(len(triangles), MIN_AREA_SHARE))
     after = areas(sheet + offsets[:, :2], triangles) / areas(sheet, triangles)
     free = triangles.max(axis=1) >= 10
     assert kept[free].min() < 0 or push < 13
@@ -57,7 +57,7 @@ def test_a_little_more_of_a_push_is_a_little_more_of_a_way(sheet: NDArray) -> No
     for push in np.linspace(0, 17, 69):
         offsets = np.zeros((len(sheet), 2), np.float32)
         offsets[:10, 0] = push
-        unfold(offsets, sheet, triangles, held(sheet))
+        unfold(offsets, sheet, triangles, held(sheet), np.full(len(triangles), MIN_AREA_SHARE))
         made.append(offsets)
     assert np.abs(np.diff(made, axis=0)).max() < 1.5
 
@@ -68,7 +68,7 @@ def test_beside_an_edge_that_closes_nothing_is_thrown_out(width: float) -> None:
     rest = np.array([[0, 0], [10, 0], [5, 8]], np.float32)
     offsets = np.array([[5 - width / 2, 0], [-5 + width / 2, 0], [0, -9]], np.float32)
     fixed = np.array([True, True, False])
-    unfold(offsets, rest, np.array([[0, 1, 2]], np.int32), fixed)
+    unfold(offsets, rest, np.array([[0, 1, 2]], np.int32), fixed, np.array([MIN_AREA_SHARE]))
     back = rest[2] + offsets[2]
     assert np.linalg.norm(back - [5, -1]) < 10
     assert back[1] == pytest.approx(MIN_AREA_SHARE * 8, abs=0.5)
@@ -77,5 +77,5 @@ def test_beside_an_edge_that_closes_nothing_is_thrown_out(width: float) -> None:
 def test_what_has_shrunk_to_a_point_opens_by_its_own_size_and_no_more() -> None:
     rest = np.array([[0, 0], [10, 0], [5, 8]], np.float32)
     offsets = (np.array([[5, 3], [5.001, 3], [5, 3.001]], np.float32) - rest).astype(np.float32)
-    unfold(offsets, rest, np.array([[0, 1, 2]], np.int32), np.array([True, False, False]))
+    unfold(offsets, rest, np.array([[0, 1, 2]], np.int32), np.array([True, False, False]), np.array([MIN_AREA_SHARE]))
     assert np.linalg.norm(rest + offsets - [5, 3], axis=1).max() < 20
