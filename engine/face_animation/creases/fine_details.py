@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.face_animation.creases.outliers import Outliers, find_outliers
-from engine.face_animation.creases.shading_colour import shading_slopes
 from engine.face_animation.creases.skin_in_both import SkinInBoth
 from engine.face_animation.motion_transfer.head_motion import turn_angles
+from engine.face_animation.shading_colour import shading_slopes
 from engine.geometry.registration.rigid import fit_similarity
 from engine.imaging.masks.colour_segmentation import grab_cut
 from engine.imaging.warping.delaunay import delaunay

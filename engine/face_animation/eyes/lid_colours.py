@@ -14,7 +14,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.creases.shading_colour import shading_slopes
+from engine.face_animation.shading_colour import shading_slopes
 from engine.face_animation.smoothstep import smoothstep
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_EYE, eye_distance
@@ -64,7 +64,8 @@ class LidColours:
 def lid_colours(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> list[LidColours]:
     """Those of both lids, right one first, of a picture (H, W, 3) with its face at `mesh` (478, 2 or 3)."""
     cheeks = [_cheek(rgb, mesh, side) for side in range(2)]
-    above, below = [], []
+    above: list[NDArray[np.float32]] = []
+    below: list[NDArray[np.float32]] = []
     for side, cheek in enumerate(cheeks):
         rows = mesh[np.array([UPPER_LID_STRIPS[side][0], BELOW_BROW_VERTICES[side]]), :2]
         width = max(2, round(float(np.linalg.norm(np.diff(rows[0], axis=0), axis=1).sum())))

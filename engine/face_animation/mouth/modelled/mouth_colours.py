@@ -116,8 +116,8 @@ def mouth_colours(
     ramps = [upper, LOWER_TEETH_LIGHT_SHARE * upper, furrow[:, None, None] * flat, bag]
     if is_grey(rgb, mesh):
         ramps = [np.repeat((ramp @ LUMINANCE_WEIGHTS)[..., None], 3, axis=-1) for ramp in ramps]
-    painted = (np.clip(np.rint(ramp), 0, 255).astype(np.uint8) for ramp in ramps)
-    return MouthColours(*painted, albedo=mouth_albedo(rgb, mesh))
+    row, lower, lying, behind = (np.clip(np.rint(ramp), 0, 255).astype(np.uint8) for ramp in ramps)
+    return MouthColours(row, lower, lying, behind, mouth_albedo(rgb, mesh))
 
 
 def mouth_albedo(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from engine.face_animation.creases.shading_colour import CHANNEL_SLOPE_RANGE, FLOOR_GREY_LEVELS, shading_slopes
+from engine.face_animation.shading_colour import CHANNEL_SLOPE_RANGE, FLOOR_GREY_LEVELS, shading_slopes
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
 
 SKIN = np.array([220.0, 170.0, 140.0])
