@@ -73,5 +73,4 @@ def closing_root(clip: Clip) -> NDArray[np.float64]:
     """
     root = np.asarray(clip.root, np.float64)
     travels = np.abs(root[-1] - root[0]) > 3 * np.abs(np.diff(root, axis=0)).max(0)
-    travels[1] = False
     return np.where(travels, root[-1] + loop_step(clip), root[0])
