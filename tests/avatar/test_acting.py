@@ -51,6 +51,12 @@ def test_all_of_a_motion_is_in_the_wide_picture_and_the_face_in_the_near_one(mes
     assert near.project(crown[None])[0, 2] < 0.6 * wide.project(crown[None])[0, 2]
 
 
+def test_a_face_is_held_where_a_clip_begins_wherever_it_goes(mesh: SkinnedMesh) -> None:
+    near = bust_camera(mesh, walk(mesh.skeleton, frames=30, travels=True), SIZE)
+    begin = bust_camera(mesh, walk(mesh.skeleton, frames=30, travels=False), SIZE)
+    np.testing.assert_allclose(near.eye, begin.eye, atol=1e-5)
+
+
 def test_a_face_that_acts_changes_the_picture_where_it_acts(mesh: SkinnedMesh) -> None:
     top = mesh.vertices[:, 1].max()
     lifted = np.where(mesh.vertices[:, 1:2] > top - 0.05, np.float32([0, 0.05, 0]), np.float32(0))

@@ -41,6 +41,17 @@ def test_tracks_of_the_pillar_are_told_from_those_of_the_room(filmed: FilmedRoom
     assert pillar[chosen].mean() > 0.95
 
 
+def test_tracks_that_were_found_nowhere_are_the_persons_where_masks_say_so(filmed: FilmedRoom) -> None:
+    masks = [pillar_mask(camera) for camera in filmed.cameras]
+    found = filmed.scene.reconstruction
+    lost = np.flatnonzero(person_tracks(filmed.scene, masks) & found.solved)[::5]
+    points = found.bundle.points.copy()
+    points[lost] = np.nan
+    scene = replace(filmed.scene, reconstruction=replace(found, bundle=replace(found.bundle, points=points)))
+    assert len(lost) > 5 and person_tracks(scene, masks)[lost].all()
+    assert not person_tracks(scene, None)[lost].any()
+
+
 def test_who_sways_stands_still_in_locked_cameras() -> None:
     """Relative to somebody who sways by 6 mm, cameras are where they were less the sway: locked ones say so, the room's do
     not. From exact features with 0.3 pixels of noise."""

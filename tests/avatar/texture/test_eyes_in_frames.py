@@ -53,6 +53,24 @@ def test_an_eye_is_darker_beneath_its_upper_lid_and_hardly_where_the_lid_hides_i
     assert shade.max() <= 1
 
 
+def test_no_light_comes_from_below() -> None:
+    """A tray below an eye takes no light from its front."""
+    ball, faces = sphere(0.012)
+    turn = np.linspace(0, 2 * np.pi, 48, endpoint=False)
+    rim = np.stack([0.05 * np.cos(turn), np.full(48, -0.014), 0.05 * np.sin(turn)], 1)
+    tray = np.stack([np.full(48, 48), np.arange(48), (np.arange(48) + 1) % 48], 1)
+    shades = []
+    for vertices, triangles in (
+        (ball, faces),
+        (np.concatenate([ball, rim, [[0, -0.014, 0]]]), np.concatenate([faces, tray + len(ball)])),
+    ):
+        atlas, _ = unwrap(vertices, triangles.astype(np.int32), 128)
+        surface = ChartedSurface(vertices, triangles.astype(np.int32), atlas, np.ones(len(triangles), np.bool_))
+        shades.append(lid_shadow(surface, ball, np.array([0.0, 0.0, 1.0])))
+    front = (np.abs(ball[:, 1]) < 0.004) & (ball[:, 2] > 0.008)
+    np.testing.assert_allclose(*(shade[front] for shade in shades), atol=0.005)
+
+
 def test_lashes_darken_what_is_right_beneath_the_upper_lid_alone() -> None:
     ball, _ = sphere(0.012)
     turn = np.linspace(0, 2 * np.pi, 28, endpoint=False)
