@@ -16,6 +16,8 @@ from engine.character.hybrid.hybrid import Hybrid
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, LEG_LABELS, TRUNK_LABEL
 from engine.character.texture.trunk_back import with_trunk_back
+from engine.imaging.filling.nearest import nearest_colours
+from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
 
 LEVEL_BELOW_HIP_METRES, OWN_BELOW_HIP_METRES = 0.06, 0.18
 """Metres below the hip joints at rest down to which backs of legs are level with the trunk, and from which on they are the leg's own."""
@@ -23,6 +25,8 @@ MIN_HANGING_COSINE, HANGING_COSINE = 0.7, 0.87
 """Cosine between a thigh and the way down the trunk from which on it hangs somewhat, and wholly: of a lifted one nothing is level."""
 ROWS_AROUND_PIXELS = 10
 """Rows of the grid above and below of which is known, too, what is behind them."""
+BODY_OUTLINE_MARGIN_PIXELS, BESIDE_OTHERS_PIXELS = 2.5, 4.0
+"""Pixels of the grid within the outline, and around arms and what is held, in which the body's colours are mixed with others."""
 SURE_JOINT_WEIGHT = 0.9
 """Weight of a joint from which on a vertex moves with it alone."""
 
@@ -55,8 +59,8 @@ def _hangs(hybrid: Hybrid, thigh: str, height: NDArray[np.float64]) -> float:
 def hips_behind(
     rgb: NDArray[np.uint8], labels: Labels, silhouette: Silhouette, places: NDArray[np.floating]
 ) -> NDArray[np.uint8]:
-    """The picture (H, W, 3) with what is behind trunk and thighs in their place, about some `places` (N, 2) of the grid: at each height what
-    their sides show."""
+    """The picture (H, W, 3) with what is behind trunk and thighs, about some `places` (N, 2) of the grid: at each height what their sides show.
+    What lies beside them, as the wall or a hand, has the colours of the nearest of them: the template is as wide as it is."""
     if not len(places):
         return rgb
     rows = np.arange(labels.labels.shape[0])
@@ -72,5 +76,15 @@ def hips_behind(
     others = np.isin(labels.labels, ARM_LABELS)
     if labels.held is not None:
         others |= labels.held >= 0
-    shown = pictured(body) & own
-    return with_trunk_back(rgb, shown, shown, pictured(others), pictured(labels.labels == HEAD_LABEL), scale)
+    shown, before = pictured(body) & own, pictured(others)
+    clean = shown & within_the_outline(silhouette) & ~dilate_mask(before, round(BESIDE_OTHERS_PIXELS * scale))
+    if not clean.any():
+        return rgb
+    rgb = nearest_colours(rgb, clean)
+    return with_trunk_back(rgb, shown, clean, before, pictured(labels.labels == HEAD_LABEL), scale)
+
+
+def within_the_outline(silhouette: Silhouette) -> NDArray[np.bool_]:
+    """The pixels (H, W) of the picture that show the person and nothing of what is behind."""
+    margin = BODY_OUTLINE_MARGIN_PIXELS / silhouette.to_grid[0, 0]
+    return np.asarray(distance_inside(silhouette.alpha > OPAQUE_ALPHA) > margin)

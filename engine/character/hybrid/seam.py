@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.figure.figure import Figure
-from engine.character.figure.silhouette import OPAQUE_ALPHA, Silhouette
-from engine.character.hybrid.hips import at_hips, hips_behind
+from engine.character.figure.silhouette import Silhouette
+from engine.character.hybrid.hips import at_hips, hips_behind, within_the_outline
 from engine.character.hybrid.hybrid import Hybrid
 from engine.character.hybrid.trunk import LIMB_LABELS
 from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, TRUNK_LABEL
@@ -21,7 +21,7 @@ from engine.character.shell.colours.paint import texels
 from engine.character.texture.texture import Tiles
 from engine.geometry.mesh.surface import vertex_normals
 from engine.imaging.filling.nearest import nearest_colours
-from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
+from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.render.rasteriser import rasterise
 
 TRUNK_WEIGHT_THRESHOLD = 0.5
@@ -33,8 +33,6 @@ FULLY_CONTINUED_PIXELS, CONTINUED_PIXELS = 2.0, 6.0
 neither's border is exact."""
 LIMB_MARGIN_PIXELS, SURE_ARM_OVER_LEG_MARGIN_PIXELS = 2, 4
 """Pixels of the grid from another limb, and of a leg from an arm, whose shadow lies on it, within which nothing is surely a limb's."""
-LIMB_COLOUR_MARGIN_PIXELS = 2.5
-"""Pixels of the grid within the outline in which the colours of a limb's edge are not its own."""
 VISIBILITY_TOLERANCE_PIXELS = 3.0
 """Pixels of the grid by which a point may be behind what is nearest at its place and yet be seen."""
 MAX_SIDE_COSINE = 0.3
@@ -86,7 +84,7 @@ def with_the_trunks_colours(
     at_joint *= (
         at[:, 5] * nearest
     )  # whatever is seen there, the limb's or the trunk's, is on the surface in which both meet
-    person = nearest_colours(figure.rgb, _within_the_outline(silhouette))
+    person = nearest_colours(figure.rgb, within_the_outline(silhouette))
     before = np.clip(0.5 + at[:, 3] / (2 * MAX_SIDE_COSINE), 0, 1)
     of_hips = at[:, 6] * (1 - before)
     behind_hips = hips_behind(figure.rgb, hybrid.labels, silhouette, at[of_hips > 0, :2])
@@ -119,14 +117,8 @@ def _shown(limb: int, hybrid: Hybrid, rgb: NDArray[np.uint8], silhouette: Silhou
     size = (rgb.shape[1], rgb.shape[0])
     flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
     there = cv2.warpAffine(sure.astype(np.float32), silhouette.to_grid, size, flags=flags) > 0.5
-    own = there & _within_the_outline(silhouette)
+    own = there & within_the_outline(silhouette)
     return _Shown(nearest_colours(rgb, own), certain.astype(np.float32)) if own.any() else None
-
-
-def _within_the_outline(silhouette: Silhouette) -> NDArray[np.bool_]:
-    """The pixels (H, W) of the picture that show the person and nothing of what is behind."""
-    margin = LIMB_COLOUR_MARGIN_PIXELS / silhouette.to_grid[0, 0]
-    return np.asarray(distance_inside(silhouette.alpha > OPAQUE_ALPHA) > margin)
 
 
 def _sampled(tile: NDArray[np.uint8] | NDArray[np.float32], places: NDArray[np.floating]) -> NDArray[np.float32]:

@@ -15,16 +15,17 @@ from engine.character.hybrid.hips import at_hips, hips_behind
 from engine.character.hybrid.hybrid import Hybrid, make_hybrid
 from engine.character.hybrid.seam import with_the_trunks_colours
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import LEG_LABELS, TRUNK_LABEL
+from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, TRUNK_LABEL
 from engine.character.shell.colours.paint import SHELL_TEXTURE_SIZE_TEXELS, texels
 from engine.character.shell.template_mesh import template_mesh
 from engine.character.texture.texture import Tiles
 from engine.geometry.mesh.surface import vertex_normals
+from engine.imaging.masks.mask_distance import dilate_mask
 from engine.render.attributes import interpolate
 from tests.character.hybrid.test_hybrid import figure_and_outline
 
 Seen = tuple[Figure, FittedBody, Silhouette, Labels]
-SHIRT, TROUSERS = (40, 160, 60), (40, 50, 150)
+SHIRT, TROUSERS, SKIN = (40, 160, 60), (40, 50, 150), (220, 170, 140)
 
 
 @pytest.fixture(scope="module")
@@ -85,6 +86,24 @@ def test_backs_of_hips_have_the_hem_where_it_is_in_front(seen: Seen, hybrid: Hyb
     for area, colour in ((behind & (y < hem - 3), SHIRT), (behind & (y > hem + 3), TROUSERS)):
         off = np.abs(texture[area] - level[area][:, None] * colour).max(1)
         assert area.sum() > 1000 and np.median(off) < 5
+
+
+def test_neither_the_wall_nor_an_arm_beside_them_is_on_hips(seen: Seen) -> None:
+    """The template may be wider than who is pictured."""
+    _, _, silhouette, labels = seen
+    shown = _in_picture(labels, silhouette)
+    height, width = silhouette.alpha.shape
+    rgb = np.full((height, width, 3), 255, np.uint8)
+    rgb[silhouette.alpha > 0.5] = TROUSERS
+    rgb[(silhouette.alpha > 0.5) & np.isin(shown, ARM_LABELS)] = SKIN
+    body = np.isin(shown, (TRUNK_LABEL, *LEG_LABELS)) & (silhouette.alpha > 0.99)
+    rows = np.flatnonzero(np.isin(labels.labels, LEG_LABELS).any(1))[0] + np.array([-20.0, 20.0])
+    behind = hips_behind(rgb, labels, silhouette, np.stack([[210.0, 210.0], rows], 1))
+    first, last = ((rows - silhouette.to_grid[1, 2]) / silhouette.to_grid[1, 1]).astype(int)
+    about = dilate_mask(body, 8)
+    about[:first] = about[last:] = False
+    assert about.sum() > body[first:last].sum()
+    assert np.abs(behind[about].astype(int) - TROUSERS).max() < 12
 
 
 def _in_picture(labels: Labels, silhouette: Silhouette) -> np.ndarray:
