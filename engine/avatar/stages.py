@@ -17,6 +17,7 @@ from engine.avatar.capture.carved_masks import within_hull
 from engine.avatar.capture.chosen_frames import ChosenFrames
 from engine.avatar.capture.dense import DenseCloud, dense_cloud
 from engine.avatar.capture.foot_masks import FootFrame, feet_of, told_from_floor
+from engine.avatar.capture.leg_gaps import without_gaps
 from engine.avatar.capture.limb_masks import limbs_of, shown_limbs, with_limbs
 from engine.avatar.capture.person_frame import TAKEN_HEIGHT_METRES
 from engine.avatar.landmarks.back_projection import back_projected, completed
@@ -155,8 +156,8 @@ def lens_of_frames(lens: KnownLens, size: tuple[int, int], shrunk: tuple[int, in
 @kept_networks()
 def find_landmarks(chosen: ChosenFrames, found: ClipCameras, whole: bool, warn: Warn, tick: Tick) -> ClipLandmarks:
     """The landmarks that the frames of a clip show (section 3.3), and masks in which, by these, no hand or foot is
-    missing. Of a clip of the `whole` person, masks also lose what of the room they let in below the shoulders. Warns of
-    what the face wears that is not fitted."""
+    missing. Of a clip of the `whole` person, masks also lose what of the floor they let in between legs, and of the room
+    below the shoulders. Warns of what the face wears that is not fitted."""
     placed = placed_frames(found)
     cameras = [_camera_of(found, int(k), chosen.size) for k in placed]
     seen = []
@@ -172,6 +173,8 @@ def find_landmarks(chosen: ChosenFrames, found: ClipCameras, whole: bool, warn: 
     limbs = shown_limbs(limbs_of(landmarks), believed, [frame.person for frame in frames])
     with_hands = [replace(one, mask=with_limbs(one.image, one.mask, one.person, limbs)) for one in frames]
     masks = told_from_floor(with_hands, feet_of(landmarks))
+    if whole:
+        masks = without_gaps([replace(one, mask=mask) for one, mask in zip(frames, masks, strict=True)], landmarks)
     shoulders = [landmarks.body[name][1] for name in ("LeftShoulder", "RightShoulder") if name in landmarks.body]
     if whole and shoulders:
         masks = within_hull(masks, [frame.person for frame in frames], float(np.mean(shoulders)))

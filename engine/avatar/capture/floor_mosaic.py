@@ -61,11 +61,12 @@ class FloorView:
 class FloorMosaic:
     """The floor at `height` metres.
 
-    corner : (2,) x and z of its first point, metres. Points are `MOSAIC_SPACING_METRES` * (column, row) from there.
+    corner : (2,) x and z of its first point, metres. Points are `spacing` * (column, row) from there.
     colours : (M, N, 3) float32 of the points, NaN where it is not known.
     gains : (F, 3) by which frames differ from it.
     sigma : (3,) levels by which they do beside.
     mixture : of all its colours.
+    spacing : metres between its points.
     """
 
     height: float
@@ -74,22 +75,39 @@ class FloorMosaic:
     gains: NDArray[np.float32]
     sigma: NDArray[np.float64]
     mixture: ColourMixture
+    spacing: float = MOSAIC_SPACING_METRES
 
     def cost(self, image: NDArray[np.uint8], gain: NDArray[np.floating], camera: Camera) -> NDArray[np.float64]:
         """(h, w) how unlikely each pixel of a picture (h, w, 3) is the floor's: a negative log-likelihood per level cubed. Where
         the mosaic has a place, its colour and those beside it are expected, elsewhere any of the floor."""
         colours = image / gain
         of_any = np.exp(-self.mixture.negative_log_likelihood(colours.reshape(-1, 3)).reshape(image.shape[:2]))
+        known, off, spread = self._off(colours, camera)
+        here = np.exp(-0.5 * (off**2).sum(-1)) / (spread + np.sqrt(2 * np.pi) * self.sigma).prod(-1)
+        density = of_any.copy()
+        density[known] = (1 - STRANGE_SHARE) * here + STRANGE_SHARE * of_any[known]
+        return cost_among_strange(density)
+
+    def deviations(self, image: NDArray[np.uint8], gain: NDArray[np.floating], camera: Camera) -> NDArray[np.float64]:
+        """(h, w) sigmas by which each pixel of a picture (h, w, 3) differs from the floor at its place and beside, in the channel in which
+        it differs most; NaN where the floor is not known."""
+        known, off, _ = self._off(image / gain, camera)
+        out = np.full(known.shape, np.nan)
+        out[known] = off.max(-1)
+        return out
+
+    def _off(
+        self, colours: NDArray[np.floating], camera: Camera
+    ) -> tuple[NDArray[np.bool_], NDArray[np.float64], NDArray[np.float32]]:
+        """Where the floor is known that a camera sees, (h, w); of these K pixels, (K, 3) sigmas by which their `colours` (h, w, 3) lie
+        beyond those of the place and beside it, and (K, 3) levels between the latter."""
         expected = self.seen_by(camera)
         known = np.isfinite(expected[..., 0])
         kernel = np.ones((3, 3), np.uint8)
         least = cv2.erode(np.where(known[..., None], expected, np.inf), kernel)[known]
         most = cv2.dilate(np.where(known[..., None], expected, -np.inf), kernel)[known]
         off = np.maximum(np.maximum(least - colours[known], colours[known] - most), 0) / self.sigma
-        here = np.exp(-0.5 * (off**2).sum(-1)) / (most - least + np.sqrt(2 * np.pi) * self.sigma).prod(-1)
-        density = of_any.copy()
-        density[known] = (1 - STRANGE_SHARE) * here + STRANGE_SHARE * of_any[known]
-        return cost_among_strange(density)
+        return known, off, most - least
 
     def seen_by(self, camera: Camera) -> NDArray[np.float32]:
         """(h, w, 3) the floor as a camera would see it with nobody there, NaN where that is not known."""
@@ -99,25 +117,28 @@ class FloorMosaic:
         with np.errstate(divide="ignore", invalid="ignore"):
             reach = (self.height - eye[1]) / rays[:, 1]
         reach[~(reach > 0)] = np.nan
-        at = ((eye + reach[:, None] * rays)[:, [0, 2]] - self.corner) / MOSAIC_SPACING_METRES
+        at = ((eye + reach[:, None] * rays)[:, [0, 2]] - self.corner) / self.spacing
         columns, rows = at.T.reshape(2, *camera.size).astype(np.float32)
         nothing = (np.nan,) * 3
         return np.asarray(cv2.remap(self.colours, columns, rows, cv2.INTER_LINEAR, None, cv2.BORDER_CONSTANT, nothing))
 
 
 def floor_mosaic(
-    views: Sequence[FloorView], around: NDArray[np.floating], height: float | None = None
+    views: Sequence[FloorView],
+    around: NDArray[np.floating],
+    height: float | None = None,
+    spacing: float = MOSAIC_SPACING_METRES,
 ) -> FloorMosaic | None:
-    """The mosaic around places (N, 3) near the floor; at `height`, or where about zero frames agree most. None where they show
-    hardly any of it."""
+    """The mosaic around places (N, 3) near the floor, its points `spacing` metres apart; at `height`, or where about zero frames agree most.
+    None where they show hardly any of it."""
     corner = around[:, [0, 2]].min(0) - MOSAIC_MARGIN_METRES
-    size = np.ceil((around[:, [0, 2]].max(0) + MOSAIC_MARGIN_METRES - corner) / MOSAIC_SPACING_METRES).astype(int) + 1
+    size = np.ceil((around[:, [0, 2]].max(0) + MOSAIC_MARGIN_METRES - corner) / spacing).astype(int) + 1
     columns, rows = np.meshgrid(np.arange(size[0]), np.arange(size[1]))
     places = np.stack(
         [
-            corner[0] + MOSAIC_SPACING_METRES * columns,
+            corner[0] + spacing * columns,
             np.zeros(columns.shape),
-            corner[1] + MOSAIC_SPACING_METRES * rows,
+            corner[1] + spacing * rows,
         ],
         -1,
     )
@@ -135,7 +156,7 @@ def floor_mosaic(
     share, sigmas = NORMAL_QUANTILE
     sigma = np.maximum(np.nanquantile(off.reshape(-1, 3), share, axis=0) / sigmas, MIN_SIGMA)
     on_grid = colours.reshape(*columns.shape, 3)
-    return FloorMosaic(float(height), corner, on_grid, gains, sigma, ColourMixture.fit(colours[known]))
+    return FloorMosaic(float(height), corner, on_grid, gains, sigma, ColourMixture.fit(colours[known]), spacing)
 
 
 def _height(views: Sequence[FloorView], places: NDArray[np.float64]) -> float:
