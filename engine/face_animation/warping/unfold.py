@@ -16,7 +16,7 @@ import numpy as np
 
 from engine.compiled import njit
 
-MIN_AREA_SHARE, MIN_LIP_AREA_SHARE = 0.2, 0.08
+MIN_AREA_SHARE, MIN_LIP_AREA_SHARE = 0.2, 0.03
 """Share of its area that a triangle keeps, and in and around lips: these press one another thin, and what more they kept would be steps in their border."""
 AREA_TOLERANCE_SHARE = 0.05
 """Share of its area by which a triangle may fall short of that."""
