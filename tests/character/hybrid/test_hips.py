@@ -86,6 +86,10 @@ def test_backs_of_hips_have_the_hem_where_it_is_in_front(seen: Seen, hybrid: Hyb
     for area, colour in ((behind & (y < hem - 3), SHIRT), (behind & (y > hem + 3), TROUSERS)):
         off = np.abs(texture[area] - level[area][:, None] * colour).max(1)
         assert area.sum() > 1000 and np.median(off) < 5
+    strange = replace(hybrid, strange=np.ones_like(hybrid.strange))  # nothing in the picture is surely a leg's
+    texture = with_the_trunks_colours(black, strange, tiles, replace(figure, rgb=rgb), silhouette)
+    before = (raster.triangle >= 0) & (turned > 0.4) & (level > 0.3) & (share > 0.999)
+    assert before.sum() > 1000 and not texture[before].any(), "fronts are not what is behind"
 
 
 def test_neither_the_wall_nor_an_arm_beside_them_is_on_hips(seen: Seen) -> None:
