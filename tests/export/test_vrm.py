@@ -170,3 +170,11 @@ def test_a_vrm_of_several_levels_of_detail_is_refused(mesh: SkinnedMesh, tmp_pat
     with pytest.raises(ValueError, match="levels of detail"):
         write_vrm(tmp_path / "a.vrm", CharacterModel(mesh, levels=[mesh]), VrmMeta("Person", ("A. Author",)))
     assert list(tmp_path.iterdir()) == []
+
+
+def test_where_there_are_two_joints_above_the_hips_the_upper_is_the_chest(mesh: SkinnedMesh) -> None:
+    """VRM has no upper chest without a chest below it."""
+    names = [name for name in mesh.skeleton.names if name != "Spine1"]
+    found = human_bones(names)
+    assert found["chest"]["node"] == names.index("Spine2") and "upperChest" not in found
+    assert human_bones(mesh.skeleton.names)["upperChest"]["node"] == mesh.skeleton.names.index("Spine2")

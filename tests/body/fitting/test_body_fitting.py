@@ -64,6 +64,24 @@ def test_exact_landmarks_give_the_joints_within_two_centimetres() -> None:
     assert np.median(off) < 0.02
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_the_first_guess_has_limbs_point_where_they_are_seen_to(seed: int) -> None:
+    """Upper ones in the trunk's axes, lower ones in those of the upper."""
+    joints, points = forward(SPACE, MARKS, somebody(seed))
+    pixels = (points[:, :2] * [FOCAL, -FOCAL] / -points[:, 2:] + CENTRE).astype(np.float32)
+    place = dict(zip(SPACE.names, joints, strict=True))
+
+    def limbs_of(at: dict[str, np.ndarray]) -> np.ndarray:
+        limbs = np.stack([at[b] - at[a] for a, b in DIRECTED_LIMBS])
+        return np.asarray(limbs / np.linalg.norm(limbs, axis=1, keepdims=True))
+
+    sure = np.ones(len(DIRECTED_LIMBS), np.float32)
+    seen = Observation(pixels, np.ones(len(pixels), np.float32), limbs_of(place).astype(np.float32), sure, CAMERA)
+    guessed, _ = forward(SPACE, MARKS, first_guess(SPACE, MARKS, seen, place))
+    cosines = (limbs_of(dict(zip(SPACE.names, guessed, strict=True))) * limbs_of(place)).sum(1)
+    assert np.degrees(np.arccos(cosines.min())) < 5
+
+
 def test_who_strides_towards_the_viewer_is_not_fitted_flat() -> None:
     """The feet's distance in depth, of somebody who walks at an ordinary pace and is seen as they are."""
     truth = np.zeros(len(somebody(0)))
