@@ -47,9 +47,15 @@ def test_an_expression_is_counted_as_what_it_is(expression: str, mesh: np.ndarra
 
 
 def test_sides_are_counted() -> None:
-    angles = [(0, 0), (5, 5), (-20, 0), (20, -20), (0, 15)]
+    angles = [*[(0, 0)] * 3, (5, 5), (-20, 0), (20, -20), (20, 0), (-3, 15), (3, 15), (0, 30)]
     found = shown_sides([Face(at_rest(), *one) for one in angles])  # type: ignore[arg-type]
-    assert list(found.values()) == [2, 1, 1, 1, 1]
+    assert list(found.items()) == [
+        ("from before", 4),
+        ("turned to the picture's left", 1),
+        ("turned to the picture's right", 2),
+        ("raised", 1),
+        ("lowered", 3),
+    ]
 
 
 def test_few_are_told_in_words() -> None:

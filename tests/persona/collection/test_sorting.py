@@ -113,6 +113,21 @@ def test_of_the_same_picture_the_largest_is_kept() -> None:
     assert [k for k, reason in enumerate(reasons) if reason == "duplicate"] == [2, 17]
 
 
+def test_what_is_only_like_a_duplicate_stays() -> None:
+    """The second is as the first, and the third as the second; the first and the third are two pictures."""
+    known = person(2, 16)
+    faces = [face(k, d) for k, d in enumerate(known)]
+    one, other = np.random.default_rng(9).normal(size=(2, 112, 112))
+    for place, degrees in enumerate((0, 8, 16)):
+        turned = np.cos(np.radians(degrees)) * one + np.sin(np.radians(degrees)) * other
+        chip = np.clip(128 + 25 * turned, 0, 255).astype(np.uint8)
+        faces.append(replace(faces[2], photo=16 + place, eye_distance=90.0 - place, chip=chip))
+    reasons = reasons_against(faces, belonging(faces, DISTANCES), Choice())
+    assert [reason == "duplicate" for reason in reasons[16:]] == [False, True, False]
+    chosen = reasons_against(faces, belonging(faces, DISTANCES), Choice(keep={17}))
+    assert "duplicate" not in chosen, "somebody wants both"
+
+
 def test_of_other_years_is_what_does_not_say_that_it_is_not() -> None:
     taken = (1984, 1990, 1991, None)
     faces = [replace(face(k, d), year=year) for (k, d), year in zip(enumerate(person(1, 4)), taken, strict=True)]

@@ -32,6 +32,16 @@ def test_a_large_photograph_fills_the_size_and_holds_the_head() -> None:
     assert (low > -1).all() and (high < np.array(target.size) + 1).all()
 
 
+def test_a_face_beside_the_edge_is_framed_by_what_the_photograph_shows_and_keeps_its_depth() -> None:
+    one = photo((600, 500), (70, 420), 30)
+    target = framed(one, (150, 200))
+    scale = target.place[0, 0]
+    low = -target.place[:, 2] / scale
+    assert (low > -1).all() and (low + np.array(target.size) / scale < (601, 501)).all()
+    assert scale != pytest.approx(1, abs=0.1)
+    np.testing.assert_allclose(np.ptp(target.mesh[:, 2]), scale * np.ptp(one.mesh[:, 2]), rtol=1e-3)
+
+
 @pytest.mark.parametrize(("size", "middle"), [((112, 112), (56, 60)), ((250, 250), (125, 128)), ((700, 160), (90, 80))])
 def test_a_small_photograph_is_fitted_and_keeps_its_shape(size: tuple[int, int], middle: tuple[int, int]) -> None:
     target = framed(photo(size, middle, 34), (300, 400))
