@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 import pytest
@@ -47,6 +49,11 @@ def test_who_sways_stays_and_who_walks_away_is_refused() -> None:
     assert share_astray(scene, masks) == 0
     masks[5] = np.zeros_like(masks[5])  # a frame in which nobody was found is forgiven
     refuse_walking(scene, masks)
+    away = bundle.rotations.copy()
+    away[:4] = np.diag([-1.0, 1.0, -1.0]) @ away[:4]  # these look the other way, where somebody is in the middle, too
+    shifts = -np.einsum("cij,cj->ci", away, bundle.eyes)
+    turned = scene_of(replace(bundle, rotations=away, translations=shifts))
+    assert share_astray(turned, silhouettes(bundle, swaying)) == pytest.approx(4 / FRAMES)
     walking = swaying + np.clip(np.arange(FRAMES) / FRAMES - 0.45, 0, 0.15)[:, None] / 0.15 * [1.2, 0]
     with pytest.raises(InputError) as refused:
         refuse_walking(scene, silhouettes(bundle, walking))

@@ -35,6 +35,17 @@ def test_feet_are_bare_where_they_have_the_face_s_colours(
     assert seen_barefoot(models.feet, coarse, joined([face, feet]), person.landmarks.face) is bare
 
 
+def test_the_floor_that_bare_feet_stand_on_is_none_of_them(models: HumanModels, person: KnownPerson) -> None:
+    skin = person.vertices[models.skin.vertices]
+    face, feet = (of_colour(sampled(models, skin, 5000, 0.003, part=part), SKIN) for part in ("head", "feet"))
+    own = skin[models.feet.masks[0] | models.feet.masks[1]]
+    places = np.random.default_rng(4).uniform(own.min(0) - 0.015, own.max(0) + 0.015, (40_000, 3))
+    places[:, 1] = own[:, 1].min() + 0.004
+    up = np.tile(np.array([0, 1, 0], np.float32), (len(places), 1))
+    floor = of_colour(PointCloud(places.astype(np.float32), up, np.zeros(places.shape, np.uint8)), WHITE)
+    assert seen_barefoot(models.feet, skin, joined([face, feet, floor]), person.landmarks.face)
+
+
 def test_who_is_not_seen_wears_shoes(models: HumanModels, person: KnownPerson) -> None:
     skin = person.vertices[models.skin.vertices]
     face, feet = (of_colour(sampled(models, skin, 5000, 0.003, part=part), SKIN) for part in ("head", "feet"))

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+import trimesh
 from known_person import KnownPerson
 
-from engine.avatar.registration.face.inner_mouth import inner_skin
+from engine.avatar.registration.face.inner_mouth import brought_inside, inner_skin
 from engine.avatar.registration.models import HumanModels
 from engine.geometry.mesh.winding_number import winding_numbers
 
@@ -32,3 +33,12 @@ def test_nothing_of_the_inside_is_outside_of_a_face_that_has_fallen_in(
     found = inner_skin(skin, before, after)
     deep = skin.regions["inner"] & (np.linalg.norm(before - nose, axis=1) < 0.04)
     assert winding_numbers(found[deep], found, skin.triangles[skin.visible]).min() > 0.5
+
+
+def test_what_is_less_deep_than_it_has_to_be_is_brought_so_deep_and_no_deeper() -> None:
+    """In a ball of a decimetre: a point outside, one a tenth of a millimetre within, and one in the middle between."""
+    ball = trimesh.creation.icosphere(5, 0.1)
+    vertices, faces = np.asarray(ball.vertices, np.float64), np.asarray(ball.faces, np.int32)
+    points = np.array([[0.11, 0, 0], [0.0999, 0, 0], [0.05, 0, 0]])
+    found = brought_inside(points, vertices, faces, np.full(3, 0.002))
+    np.testing.assert_allclose(found, [[0.098, 0, 0], [0.098, 0, 0], [0.05, 0, 0]], atol=2e-4)
