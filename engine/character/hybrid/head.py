@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -49,6 +50,10 @@ NECK_OVERLAP_METRES = 0.1
 """Metres at rest around the neck's joint in which the shell of the head goes on in the trunk."""
 TRUNK_BEHIND_HEAD_PIXELS = 5
 """Pixels by which the trunk goes on behind the head: what lies between two borders of pixels would gape."""
+COLLAR_SMOOTHING_PIXELS = 3.0
+"""Pixels over which the line is smoothed along which a trunk's back goes into the neck."""
+NECK_EDGE_PIXELS = 4
+"""Pixels within the outline of the neck in which the trunk does not go on: it would stand beside it."""
 HEAD_LABEL_TOLERANCE_PIXELS = 2
 """Pixels around the head's label in which a head may be what is seen: the border is not exact."""
 
@@ -162,6 +167,7 @@ def without_head(labels: Labels) -> Labels:
     found = labels.labels.copy()
     head = found == HEAD_LABEL
     under = head & dilate_mask(found == TRUNK_LABEL, TRUNK_BEHIND_HEAD_PIXELS)
+    under &= ~dilate_mask(found < 0, NECK_EDGE_PIXELS)
     found[head] = -1
     found[under] = TRUNK_LABEL
     loose = (found == TRUNK_LABEL) & ~largest_piece(found == TRUNK_LABEL) & dilate_mask(head, TRUNK_BEHIND_HEAD_PIXELS)
@@ -197,15 +203,21 @@ def joined_at_the_neck(
 def _beneath(
     triangles: NDArray[np.int32], places: NDArray[np.float64], trunk: ClosedMesh, head: NDArray[np.bool_]
 ) -> ClosedMesh:
-    """The trunk with what of it the picture shows as `head` (h, w) within the head's `triangles`, before and behind."""
+    """The trunk with what of it the picture shows as `head` (h, w) within the head's `triangles`, before and behind.
+
+    Behind, where no picture says where cloth ends, it goes into the neck along a smooth line.
+    """
     shape = (head.shape[0], head.shape[1])
     front = -rasterise(places * [1, 1, -1], triangles, shape).depth - INSET_PIXELS
     back = rasterise(places, triangles, shape).depth + INSET_PIXELS
     row, column = _pixels(trunk.vertices, shape)
     front, back = front[row, column], back[row, column]
-    under = (trunk.layer == 0) & head[row, column] & np.isfinite(front) & np.isfinite(back) & (back < front)
+    smooth = cv2.GaussianBlur(head.astype(np.float32), (0, 0), COLLAR_SMOOTHING_PIXELS)
+    share = np.where(trunk.front, head[row, column], np.clip(2 * smooth[row, column], 0, 1))
+    under = (trunk.layer == 0) & (share > 0) & np.isfinite(front) & np.isfinite(back) & (back < front)
     vertices = trunk.vertices.copy()
-    vertices[under, 2] = np.clip(vertices[under, 2], back[under], front[under])
+    within = np.clip(vertices[under, 2], back[under], front[under])
+    vertices[under, 2] += share[under] * (within - vertices[under, 2])
     return replace(trunk, vertices=vertices)
 
 

@@ -96,6 +96,7 @@ def test_labels_without_a_head_have_its_neck_beneath(found: Found) -> None:
     grown = (headless == TRUNK) & (labels == HEAD)
     assert 20 < grown.sum() < 0.3 * (labels == HEAD).sum()
     assert (headless[labels > TRUNK] == labels[labels > TRUNK]).all()
+    assert not (grown & dilate_mask(labels < 0, 3)).any(), "it would stand beside the neck"
 
 
 @pytest.fixture(scope="module")
