@@ -27,10 +27,10 @@ from engine.avatar.landmarks.in_frames import FrameLandmarks, frame_landmarks
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.landmarks.worn_on_face import worn_on_face
 from engine.avatar.options import KnownLens
-from engine.avatar.registration.feet.foot_outlines import Silhouette
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.head_outline import HEAD_BESIDE_FRAMES, MAX_HEAD_BESIDE_SHARE, beside_share
 from engine.avatar.registration.models import HumanModels, load_models
+from engine.avatar.registration.part_outlines import Silhouette
 from engine.avatar.registration.register import Scan, register
 from engine.avatar.texture.avatar_texture import AvatarTexture, avatar_texture
 from engine.avatar.texture.template_surface import template_surface
@@ -232,31 +232,36 @@ def in_metres(height_m: float | None) -> Similarity:
 
 def fit_template(body: ClipScan, head: ClipScan | None, check: Callable[[], None]) -> FittedTemplate:
     """The template fitted to the clouds: section 3.4. What is found to stand off it is no part of the body, which is fitted once more
-    without: under a hat is a head. It is noticed where the head lies beside what frames have of the person. Raises what
-    `register` raises."""
+    without: under a hat is a head. A head that lies beside what frames have of the person is held by no face, and fitted to their
+    outlines; it is noticed where it lies beside them still. Raises what `register` raises."""
     check()
     human = load_models()
-    fitted = _fitted_without_worn(human, body, head, check)
-    visible = human.skin.regions["head"] & ~human.skin.regions["inner"]
-    own = fitted.vertices[human.skin.vertices[visible]]
-    if beside_share(own, body.silhouettes) <= MAX_HEAD_BESIDE_SHARE:
-        return fitted
+    for faced in (True, False):
+        fitted = _fitted_without_worn(human, body, head, faced, check)
+        if not _head_beside_frames(human, fitted, body):
+            return fitted
     return replace(fitted, notices=(*fitted.notices, HEAD_BESIDE_FRAMES))
 
 
+def _head_beside_frames(human: HumanModels, fitted: FittedTemplate, body: ClipScan) -> bool:
+    visible = human.skin.regions["head"] & ~human.skin.regions["inner"]
+    own = fitted.vertices[human.skin.vertices[visible]]
+    return beside_share(own, body.silhouettes) > MAX_HEAD_BESIDE_SHARE
+
+
 def _fitted_without_worn(
-    human: HumanModels, body: ClipScan, head: ClipScan | None, check: Callable[[], None]
+    human: HumanModels, body: ClipScan, head: ClipScan | None, faced: bool, check: Callable[[], None]
 ) -> FittedTemplate:
-    """The template fitted to the clouds, and once more without what stands off it."""
-    fitted = register(human, body.scan(), None if head is None else head.scan(), check)
+    """The template fitted to the clouds, its head by its face or, not `faced`, by outlines, and once more without what stands off it."""
+    fitted = register(human, body.scan(), None if head is None else head.scan(), check, faced)
     off = standing_points(human, fitted.vertices, _sighting(fitted, body, head))
     if not len(off):
         return fitted
     check()
     bare = body.without(off)
     if head is None or fitted.head_to_body is None:
-        return register(human, bare.scan(), None if head is None else head.scan(), check)
-    return register(human, bare.scan(), head.without(fitted.head_to_body.inverse()(off)).scan(), check)
+        return register(human, bare.scan(), None if head is None else head.scan(), check, faced)
+    return register(human, bare.scan(), head.without(fitted.head_to_body.inverse()(off)).scan(), check, faced)
 
 
 def find_attachments(

@@ -18,6 +18,7 @@ from engine.avatar.attachments.standing_off import points_standing_off, standing
 from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.options import MAX_ATTACHED_TRIANGLES
+from engine.avatar.registration.head_in_outlines import HEAD_JOINT_NAMES
 from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.template_skin.skin import grown
 from engine.avatar.worn import Attachments, no_attachments
@@ -41,7 +42,6 @@ FREE_BEHIND_JAWS_METRES = 0.03
 behind them."""
 OWN_RINGS = 8
 """Rings of vertices around hands and feet, which have models of their own, on which nothing is worn: ankles, and wrists as all of the arms."""
-HEAD_JOINTS = ("Head", "Jaw", "LeftEye", "RightEye")
 
 
 def body_surface(human: HumanModels, vertices: NDArray[np.float64]) -> BodySurface:
@@ -122,7 +122,7 @@ def _joint_weights(human: HumanModels) -> NDArray[np.float32]:
 
 def _head(human: HumanModels) -> NDArray[np.bool_]:
     """(J,) the joints of the head; that of all of it comes first of them."""
-    return np.isin(human.rig.names, HEAD_JOINTS)
+    return np.isin(human.rig.names, HEAD_JOINT_NAMES)
 
 
 def _joined(meshes: Sequence[Mesh]) -> Mesh:

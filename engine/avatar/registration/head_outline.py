@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.registration.feet.foot_outlines import Silhouette
+from engine.avatar.registration.part_outlines import Silhouette
 from engine.errors import Notice
 
 MAX_HEAD_BESIDE_SHARE = 0.02

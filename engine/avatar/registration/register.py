@@ -14,15 +14,16 @@ from engine.avatar.registration.eyes.fitted_eyes import with_eyes, with_sockets
 from engine.avatar.registration.face.expressions import transferred_units
 from engine.avatar.registration.face.face_parts import head_change, place_parts
 from engine.avatar.registration.face.inner_mouth import inner_skin
-from engine.avatar.registration.feet.foot_outlines import Silhouette
 from engine.avatar.registration.feet.standing_feet import with_feet
 from engine.avatar.registration.fine import fit_body, fit_head
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.footwear import seen_barefoot
 from engine.avatar.registration.hand_pose import CoarseBody, with_hands
 from engine.avatar.registration.head_cloud import head_to_body, one_cloud
+from engine.avatar.registration.head_in_outlines import with_head_in_outlines
 from engine.avatar.registration.head_shape import head_shape
 from engine.avatar.registration.models import HumanModels
+from engine.avatar.registration.part_outlines import Silhouette
 from engine.avatar.registration.rigging import Pose, on_the_ground, rest_joints, unposed
 from engine.body.face.visemes import viseme_displacements
 from engine.errors import InputError, Notice
@@ -58,12 +59,17 @@ class Scan:
 
 
 def register(
-    models: HumanModels, body: Scan, head: Scan | None = None, check: Callable[[], None] = lambda: None
+    models: HumanModels,
+    body: Scan,
+    head: Scan | None = None,
+    check: Callable[[], None] = lambda: None,
+    faced: bool = True,
 ) -> FittedTemplate:
     """The person of a body's and a head's scan.
 
     The body's world has y up, the ground at y = 0 about. Without a head's scan, or where it has hardly a point or no
-    face, the face is as good as the body's cloud. `check` is called between steps, and may raise.
+    face, the face is as good as the body's cloud. Where no face holds the head (not `faced`), as under a helmet, the body's silhouettes
+    do. `check` is called between steps, and may raise.
 
     Raises `InputError`: `landmarks_needed` where landmarks are missing or contradict each other; `cloud_too_thin` where there
     are too few points.
@@ -83,8 +89,10 @@ def register(
     body_fit = with_hands(models, parameters, believed, cloud)
     shoes = not seen_barefoot(models.feet, body_fit.vertices, cloud, believed.face)
     body_fit = with_feet(models, body_fit, coefficients, believed, cloud, shoes, body.silhouettes)
-    coarse = body_fit.vertices
-    fitted = fit_body(models.skin, coarse, cloud, body.landmarks.face)
+    if not faced:
+        body_fit = with_head_in_outlines(models, body_fit, body.silhouettes)
+    face = body.landmarks.face if faced else np.full_like(body.landmarks.face, np.nan)
+    fitted = fit_body(models.skin, body_fit.vertices, cloud, face)
     check()
     placed: Similarity | None = None
     if head is not None and len(head.cloud) >= MIN_CLOUD_POINTS:

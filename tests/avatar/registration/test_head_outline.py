@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from engine.avatar.registration.feet.foot_outlines import Silhouette
 from engine.avatar.registration.head_outline import beside_share
+from engine.avatar.registration.part_outlines import Silhouette
 from engine.geometry.camera import Camera
 
 

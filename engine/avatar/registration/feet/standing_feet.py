@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
-from engine.avatar.registration.feet.foot_outlines import FootSight, Silhouette, foot_sights, outline_points
 from engine.avatar.registration.footwear import in_shoes
 from engine.avatar.registration.hand_pose import CoarseBody
 from engine.avatar.registration.models import HumanModels
+from engine.avatar.registration.part_outlines import PartSight, Silhouette, outline_points, part_sights
 from engine.body.fitting.least_squares import levenberg_marquardt
 from engine.geometry.deformation.handles import handles
 from engine.geometry.deformation.laplacian_deformation import LaplacianDeformation
@@ -112,7 +112,7 @@ def with_feet(
         ankle, toes = (models.space.names.index(f"{side}{name}") for name in ("Foot", "ToeBase"))
         start = _start(foot, places[ankle], rotations[ankle])
         elsewhere = skin.triangles[~np.isin(skin.triangles, foot.numbers).any(1)]
-        sights = foot_sights(silhouettes, foot.moved(foot.places, start[None])[0], body.vertices, elsewhere)
+        sights = part_sights(silhouettes, foot.moved(foot.places, start[None])[0], body.vertices, elsewhere)
         found = _laid(foot, start, side, landmarks, cloud, sights)
         moved[foot.numbers] = foot.moved(foot.places, found[None])[0]
         ground = np.array([joints[ankle, 0], rest[mask, 1].min(), joints[ankle, 2]])
@@ -159,7 +159,7 @@ def _laid(
     side: str,
     landmarks: SpatialLandmarks,
     cloud: PointCloud,
-    sights: Sequence[FootSight],
+    sights: Sequence[PartSight],
 ) -> NDArray[np.float64]:
     """The parameters (7,) for which the foot is where landmarks, ground, points and outlines have it."""
     named = [name for name in ("Heel", "FootIndex") if f"{side}{name}" in landmarks.body]
@@ -197,7 +197,7 @@ def _points_term(foot: _Foot, found: NDArray[np.float64], cloud: PointCloud, gat
 
 
 def _outlines_term(
-    foot: _Foot, found: NDArray[np.float64], sights: Sequence[FootSight], gate: float
+    foot: _Foot, found: NDArray[np.float64], sights: Sequence[PartSight], gate: float
 ) -> Residuals | None:
     """How far a foot's outlines are off those of the person in the sights. Trousers may hide them,
     nothing can lay them bare."""

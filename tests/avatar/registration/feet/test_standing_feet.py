@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
-from engine.avatar.registration.feet.foot_outlines import Silhouette
 from engine.avatar.registration.feet.standing_feet import with_feet
 from engine.avatar.registration.hand_pose import CoarseBody, with_hands
 from engine.avatar.registration.models import HumanModels
+from engine.avatar.registration.part_outlines import Silhouette
 from engine.geometry.camera import Camera
 from engine.geometry.point_clouds.point_cloud import PointCloud
 from engine.render.rasteriser import rasterise

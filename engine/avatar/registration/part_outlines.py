@@ -1,6 +1,7 @@
-"""How far the outline of a foot, as views show it, is off the outlines of the person there.
+"""How far the outline of a part of the body, as views show it, is off the outlines of the person there.
 
-Where silhouettes end at the ground is known in every frame, from all around; points of stereo are few at feet and stand off them.
+Where silhouettes end is known in every frame, from all around; points of stereo are few at feet and stand off them, and of a head under
+a helmet no landmark tells.
 """
 
 from __future__ import annotations
@@ -17,14 +18,14 @@ from engine.render.rasteriser import rasterise
 from engine.render.sampling import bilinear
 
 OUTLINE_REACH_METRES = 0.12
-"""Metres around a foot within which its outline may be."""
+"""Metres around a part within which its outline may be."""
 BODY_COVER_PIXELS = 2
-"""From what else a view shows of the body, within which an outline is not the foot's alone."""
+"""From what else a view shows of the body, within which an outline is not the part's alone."""
 MIN_OUTLINE_PIXELS = 12
-"""Of a view about a foot, along both sides: fewer tell nothing."""
+"""Of a view about a part, along both sides: fewer tell nothing."""
 
 Moved = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
-"""Where places (M, 3) of the foot at rest are for parameters (N, P): (N, M, 3)."""
+"""Where places (M, 3) of the part at rest are for parameters (N, P): (N, M, 3)."""
 
 
 @dataclass(frozen=True)
@@ -36,11 +37,11 @@ class Silhouette:
 
 
 @dataclass(frozen=True)
-class FootSight:
-    """What a silhouette has about a foot.
+class PartSight:
+    """What a silhouette has about a part of the body.
 
     camera : of that part of the picture.
-    outside : (h, w, 1) metres at the foot that each pixel is outside the mask, negative within, 0 along its own rim.
+    outside : (h, w, 1) metres at the part that each pixel is outside the mask, negative within, 0 along its own rim.
     beside : (h, w) where the rest of the body is.
     """
 
@@ -51,9 +52,9 @@ class FootSight:
 
 @dataclass(frozen=True)
 class OutlinePoints:
-    """Points of a foot on its outline in one sight: the `places` (M, 3) of the foot at rest."""
+    """Points of a part on its outline in one sight: the `places` (M, 3) of the part at rest."""
 
-    sight: FootSight
+    sight: PartSight
     places: NDArray[np.float64]
 
     def off(self, moved: Moved, parameters: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -63,16 +64,16 @@ class OutlinePoints:
         return np.asarray(bilinear(self.sight.outside, pixels), np.float64).reshape(where.shape[:2])
 
 
-def foot_sights(
+def part_sights(
     silhouettes: Sequence[Silhouette],
-    foot: NDArray[np.floating],
+    part: NDArray[np.floating],
     body: NDArray[np.floating],
     triangles: NDArray[np.integer],
-) -> list[FootSight]:
-    """What silhouettes have about a foot's places (F, 3), beside the rest of the `body` (S, 3), its `triangles` (T, 3) without the
-    foot's."""
+) -> list[PartSight]:
+    """What silhouettes have about a part's places (F, 3), beside the rest of the `body` (S, 3), its `triangles` (T, 3) without the
+    part's."""
     corners = np.stack(
-        np.meshgrid(*np.stack([foot.min(0) - OUTLINE_REACH_METRES, foot.max(0) + OUTLINE_REACH_METRES], 1)), -1
+        np.meshgrid(*np.stack([part.min(0) - OUTLINE_REACH_METRES, part.max(0) + OUTLINE_REACH_METRES], 1)), -1
     ).reshape(-1, 3)
     found = []
     for one in silhouettes:
@@ -85,21 +86,21 @@ def foot_sights(
         if min(right - left, bottom - top) < MIN_OUTLINE_PIXELS:
             continue
         camera = one.camera.cropped(left, top, (bottom - top, right - left))
-        pixel = float(camera.depth(foot.mean(0))) / camera.focal
+        pixel = float(camera.depth(part.mean(0))) / camera.focal
         mask = one.mask[top:bottom, left:right]
         if not mask.any():
             continue
         outside = pixel * np.where(mask, 1 - distance_inside(mask), distance_to(mask))
         rest = rasterise(camera.project(body), triangles, camera.size, perspective=True).triangle >= 0
-        found.append(FootSight(camera, outside[..., None].astype(np.float32), dilate_mask(rest, BODY_COVER_PIXELS)))
+        found.append(PartSight(camera, outside[..., None].astype(np.float32), dilate_mask(rest, BODY_COVER_PIXELS)))
     return found
 
 
 def outline_points(
-    sight: FootSight, vertices: NDArray[np.float64], triangles: NDArray[np.integer], rest: NDArray[np.float64]
+    sight: PartSight, vertices: NDArray[np.float64], triangles: NDArray[np.integer], rest: NDArray[np.float64]
 ) -> OutlinePoints:
-    """A foot's points on its outline in a sight, where that ends neither at the rest of the body nor at the picture's
-    border. The foot has `vertices` (F, 3) where it is and `rest` (F, 3) at rest."""
+    """A part's points on its outline in a sight, where that ends neither at the rest of the body nor at the picture's
+    border. The part has `vertices` (F, 3) where it is and `rest` (F, 3) at rest."""
     raster = rasterise(sight.camera.project(vertices), triangles, sight.camera.size, perspective=True)
     shown = raster.triangle >= 0
     rim = shown & dilate_mask(~shown, 1) & ~sight.beside
