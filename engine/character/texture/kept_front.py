@@ -41,6 +41,9 @@ KEPT_BLEND_METRES, MIN_KEPT_METRES = 0.015, 0.06
 LEVEL_METRES, MIN_LEVEL_SHARE = 0.05, 0.05
 """Metres over which what is not kept takes on the level of what is, and the share of what is kept there from which on it does by half."""
 
+SMOOTHED_CELLS = 4.0
+"""Cells of a standard deviation at which wide smoothing is done."""
+
 
 def kept_front(
     front: NDArray[np.float32],
@@ -63,7 +66,7 @@ def kept_front(
     across, along = (one / step for one in ROW_COLOUR_METRES)
     side = np.abs(angle) > SIDE_END_RADIANS
     sides = known & side & (np.arange(len(known)) >= yoke)[:, None]
-    row = cv2.GaussianBlur(behind, (0, 0), across, sigmaY=along, borderType=cv2.BORDER_REPLICATE)
+    row = _soft(behind, across, along)
     cloth = _mean_of(front, known, CLOTH_METRES / step)
     fine = _weighed(cv2.GaussianBlur(front, (0, 0), THREAD_METRES / step) - cloth, cloth)
     contrast = np.minimum(MIN_DIFFERENCE_LEVELS, MIN_PATTERN_CONTRAST * (cloth.mean(-1) + DARK_LEVELS))
@@ -91,16 +94,28 @@ def levelled_to(
 ) -> NDArray[np.float32]:
     """What is behind (A, N, 3) at the level of the `front` (A, N, 3) where that is kept by a `share` (A, N) near by."""
     soft = LEVEL_METRES / step
-    mass = cv2.GaussianBlur(share, (0, 0), soft)[..., None]
-    apart = cv2.GaussianBlur(share[..., None] * (front - behind), (0, 0), soft)
+    mass = _soft(share, soft, soft)[..., None]
+    apart = _soft(share[..., None] * (front - behind), soft, soft)
     return np.asarray(behind + apart / (mass + MIN_LEVEL_SHARE), np.float32)
 
 
 def _mean_of(front: NDArray[np.float32], known: NDArray[np.bool_], soft: float) -> NDArray[np.float32]:
     """The mean of what is `known` (A, N) of the front (A, N, 3) about each cell."""
     there = known.astype(np.float32)
-    mass = cv2.GaussianBlur(there, (0, 0), soft)[..., None]
-    return np.asarray(cv2.GaussianBlur(front * there[..., None], (0, 0), soft) / np.maximum(mass, 1e-3), np.float32)
+    mass = _soft(there, soft, soft)[..., None]
+    return np.asarray(_soft(front * there[..., None], soft, soft) / np.maximum(mass, 1e-3), np.float32)
+
+
+def _soft(values: NDArray[np.float32], across: float, along: float) -> NDArray[np.float32]:
+    """Values (A, N) or (A, N, C) smoothed over so many cells, as standard deviations; wide ones on fewer cells."""
+    height, width = values.shape[:2]
+    fewer = max(1, int(across / SMOOTHED_CELLS)), max(1, int(along / SMOOTHED_CELLS))
+    size = max(1, width // fewer[0]), max(1, height // fewer[1])
+    small = cv2.resize(values, size, interpolation=cv2.INTER_AREA) if fewer != (1, 1) else values
+    soft = cv2.GaussianBlur(
+        small, (0, 0), across * size[0] / width, sigmaY=along * size[1] / height, borderType=cv2.BORDER_REPLICATE
+    )
+    return np.asarray(cv2.resize(soft, (width, height)) if fewer != (1, 1) else soft, np.float32)
 
 
 def _weighed(apart: NDArray[np.floating], colour: NDArray[np.floating | np.integer]) -> NDArray[np.float32]:
