@@ -107,9 +107,10 @@ def _about_legs(frame: FootFrame, legs: NDArray[np.float64], hands: Sequence[NDA
     cv2.fillConvexPoly(area, cv2.convexHull(np.rint(corners).astype(np.int32)), 1)
     near = dilate_mask(area > 0, round(LEG_REACH_METRES * pixels_per_metre)) & frame.mask
     for hand in hands:
-        if frame.person.depth(hand[None])[0] > MIN_DEPTH_METRES:
+        away = float(frame.person.depth(hand[None])[0])
+        if away > MIN_DEPTH_METRES:
             at = frame.person.project(hand[None], np.float64)[:, :2]
-            near &= ~near_lines(near.shape, at[None].repeat(2, 1), HAND_BLANK_METRES * pixels_per_metre)
+            near &= ~near_lines(near.shape, at[None].repeat(2, 1), HAND_BLANK_METRES * frame.person.focal / away)
     if not near.any():
         return None
     rows, columns = (np.flatnonzero(near.any(axis)) for axis in (1, 0))

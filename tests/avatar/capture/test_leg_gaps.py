@@ -61,3 +61,19 @@ def test_masks_stay_without_landmarks_of_legs() -> None:
     lacking = SpatialLandmarks({name: at for name, at in LEGS.body.items() if name != "LeftKnee"})
     for mask, one in zip(without_gaps(frames, lacking), frames, strict=True):
         np.testing.assert_array_equal(mask, one.mask)
+
+
+def test_nothing_is_taken_away_about_a_hand() -> None:
+    frames = [one for one, _ in shown()]
+    knuckles = {"LeftIndex": np.array([0.01, 0.4, 0.0]), "LeftPinky": np.array([-0.01, 0.4, 0.0])}
+    masks = without_gaps(frames, SpatialLandmarks(LEGS.body | knuckles))
+    plain = without_gaps(frames, LEGS)
+    hand = np.array([[0.0, 0.4, 0.0]])
+    saved = 0
+    for one, mask, without in zip(frames, masks, plain, strict=True):
+        at, reach = one.person.project(hand)[0, :2], 0.1 * one.person.focal / one.person.depth(hand)[0]
+        y, x = np.indices(mask.shape)
+        near = np.hypot(x - at[0], y - at[1]) < reach
+        np.testing.assert_array_equal(mask[near], one.mask[near])
+        saved += np.count_nonzero(near & one.mask & ~without)
+    assert saved > 200
