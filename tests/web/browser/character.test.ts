@@ -8,7 +8,7 @@ import { complaints, expectComplaint, unanswered } from './complaints';
 import { accepted, again, isMade, isOrder, launchIn3D, openCorrections, openStill, revised } from './character_kit';
 import { LIGHT, LONG } from './jobs';
 import { lacks } from './lacks';
-import { inPython, samplePeople } from './media';
+import { inPython, inPythonBeside, samplePeople } from './media';
 import { onScreen } from './on_screen';
 import { address, finished, somebody } from './own_service';
 import { ask, cancelAll, jobOf, open, orderCharacter } from './page';
@@ -42,7 +42,7 @@ const done = finished.character;
 let engine: [joints: string[], needed: string[], colours: number[][]];
 beforeAll(async () => {
   browser = await launchIn3D();
-  samplePeople(join(folder, 'two.png'), 400);
+  await samplePeople(join(folder, 'two.png'), 400);
   engine = JSON.parse(inPython(NAMES)) as typeof engine;
 });
 afterAll(async () => {
@@ -156,7 +156,7 @@ describe('ordering a character', () => {
 
   it('offers the motions that the service keeps', async () => {
     const file = join(folder, 'swing.bvh');
-    inPython(MOTION, file);
+    await inPythonBeside(MOTION, file);
     const form = new FormData();
     form.set('name', 'arm-swing');
     form.set('file', new Blob([readFileSync(file)]), 'swing.bvh');

@@ -10,7 +10,7 @@ import { accepted, revised } from './character_kit';
 import { launch } from './browser';
 import { LONG } from './jobs';
 import { lacks } from './lacks';
-import { inPython, portrait } from './media';
+import { inPython, inPythonBeside, portrait } from './media';
 import { onScreen } from './on_screen';
 import { finished } from './own_service';
 import { ask, jobOf, open, order, played } from './page';
@@ -39,7 +39,7 @@ let border: number;
 let done: string;
 beforeAll(async () => {
   browser = await launch();
-  border = Number(inPython(TWO, portrait, join(folder, 'two.png')));
+  border = Number(await inPythonBeside(TWO, portrait, join(folder, 'two.png')));
   done = await order(join(folder, 'two.png'), 'happy');
 });
 afterAll(async () => {

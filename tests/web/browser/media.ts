@@ -1,9 +1,10 @@
 /** Real media: what installed packages carry, what the project draws itself, and the shared ones outside the project. */
 
-import { execFileSync } from 'node:child_process';
+import { execFile, execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
+import { promisify } from 'node:util';
 
 const root = resolve(import.meta.dirname, '../../..');
 const python = join(root, '.venv/bin/python');
@@ -11,6 +12,13 @@ const python = join(root, '.venv/bin/python');
 /** What a few lines of Python print, in the environment of the service. */
 export const inPython = (lines: string, ...given: string[]): string =>
   execFileSync(python, ['-c', lines, ...given], { cwd: root }).toString().trim();
+
+/**
+ * The same, while this process goes on. For whoever has asked the service something and will again: a process that waits
+ * does not hear that the service has ended a connection that was at rest, and what it sends over that one is lost.
+ */
+export const inPythonBeside = async (lines: string, ...given: string[]): Promise<string> =>
+  (await promisify(execFile)(python, ['-c', lines, ...given], { cwd: root })).stdout.trim();
 
 /** A portrait that comes with matplotlib. */
 export const portrait = inPython(
@@ -33,8 +41,8 @@ export const samplePerson = (path: string): string =>
   );
 
 /** Writes a picture of somebody, so many pixels high, and the same once more to the right of them: further away, so smaller, on the same floor. */
-export const samplePeople = (path: string, height = 600): string =>
-  inPython(
+export const samplePeople = (path: string, height = 600): Promise<string> =>
+  inPythonBeside(
     `
 import sys
 from PIL import Image
@@ -50,9 +58,9 @@ both.save(sys.argv[1])
   );
 
 /** A driver of twelve seconds: a performance of the project's own, three times over. */
-export function lengthyPerformance(): File {
+export async function lengthyPerformance(): Promise<File> {
   const path = join(mkdtempSync(join(tmpdir(), 'galatea-')), 'lengthy.mp4');
-  inPython(
+  await inPythonBeside(
     `
 import sys
 import av

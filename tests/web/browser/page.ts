@@ -86,14 +86,14 @@ export async function cancelAll(): Promise<void> {
   await Promise.all(items.map(({ id }) => fetch(`${address}/v1/jobs/${id}/cancel`, { method: 'POST' })));
 }
 
-let lengthy: File | undefined;
+let lengthy: Promise<File> | undefined;
 
 /**
  * The page of a job that waits for one before it, and what lets it begin: whatever it shows on its way is seen by a page that
  * is there, however fast the machine is and however short the job.
  */
 export async function openWaiting(browser: Browser, driver: string): Promise<{ page: Page; begin: () => Promise<void> }> {
-  const before = await order(portrait, (lengthy ??= lengthyPerformance()), SMALL);
+  const before = await order(portrait, await (lengthy ??= lengthyPerformance()), SMALL);
   const job = await order(portrait, driver, SMALL);
   const page = await open(browser, `#/jobs/${job}`);
   await page.getByText(/^(Next|Place \d) in the queue$/).waitFor();
@@ -110,9 +110,9 @@ export async function openWaiting(browser: Browser, driver: string): Promise<{ p
 export async function openRunning(browser: Browser, ahead = 0): Promise<Page> {
   const page = await open(browser);
   await page.getByRole('radio').first().waitFor({ state: 'attached' });
-  lengthy ??= lengthyPerformance();
-  for (let one = 0; one < ahead; one++) await order(portrait, lengthy);
-  const job = await order(portrait, lengthy);
+  const performance = await (lengthy ??= lengthyPerformance());
+  for (let one = 0; one < ahead; one++) await order(portrait, performance);
+  const job = await order(portrait, performance);
   await page.evaluate((id) => (location.hash = `#/jobs/${id}`), job);
   return page;
 }

@@ -37,7 +37,7 @@ async function ordered({ several, options }: (typeof ORDERS)[keyof typeof ORDERS
   const folder = mkdtempSync(join(tmpdir(), 'galatea-viewer-'));
   const people = join(folder, 'people.png');
   try {
-    samplePeople(people, 400);
+    await samplePeople(people, 400);
     return await orderCharacter(address, people, { ...LIGHT, ...options });
   } finally {
     rmSync(folder, { recursive: true });
