@@ -14,7 +14,7 @@ import numpy as np
 from engine.body import makehuman
 from engine.npz import read_npz
 
-CACHE_FORMAT = 2
+CACHE_FORMAT = 3
 """Raise it when what is stored changes; older files are then left aside."""
 
 

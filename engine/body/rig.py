@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,11 @@ HUMAN_RIG = "human"
 """The rig that the project's people are made with: Mixamo's, then the joints of `FACE_JOINTS`."""
 FACE_JOINTS = {"Jaw": "jaw", "LeftEye": "eye.L", "RightEye": "eye.R"}
 """Joints of the head that Mixamo's rig lacks, and the bones of `default` that they are."""
+TOE_JOINTS = tuple(
+    (f"{side}Foot", f"{side}ToeBase", f"foot.{side[0]}", tuple(f"toe{toe}-1.{side[0]}" for toe in range(1, 6)))
+    for side in ("Left", "Right")
+)
+"""Foot and toes in Mixamo's rig, and the bones of `default` that they are: the foot's, and each toe's."""
 
 
 @dataclass(frozen=True)
@@ -126,6 +131,24 @@ def with_face(body: Rig, face: Rig) -> Rig:
         bones=np.where(weights > 0, order, 0).astype(np.uint8),
         weights=(weights / weights.sum(1, keepdims=True)).astype(np.float32),
     )
+
+
+def with_toes(body: Rig, toed: Rig) -> Rig:
+    """`body` (Mixamo's rig), in which toes have of each foot what its toes have of it in `toed` (`default`).
+
+    In the source foot and toes move half each of what lies before the ball, up to the tips, which are the toes' alone.
+    """
+    weights = body.weights.astype(np.float64)
+    for foot, toes, whole, parts in TOE_JOINTS:
+        share = sum(toed.weights_below(part) for part in parts) / np.maximum(toed.weights_below(whole), 1e-9)
+        own = [body.bones == body.index(name) for name in (foot, toes)]
+        both = (weights * (own[0] | own[1])).sum(1)
+        for which, part in zip(own, (1 - share, share), strict=True):
+            weights = np.where(which, (both * np.clip(part, 0, 1))[:, None], weights)
+    order = np.argsort(-weights, axis=1, kind="stable")
+    weights = np.take_along_axis(weights, order, 1)
+    weights /= weights.sum(1, keepdims=True)
+    return replace(body, bones=np.take_along_axis(body.bones, order, 1), weights=weights.astype(np.float32))
 
 
 def _parents_first(parents: Mapping[str, str]) -> list[str]:

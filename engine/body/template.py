@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from engine.body import makehuman
 from engine.body.cache import cached_arrays
-from engine.body.rig import HUMAN_RIG, Rig, build_rig, with_face
+from engine.body.rig import HUMAN_RIG, Rig, build_rig, with_face, with_toes
 from engine.body.targets import Targets, gather
 
 TEMPLATE_PARTS = {
@@ -141,4 +141,6 @@ def _convert_rig(name: str) -> dict[str, np.ndarray]:
     bones, weights = makehuman.read_rig(name)
     vertex_count = len(makehuman.read_base_mesh().vertices)
     rig = build_rig(bones, weights, makehuman.read_vertex_groups(), vertex_count)
+    if name == "mixamo":
+        rig = with_toes(rig, load_rig("default"))
     return {**vars(rig), "names": np.array(rig.names)}
