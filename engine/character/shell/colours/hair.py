@@ -36,7 +36,7 @@ HAIRLINE_MEDIAN_ROWS, HAIRLINE_SMOOTHING_ROWS = 9, 3.0
 """Rows over which what is seen of a hairline is the median, and averaged."""
 FULL_HAIR_CROWN_SHARE = 0.7
 """Share of the way from the hairline to the crown above which hair is all round."""
-UNEVENNESS_RADIANS, UNEVENNESS_ROWS = 0.04, 2.5
+UNEVENNESS_RADIANS, UNEVENNESS_ROWS = 0.04, 0.8
 """By how much hair begins unevenly, and ends at the nape: standard deviation."""
 STRAND_SCALES = ((0.7, 7.0, 0.8), (2.5, 14.0, 0.6))
 """Columns and rows over which strands are alike, and how much of them is so: single ones, and locks."""

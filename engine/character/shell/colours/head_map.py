@@ -19,8 +19,9 @@ MIN_HAIRLINE_SHARE = 0.25
 """How far above the brows hair begins at the earliest, as a share of the way to the crown."""
 NAPE_HEIGHT_SHARE = 0.35
 """How far above the chin hair ends behind, as a share of the way to the nose."""
-EAR_MARGIN_CELLS = 7
-"""Cells of a square that are all an ear's, or some of them, for its middle to be surely the ear's, or perhaps."""
+SURE_EAR_CELLS, EAR_MARGIN_CELLS = 13, 7
+"""Cells of a square all of which are the template's ear's for its middle to be surely an ear's, and some of which for it to be so perhaps: the
+template's has skin around it, over which hair falls."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +76,7 @@ def head_map() -> HeadMap:
     return HeadMap(
         (np.arange(rows, dtype=np.float32) + 0.5)[:, None],
         np.abs(angle).astype(np.float32)[None],
-        np.asarray(cv2.erode(around, square) > 0),
+        np.asarray(cv2.erode(around, np.ones((SURE_EAR_CELLS,) * 2, np.uint8)) > 0),
         np.asarray(cv2.dilate(around, square) > 0),
         levels,
     )
