@@ -174,7 +174,7 @@ describe('a profile from a plain file server', () => {
     };
     /** The same; more than one where a busy machine left some out, of a clip also before what led away from it began. */
     const steps = (before: Seen, here: Seen): number =>
-      Math.max(1, onTheWay(before, here), Math.floor(((here.at - before.at) / 1000) * fps));
+      Math.max(1, onTheWay(before, here), Math.round(((here.at - before.at) / 1000) * fps));
     for (const { here, before } of across) {
       const note = `from ${JSON.stringify(before)} to ${JSON.stringify(here)}`;
       expect(here.change, note).toBeLessThanOrEqual(largest * steps(before, here));
