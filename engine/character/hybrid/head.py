@@ -25,6 +25,7 @@ from engine.character.shell.template_mesh import TemplateMesh
 from engine.character.surface.depth_order import INSET_PIXELS
 from engine.character.surface.front_and_back import ClosedMesh
 from engine.geometry.mesh.adjacency import neighbours
+from engine.geometry.mesh.welding import same_rows
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import largest_piece, mask_height
 from engine.render.rasteriser import rasterise
@@ -52,6 +53,8 @@ TRUNK_BEHIND_HEAD_PIXELS = 5
 """Pixels by which the trunk goes on behind the head: what lies between two borders of pixels would gape."""
 COLLAR_SMOOTHING_PIXELS = 3.0
 """Pixels over which the line is smoothed along which a trunk's back goes into the neck."""
+SHEET_GAP_PIXELS = 0.5
+"""Pixels of depth by which the trunk's front and back stay apart within the neck."""
 NECK_EDGE_PIXELS = 4
 """Pixels within the outline of the neck in which the trunk does not go on: it would stand beside it."""
 HEAD_LABEL_TOLERANCE_PIXELS = 2
@@ -168,6 +171,8 @@ def without_head(labels: Labels) -> Labels:
     head = found == HEAD_LABEL
     under = head & dilate_mask(found == TRUNK_LABEL, TRUNK_BEHIND_HEAD_PIXELS)
     under &= ~dilate_mask(found < 0, NECK_EDGE_PIXELS)
+    whole = (under | (found == TRUNK_LABEL)).astype(np.uint8)
+    under &= cv2.morphologyEx(whole, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)) > 0  # no threads
     found[head] = -1
     found[under] = TRUNK_LABEL
     loose = (found == TRUNK_LABEL) & ~largest_piece(found == TRUNK_LABEL) & dilate_mask(head, TRUNK_BEHIND_HEAD_PIXELS)
@@ -213,10 +218,13 @@ def _beneath(
     row, column = _pixels(trunk.vertices, shape)
     front, back = front[row, column], back[row, column]
     smooth = cv2.GaussianBlur(head.astype(np.float32), (0, 0), COLLAR_SMOOTHING_PIXELS)
-    share = np.where(trunk.front, head[row, column], np.clip(2 * smooth[row, column], 0, 1))
-    under = (trunk.layer == 0) & (share > 0) & np.isfinite(front) & np.isfinite(back) & (back < front)
+    point = same_rows(trunk.vertices)
+    behind = np.isin(point, point[~trunk.front])  # at the rim there are vertices of both sheets in one place
+    share = np.where(behind, np.clip(2 * smooth[row, column], 0, 1), head[row, column])
+    low, high = back + ~behind * SHEET_GAP_PIXELS, front - behind * SHEET_GAP_PIXELS
+    under = (trunk.layer == 0) & (share > 0) & np.isfinite(front) & np.isfinite(back) & (low < high)
     vertices = trunk.vertices.copy()
-    within = np.clip(vertices[under, 2], back[under], front[under])
+    within = np.clip(vertices[under, 2], low[under], high[under])
     vertices[under, 2] += share[under] * (within - vertices[under, 2])
     return replace(trunk, vertices=vertices)
 

@@ -31,7 +31,7 @@ def same_rows(*columns: NDArray[np.number]) -> NDArray[np.int32]:
 def is_closed(faces: NDArray[np.integer]) -> bool:
     """Whether triangles (T, 3) of points leave no border: every edge is met once in each direction."""
     count = int(faces.max()) + 1 if len(faces) else 0
-    start, end = faces.ravel().astype(np.int64), np.roll(faces, -1, 1).ravel()
+    start, end = faces.ravel().astype(np.int64), np.roll(faces, -1, 1).ravel().astype(np.int64)
     there, back = np.sort(start * count + end), np.sort(end * count + start)
     return bool((there == back).all() and (np.diff(there) > 0).all())
 

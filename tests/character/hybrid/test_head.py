@@ -29,7 +29,7 @@ from engine.character.parts.labels import LEG_LABELS
 from engine.character.shell.shell import ears_laid_back, eyes_in_sockets, shaped_head
 from engine.character.shell.template_mesh import template_mesh
 from engine.character.stages import build_mesh
-from engine.geometry.mesh.welding import is_closed
+from engine.geometry.mesh.welding import is_closed, same_rows
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.render.rasteriser import rasterise
 from tests.character.fit.test_head_and_legs import seen_face
@@ -115,7 +115,7 @@ def test_head_and_relief_fill_the_outline_and_each_is_seen_where_it_is_pictured(
 ) -> None:
     pictured, triangles, places, relief = joined
     labels = found[3].labels
-    assert is_closed(triangles)
+    assert is_closed(triangles) and is_closed(same_rows(places)[relief])
     vertices = np.concatenate([pictured, places]) * [1, 1, -1]
     seen = rasterise(vertices, np.concatenate([triangles, relief + len(pictured)]), labels.shape).triangle
     assert ((seen >= 0) & (labels >= 0)).sum() > 0.97 * ((seen >= 0) | (labels >= 0)).sum()

@@ -23,6 +23,7 @@ def test_a_closed_surface_has_every_edge_in_both_directions() -> None:
     assert is_closed(tetrahedron)
     assert not is_closed(tetrahedron[:3])
     assert not is_closed(np.concatenate([tetrahedron[:3], tetrahedron[3:, ::-1]]))
+    assert is_closed((tetrahedron + 100_000).astype(np.int32)), "so many points that pairs of them are no int32"
 
 
 def test_a_mesh_cut_along_seams_is_one_surface_again() -> None:
