@@ -1,7 +1,7 @@
 """The head turned as the face says it is: the paper's head pose correction (section 5, first half).
 
 The 68 fiducials are known on the template's face (`engine.body.face.face_points`); where they are seen in the picture, the head's
-turn follows by PnP. Skipped where no face is seen.
+turn and place follow by PnP. Beyond the paper, the neck is bent so that the head is there. Skipped where no face is seen.
 """
 
 from __future__ import annotations
@@ -22,10 +22,12 @@ MAX_FIDUCIAL_ERROR_EYE_DISTANCES = 0.2
 """Distances of the eyes by which fiducials may be off on the average; beyond, the face is not believed."""
 MAX_HEAD_CORRECTION_DEGREES = 70.0
 """Degrees by which the face may correct what the body's fit says."""
+MAX_NECK_CORRECTION_DEGREES = 25.0
+"""Degrees by which the neck is bent at most, so that the head is where the face is seen."""
 
 
 def turn_head(fitted: FittedBody, figure: Figure) -> FittedBody:
-    """The fit with its head turned as the figure's face is. It is as it was where there is no face, or none to be
+    """The fit with its head turned and placed as the figure's face is. It is as it was where there is no face, or none to be
     believed: of one in profile the network makes up the half that is not seen."""
     if figure.face is None or in_profile(figure):
         return fitted
@@ -59,9 +61,21 @@ def turn_head(fitted: FittedBody, figure: Figure) -> FittedBody:
         or shift[2, 0] <= 0
     ):
         return fitted
+    seen_at = PICTURE_TO_TEMPLATE.T @ (shift[:, 0] * ((PICTURE_TO_TEMPLATE @ places[head])[2] / shift[2, 0]))
+    neck = human.rig.index("Neck")
+    bent = _turn_towards(places[head] - places[neck], seen_at - places[neck]) @ worlds[neck]
     rotations = fit.rotations.copy()
-    rotations[head] = worlds[human.rig.parents[head]].T @ turned
+    rotations[neck] = worlds[human.rig.parents[neck]].T @ bent
+    rotations[head] = bent.T @ turned
     return replace(fitted, fit=replace(fit, rotations=rotations))
+
+
+def _turn_towards(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The smallest turn (3, 3) that takes the direction of `one` (3,) to that of the `other` (3,), up to `MAX_NECK_CORRECTION_DEGREES`."""
+    axis = np.cross(one, other)
+    sine, cosine = float(np.linalg.norm(axis)), float(one @ other)
+    angle = min(np.arctan2(sine, cosine), np.radians(MAX_NECK_CORRECTION_DEGREES))
+    return np.asarray(cv2.Rodrigues(axis / max(sine, 1e-12) * angle)[0])
 
 
 def joint_axes(

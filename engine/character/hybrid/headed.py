@@ -17,7 +17,7 @@ from engine.character.hybrid.head import (
 )
 from engine.character.hybrid.limbs import Limbs
 from engine.character.parts.label_map import Labels
-from engine.character.shell.shell import Shell, as_fitted, shaped_head, shell_of
+from engine.character.shell.shell import Shell, as_fitted, face_points, shaped_head, shell_of, with_head_at_face
 from engine.character.shell.template_mesh import template_mesh
 from engine.character.surface.front_and_back import ClosedMesh
 
@@ -47,7 +47,8 @@ def make_headed_relief(
 ) -> HeadedRelief:
     """The relief, as `build` makes it of a figure, with the shell's head if that is its shape."""
     mesh = template_mesh()
-    if not hair_keeps_to_the_head(figure, silhouette, labels, mesh, as_fitted(silhouette, fitted)[1]):
+    placed = with_head_at_face(mesh, as_fitted(silhouette, fitted)[1], face_points(figure, silhouette, mesh))
+    if not hair_keeps_to_the_head(figure, silhouette, labels, mesh, placed):
         return HeadedRelief(build(figure, silhouette, fitted, labels), labels)
     shape = shaped_head(figure, silhouette, fitted, labels)
     layered = labels.layered

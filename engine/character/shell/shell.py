@@ -31,6 +31,10 @@ from engine.geometry.rigging.skinning import bone_transforms, skin
 from engine.imaging.masks.mask_distance import distance_to
 from engine.perception.landmarks import JAW_LANDMARK_COUNT, fiducials
 
+HEAD_SIZES = (0.85, 1.25)
+"""How large a head may be, as a share of the fitted template's."""
+HEAD_MOVE_NECK_SHARE = 0.5
+"""How far the neck goes with the head that is put to where its face is seen."""
 HEAD_SURROUND_METRES = 0.12
 """Metres beyond the head's radius in which what is around gives way where it is displaced."""
 EAR_TOLERANCE_PIXELS, MIN_EAR_SHARE = 0.5, 0.25
@@ -89,8 +93,10 @@ def shaped(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: L
     if not barefoot(figure, silhouette, labels, template):
         straight = in_shoes(straight)
         template = camera.to_picture(posed(mesh, straight, fitted))
-    displaced = displace(mesh, template, part_outlines(labels.layered), face_points(figure, silhouette, mesh))
-    pictured = eyes_in_sockets(mesh, template, thickened(mesh, template, displaced))
+    known = face_points(figure, silhouette, mesh)
+    start = with_head_at_face(mesh, template, known)
+    displaced = displace(mesh, start, part_outlines(labels.layered), known)
+    pictured = eyes_in_sockets(mesh, start, thickened(mesh, start, displaced))
     return Shape(straight, template, ears_laid_back(mesh, pictured, silhouette.mask))
 
 
@@ -112,12 +118,27 @@ def shaped_head(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
     own, which = mesh.part(near)
     outlines = part_outlines(labels.layered).of(HEAD_LABEL)
     known = face_points(figure, silhouette, mesh)
+    start = with_head_at_face(mesh, template, known)
     again = np.full(len(places), -1, np.intp)
     again[which] = np.arange(len(which))
-    displaced = displace(own, template[which], outlines, replace(known, vertices=again[known.vertices]))
+    displaced = displace(own, start[which], outlines, replace(known, vertices=again[known.vertices]))
     pictured = template.copy()
-    pictured[which] = thickened(own, template[which], displaced)
-    return Shape(straight, template, ears_laid_back(mesh, eyes_in_sockets(mesh, template, pictured), silhouette.mask))
+    pictured[which] = thickened(own, start[which], displaced)
+    return Shape(straight, template, ears_laid_back(mesh, eyes_in_sockets(mesh, start, pictured), silhouette.mask))
+
+
+def with_head_at_face(mesh: TemplateMesh, template: NDArray[np.float64], known: KnownPoints) -> NDArray[np.float64]:
+    """The `template` (V, 3) with its head as a whole moved and enlarged so that its face is where it is `known` to be seen, the neck
+    less and less. Heads of one body's height differ by more than the fit of a body tells."""
+    if not len(known.vertices):
+        return template
+    own = template[known.vertices]
+    centre, seen = own.mean(0), known.places.mean(0)
+    size = np.linalg.norm(known.places - seen) / max(float(np.linalg.norm(own[:, :2] - centre[:2])), 1e-6)
+    moved = centre + np.clip(size, *HEAD_SIZES) * (template - centre)
+    moved[:, :2] += seen - centre[:2]
+    share = np.clip(mesh.share("Head") + HEAD_MOVE_NECK_SHARE * mesh.share("Neck"), 0, 1)[:, None]
+    return np.asarray(template + share * (moved - template))
 
 
 def ears_laid_back(mesh: TemplateMesh, pictured: NDArray[np.float64], mask: NDArray[np.bool_]) -> NDArray[np.float64]:

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from engine.body.fitting.body_fitting import Fit
 from engine.body.fitting.posing import POSED_SHAPE_COEFFICIENTS
 from engine.character.figure.figure import Figure
-from engine.character.fit.head import turn_head
+from engine.character.fit.head import joint_axes, turn_head
 from engine.character.fit.template_fit import FittedBody, load_human
 from engine.character.surface.face_warp import Face, with_face
 from engine.character.surface.front_and_back import Layer, stitch_front_and_back
@@ -35,13 +35,13 @@ def figure_with(face: np.ndarray | None) -> Figure:
                   np.zeros((1, 4), np.float32), 0, np.zeros((800, 600), np.bool_), face, (None, None))  # fmt: skip
 
 
-def seen_face(turn: np.ndarray) -> np.ndarray:
-    """The face mesh (478, 3) of the standing body, its head turned."""
+def seen_face(turn: np.ndarray, aside: tuple[float, float, float] = (0, 0, 0)) -> np.ndarray:
+    """The face mesh (478, 3) of the standing body, its head turned, and moved so many metres."""
     human = load_human()
     nobody = np.zeros(POSED_SHAPE_COEFFICIENTS, np.float32)
     rest, heads = human.space.vertices(nobody), human.space.joints(nobody)
     joint = heads[human.rig.index("Head")]
-    at = (rest[human.face] - joint) @ turn.T + joint - heads[0] + PLACE
+    at = (rest[human.face] - joint) @ turn.T + joint - heads[0] + PLACE + aside
     pixels = at[:, :2] * [FOCAL, -FOCAL] / -at[:, 2:] + CENTRE
     return mesh_from_fiducials(pixels.astype(np.float32))
 
@@ -51,10 +51,24 @@ def test_a_head_turns_to_where_its_face_is_seen(degrees: tuple[float, float, flo
     turn = Rotation.from_euler("xyz", degrees, degrees=True).as_matrix()
     fitted = turn_head(standing(), figure_with(seen_face(turn)))
     head = load_human().rig.index("Head")
-    off = Rotation.from_matrix(fitted.fit.rotations[head].T @ turn).magnitude()
-    assert np.degrees(off) < 2
-    others = np.delete(np.arange(len(fitted.fit.rotations)), head)
+    neck = load_human().rig.index("Neck")
+    bent, own = fitted.fit.rotations[neck], fitted.fit.rotations[head]
+    assert np.degrees(Rotation.from_matrix((bent @ own).T @ turn).magnitude()) < 2
+    assert np.degrees(Rotation.from_matrix(bent).magnitude()) < 3, "it is where it was"
+    others = np.delete(np.arange(len(fitted.fit.rotations)), (neck, head))
     assert (fitted.fit.rotations[others] == standing().fit.rotations[others]).all()
+
+
+@pytest.mark.parametrize("aside", [0.02, -0.015])
+def test_the_neck_bends_to_where_a_face_is_seen(aside: float) -> None:
+    """The head's joint is so many metres beside where the standing body has it; it looks as it did."""
+    human = load_human()
+    fitted = turn_head(standing(), figure_with(seen_face(np.eye(3), (aside, 0, 0))))
+    heads = human.space.joints(np.zeros(POSED_SHAPE_COEFFICIENTS, np.float32))
+    turns, places = joint_axes(human.rig.parents, fitted.fit.rotations, heads, PLACE)
+    head = human.rig.index("Head")
+    assert places[head, 0] == pytest.approx(heads[head, 0] - heads[0, 0] + PLACE[0] + aside, abs=0.004)
+    assert np.degrees(Rotation.from_matrix(turns[head]).magnitude()) < 2
 
 
 def test_without_a_face_to_believe_the_head_stays() -> None:

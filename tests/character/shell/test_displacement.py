@@ -18,6 +18,7 @@ from engine.character.parts.label_map import Labels
 from engine.character.shell.at_rest import shell_at_rest
 from engine.character.shell.displacement import KnownPoints, displace
 from engine.character.shell.outlines import part_outlines
+from engine.character.shell.shell import with_head_at_face
 from engine.character.shell.template_mesh import TemplateMesh, template_mesh
 from engine.character.shell.thickness import thickened
 from engine.geometry.rigging.skinning import skin
@@ -149,3 +150,21 @@ def test_a_border_beside_what_is_held_is_no_outline(template: NDArray[np.float64
         return int((np.abs(points[:, 1] - cut) < 1.5).sum())
 
     assert along_the_cut(bare) > along_the_cut(held) + 2
+
+
+def test_a_head_is_moved_and_enlarged_to_where_its_face_is_seen(template: NDArray[np.float64]) -> None:
+    """A face that is a tenth larger and 8 pixels aside: so is the skull, the neck half as much, and the trunk not at all."""
+    mesh = template_mesh()
+    face = mesh.renamed(load_human().face[17:])
+    middle = template[face, :2].mean(0)
+    seen = middle + 1.1 * (template[face, :2] - middle) + [8, -2]
+    placed = with_head_at_face(mesh, template, KnownPoints(face, seen))
+    np.testing.assert_allclose(placed[face, :2], seen, atol=0.3)
+    skull, trunk = mesh.share("Head") > 0.99, mesh.share("Head", "Neck") <= 0
+    assert np.ptp(placed[skull, 1]) == pytest.approx(1.1 * np.ptp(template[skull, 1]), rel=0.01)
+    assert np.ptp(placed[skull, 2]) == pytest.approx(1.1 * np.ptp(template[skull, 2]), rel=0.01), "in depth, too"
+    np.testing.assert_array_equal(placed[trunk], template[trunk])
+    between = (mesh.share("Head") <= 0) & (mesh.share("Neck") > 0.5)
+    aside = (placed - template)[between, 0]
+    assert aside.min() > 0.5 and aside.max() < 8, "the neck goes less far"
+    np.testing.assert_array_equal(with_head_at_face(mesh, template, NOTHING_KNOWN), template)
