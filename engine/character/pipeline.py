@@ -19,7 +19,7 @@ from engine.character.film.findings import character_names, write_findings
 from engine.character.film.lit import lit_picture
 from engine.character.film.motions import motion_in_use
 from engine.character.film.person import Person
-from engine.character.hybrid.hybrid import LooseHair, make_hybrid
+from engine.character.hybrid.hybrid import make_hybrid
 from engine.character.hybrid.suited_surface import suited_surface
 from engine.character.options import CharacterOptions
 from engine.character.parts.unseen_limbs import with_limbs_hidden
@@ -219,9 +219,6 @@ def reconstruct(
     fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.picture_camera()), labels, run.warn)
     painted = (options.triangles, options.back_texture)
     surface = options.surface
-    loose_hair: LooseHair = (
-        "relief" if surface == "auto" else "shell"
-    )  # seen blind, from the front the relief's is the better
     if surface == "auto" and suited_surface(silhouette, fitted, labels) == "hybrid":
         surface = "hybrid"
     if surface in ("hybrid", "shell"):
@@ -234,7 +231,7 @@ def reconstruct(
         shell = run.stage("build_mesh", make_shell, *found)
         return Person(*found, run.stage("make_character", make_shell_character, *found, shell, *painted))
     if surface == "hybrid":
-        hybrid = run.stage("build_mesh", make_hybrid, *found, loose_hair)
+        hybrid = run.stage("build_mesh", make_hybrid, *found)
         return Person(*found, run.stage("make_character", make_hybrid_character, *found, hybrid, *painted))
     mesh = run.stage("build_mesh", build_mesh, *found)
     return Person(*found, run.stage("make_character", make_character, *found, mesh, *painted))

@@ -330,7 +330,8 @@ def make_hybrid_character(
     hidden = limbs & around & ~below & ~hybrid.at_shoulders()  # at the waist nothing is behind legs
     hidden |= (own.labels == TRUNK_LABEL) & (hybrid.strange | dilate_mask(hidden, MIXED_BORDER_PIXELS))
     arms = np.isin(own.labels, ARM_LABELS) | held
-    gone, behind, before = (_in_the_picture(one, silhouette) for one in (limbs & ~around, hidden, arms))
+    other = arms | (own.labels < 0)
+    gone, behind, before = (_in_the_picture(one, silhouette) for one in (limbs & ~around, hidden, other))
     alone = replace(silhouette, alpha=silhouette.alpha * (1 - gone))
     seen = mirrored_behind(figure.rgb, behind > 0, (silhouette.alpha > OPAQUE_ALPHA) & (gone == 0) & (before == 0))
     nothing = LimbSurfaces(np.zeros_like(limbs), np.zeros_like(limbs), before=hybrid.hair)
@@ -339,7 +340,7 @@ def make_hybrid_character(
     relief = _made_of(figure, alone, fitted, own, trunk, tiles, _left_for_a_relief(triangles, shown))
     filled: BackTexture = "inpaint" if back == "inpaint" else "mirror"
     texture = paint_shell(
-        figure.rgb, silhouette, labels.bare, hybrid.shell, filled, shown.mesh.triangles, hybrid.strange
+        figure.rgb, silhouette, labels.bare, hybrid.shell, filled, shown.mesh.triangles, hybrid.strange, hybrid.framed
     )
     texture = with_the_trunks_colours(texture, hybrid, tiles, figure, silhouette)
     shell = bind_shell(shown, figure, silhouette, fitted, texture)

@@ -31,6 +31,8 @@ BROW_HEIGHT_SHARE = 0.25
 """How far above a face's middle, as a share of half its height, whatever is beside it is hair: there are no ears."""
 MAX_SKIN_DISTANCE_LEVELS = 60.0
 """Levels from the face's median up to which a colour may be skin's."""
+MAX_FAIR_SHARE = 0.2
+"""Share of what is beside the template's head that may have the face's colours, for hair to be told from skin by its colour alone."""
 HAIR, SKIN = 0, 1
 """What pixels of a head are told to be."""
 SEGMENTATION_ROUNDS, UNUSUAL_COST = 3, 2.0
@@ -60,7 +62,9 @@ def hair_beside_the_face(
     graph, pixels = ContrastGraph.of(colours, head), colours[head]
     surely = (loose & ~like_skin) | (head & (distance_to(covered) > SURELY_HAIR_SHARE * mask_height(covered)))
     seeds = np.where((inner & like_skin)[head], SKIN, np.where(surely[head], HAIR, UNSEEDED_MARK))
-    more = np.stack([0 * pixels[:, 0], UNUSUAL_COST * (above_the_brow & ~oval)[head]], 1)
+    fair = like_skin[head & ~covered].mean() > MAX_FAIR_SHARE
+    above_the_brow = above_the_brow & ~oval & fair  # hair of the skin's colours is where there is no face
+    more = np.stack([0 * pixels[:, 0], UNUSUAL_COST * above_the_brow[head]], 1)
     found = np.where((oval | (like_skin & ~above_the_brow))[head], SKIN, HAIR)
     for _ in range(SEGMENTATION_ROUNDS):
         shown = [pixels[found == kind] for kind in (HAIR, SKIN)]
@@ -73,8 +77,11 @@ def hair_beside_the_face(
     radius = max(1, round(MIN_LOCK_SHARE * float(face[2])))
     disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1, 2 * radius + 1))
     locks = cv2.morphologyEx((hair & ~oval).astype(np.uint8), cv2.MORPH_OPEN, disk) > 0
-    locks |= hair & ~oval & (np.arange(len(head))[:, None] < face[1] + MOUTH_DEPTH_SHARE * face[3])
-    return pieces_touching(without_small_pieces(locks, MIN_HAIR_PIECE_PIXELS), loose)
+    beside = np.arange(len(head))[:, None] < face[1] + MOUTH_DEPTH_SHARE * face[3]
+    locks |= hair & ~oval & beside
+    return pieces_touching(
+        pieces_touching(without_small_pieces(locks, MIN_HAIR_PIECE_PIXELS), loose), locks & beside
+    )  # none begins below
 
 
 def hair_on_the_shoulders(

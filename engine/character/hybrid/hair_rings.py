@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter1d
+from scipy.ndimage import binary_closing, gaussian_filter1d
 
 HAIR_CLEARANCE_PIXELS = 1.5
 """Pixels by which it is before and behind what it hides."""
@@ -18,8 +18,6 @@ MIN_FRONT_COSINE = 0.3
 """Cosine to the viewer of what is seen of hair up to which it says how far before the middle hair is."""
 HAIR_ROW_SMOOTHING, DEPTH_ROW_SMOOTHING = 1.5, 4.0
 """Rows over which its outline and its depth are smoothed."""
-BEHIND_THE_EAR_RADIANS, AT_THE_NAPE_RADIANS = 1.9, 2.7
-"""Radians from the front at which hair begins on a side that shows none, at the ears' height, and at the chin's."""
 USUAL_FRONT_SHARE, MIN_FRONT_SHARE = 0.25, 0.1
 """How far before the head's middle hair is where nothing tells, and at least, as shares of the head's depth."""
 FRONT_QUANTILE = 0.9
@@ -28,43 +26,63 @@ MAX_BARE_SHARE = 0.9
 """How far aside hair is on a side that shows none, as a share of half of the head's width at most: within its outline."""
 CLOSING_ROWS = 4
 """Rows from the crown on in which hair is laid clear of what is beneath it more and more."""
+MAX_EAR_SHARE = 0.35
+"""Height of an ear among hair, at most, as a share of the head's."""
+MIN_RADIUS_PIXELS = 0.3
+"""Of a ring, where it closes."""
+OUTERMOST_PIXELS = 1.5
+"""Pixels by which something else may show further out than hair where hair is a side's outline."""
 
 
 @dataclass(frozen=True)
 class HairRings:
-    """Of each row of hair, (R,) each.
+    """Of each row of hair, (R,) each but for the last two.
 
     rows : where it is.
     left, right : its outline.
-    inner_left, inner_right : where hair ends towards the face; nan on a side that shows none.
-    ends : radians from the front at which hair begins on such a side.
-    meets : radians from the front at which both sides meet: behind, or where a lock that falls on one side alone ends.
     near, far : how deep it is in front and behind, z of picture space.
+    outermost : (2, R) bool, whether hair is the outline on the left and on the right, or above and below an ear.
     axis, middle : the column and the depth of the head's middle, of all rows.
     """
 
     rows: NDArray[np.float64]
     left: NDArray[np.float64]
     right: NDArray[np.float64]
-    inner_left: NDArray[np.float64]
-    inner_right: NDArray[np.float64]
-    ends: NDArray[np.float64]
-    meets: NDArray[np.float64]
     near: NDArray[np.float64]
     far: NDArray[np.float64]
+    outermost: NDArray[np.bool_]
     axis: float
     middle: float
 
-    def half(self, right: bool) -> NDArray[np.float64]:
-        """How far aside (R,) the outline is."""
-        return np.asarray(self.right - self.axis if right else self.axis - self.left)
+    def places(self, angles: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Where hair is (R, N, 3) so many radians (N,) from the front around to the right: ellipses of four quarters."""
+        across, along = np.sin(angles), np.cos(angles)
+        wide = np.where(across > 0, (self.right - self.axis)[:, None], (self.axis - self.left)[:, None])
+        deep = np.where(along > 0, (self.near - self.middle)[:, None], (self.middle - self.far)[:, None])
+        rows = np.broadcast_to(self.rows[:, None], wide.shape)
+        return np.stack([self.axis + wide * across, rows, self.middle + deep * along], 2)
 
-    def opening(self, right: bool) -> NDArray[np.float64]:
-        """Radians from the front (R,) at which hair begins on a side."""
-        inner = self.inner_right - self.axis if right else self.axis - self.inner_left
-        share = np.clip(inner / np.maximum(self.half(right), 1.0), -1, 1)
-        found = np.where(np.isfinite(inner), np.arcsin(share), self.ends)
-        return np.asarray(gaussian_filter1d(found, HAIR_ROW_SMOOTHING))
+
+@dataclass(frozen=True)
+class _Skull:
+    """Of a head: the least and the greatest of its places (3,), the column of its middle, and the row above which hair closes over it."""
+
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+    axis: float
+    crown: float
+
+    @property
+    def half(self) -> float:
+        return float(self.high[0] - self.low[0]) / 2
+
+    @property
+    def middle(self) -> float:
+        return float(self.low[2] + self.high[2]) / 2
+
+    @property
+    def depth(self) -> float:
+        return float(self.high[2] - self.low[2])
 
 
 def hair_rings(
@@ -72,94 +90,88 @@ def hair_rings(
     skull: NDArray[np.float64],
     front: NDArray[np.float32],
     back: NDArray[np.float32],
-    face_column: float,
+    nape: float,
 ) -> HairRings:
-    """The rings of `hair` (h, w) around the vertices of a `skull` (N, 3), picture space.
+    """The rings of `hair` (h, w) around the vertices of a `skull` (N, 3), picture space, down to the `nape`'s row at least.
 
-    `front`, `back` (h, w): how near and how far what is shown of the person besides reaches, infinite where nothing is. `face_column`: that of the
-    face's middle, at which hair parts.
+    `front`, `back` (h, w): how near and how far what is shown of the person besides reaches, infinite where nothing is.
     """
     first, last = np.flatnonzero(hair.any(1))[[0, -1]]
-    rows = np.arange(first, last + 1)
+    rows = np.arange(max(first - 1, 0), min(max(last, round(nape)), len(hair) - 1) + 1)
     low, high = skull.min(0), skull.max(0)
-    axis, half = float(np.median(skull[:, 0])), float(high[0] - low[0]) / 2
-    top = float(low[1] + CROWN_SHARE * (high[1] - low[1]))
-    outer, inner = _sides(hair[rows], round(face_column))
-    near, far = _depths(hair[rows], (front[rows], back[rows]), rows >= top, outer, (low, high), axis)
-    bare = np.array([_reach(np.isfinite(row), round(axis)) for row in front[rows]]).T
-    within = np.clip(bare - 1, 1, MAX_BARE_SHARE * half)
+    head = _Skull(low, high, float(np.median(skull[:, 0])), float(low[1] + CROWN_SHARE * (high[1] - low[1])))
+    outer = _outline(hair[rows], head.axis)
+    bare = np.array([_reach(np.isfinite(row), round(head.axis)) for row in front[rows]], np.float64).T
+    aside = np.stack([head.axis - outer[0], outer[1] - head.axis])
+    outermost = np.isfinite(outer) & ((rows > high[1]) | (aside > bare - OUTERMOST_PIXELS))
+    ear = np.ones(max(round(MAX_EAR_SHARE * float(high[1] - low[1])), 1), np.bool_)
+    outermost = np.stack([binary_closing(np.pad(one, len(ear)), ear)[len(ear) : -len(ear)] for one in outermost])
+    within = np.clip(bare - 1, 1, MAX_BARE_SHARE * head.half)
     left, right = (
-        gaussian_filter1d(
-            np.where(np.isfinite(outer[side]), outer[side], axis + sign * within[side]), HAIR_ROW_SMOOTHING
-        )
-        for side, sign in enumerate((-1, 1))
+        gaussian_filter1d(np.where(there, own, head.axis + sign * inner), HAIR_ROW_SMOOTHING)
+        for there, own, inner, sign in zip(np.isfinite(outer), outer, within, (-1, 1), strict=True)
     )
-    waist = float(np.median(skull[:, 1]))
-    lower = np.clip((rows - waist) / max(float(high[1]) - waist, 1), 0, 1)
-    ends = BEHIND_THE_EAR_RADIANS + lower * (AT_THE_NAPE_RADIANS - BEHIND_THE_EAR_RADIANS)
-    meets = _meeting(np.isfinite(outer), rows > high[1])
-    middle = float(low[2] + high[2]) / 2
-    return HairRings(rows.astype(np.float64), left, right, inner[0], inner[1], ends, meets, near, far, axis, middle)
+    wide = _known(np.fmax(np.fmax(*aside), 0.5), head.half)
+    near = _near(hair[rows], front[rows], rows, head)
+    far = _far(back[rows], rows, wide, head, hangs=bool((outermost & (rows > high[1])).any(1).all()))
+    closed = _closing(rows, wide, head)
+    near, far = (head.middle + closed * (one - head.middle) for one in (near, far))
+    for ring, centre in ((left, head.axis), (right, head.axis), (near, head.middle), (far, head.middle)):
+        ring[0] = centre + MIN_RADIUS_PIXELS * np.sign(ring[0] - centre)
+    return HairRings(rows.astype(np.float64), left, right, near, far, outermost, head.axis, head.middle)
 
 
-def _meeting(there: NDArray[np.bool_], below: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Radians from the front (R,) at which the sides of rings meet, which have hair or not, `there` (2, R): `below` (R,) the chin a lock that falls
-    on one side alone goes no further than that."""
-    meets = np.full(len(below), np.pi)
-    meets[below & there[1] & ~there[0]] = BEHIND_THE_EAR_RADIANS
-    meets[below & there[0] & ~there[1]] = 2 * np.pi - BEHIND_THE_EAR_RADIANS
-    return np.asarray(gaussian_filter1d(meets, DEPTH_ROW_SMOOTHING, mode="nearest"))
-
-
-def _sides(hair: NDArray[np.bool_], centre: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The columns (2, R) at which hair (R, w) ends outwards and towards the face, on the left and on the right of its `centre`, nan where a side
-    has none."""
-    outer, inner = np.full((2, 2, len(hair)), np.nan)
-    for k, row in enumerate(hair):
-        own = np.flatnonzero(row)
-        left, right = own[own <= centre], own[own >= centre]
-        if len(left):
-            outer[0, k], inner[0, k] = left[0] - 0.5, centre if row[centre] else left[-1] + 0.5
-        if len(right):
-            outer[1, k], inner[1, k] = right[-1] + 0.5, centre if row[centre] else right[0] - 0.5
-    return outer, inner
-
-
-def _depths(
-    hair: NDArray[np.bool_],
-    shown: tuple[NDArray[np.float32], NDArray[np.float32]],
-    beside: NDArray[np.bool_],
-    outer: NDArray[np.float64],
-    skull: tuple[NDArray[np.float64], NDArray[np.float64]],
-    axis: float,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """How near and how far (R,) hair is: before all that it is seen to hide, as far behind the head as it is wide of it, and hanging down from
-    there. Above the skull, which is `beside` (R,) the others, it closes as its outline does."""
-    low, high = skull
-    middle, size, half = float(low[2] + high[2]) / 2, float(high[2] - low[2]), float(high[0] - low[0]) / 2
+def _outline(hair: NDArray[np.bool_], axis: float) -> NDArray[np.float64]:
+    """The columns (2, R) at which hair (R, w) ends outwards on the left and on the right of an `axis`, nan where a side has none."""
     columns = np.arange(hair.shape[1])
-    need, behind = np.full((2, len(hair)), np.nan)
-    for k in np.flatnonzero(beside & hair.any(1)):
+    left, right = hair & (columns < axis), hair & (columns > axis)
+    first, last = left.argmax(1) - 0.5, hair.shape[1] - right[:, ::-1].argmax(1) - 0.5
+    return np.stack([np.where(left.any(1), first, np.nan), np.where(right.any(1), last, np.nan)])
+
+
+def _near(
+    hair: NDArray[np.bool_], front: NDArray[np.float32], rows: NDArray[np.intp], head: _Skull
+) -> NDArray[np.float64]:
+    """How near (R,) hair (R, w) is: below the chin before all that it is seen to hide, whose `front` is known (R, w). Beside the head it is laid
+    clear of that."""
+    need = np.full(len(rows), np.nan)
+    need[rows <= head.high[1]] = USUAL_FRONT_SHARE * head.depth
+    for k in np.flatnonzero((rows > head.high[1]) & hair.any(1)):
         own = np.flatnonzero(hair[k])
-        radius = np.maximum(np.where(own < axis, axis - own[0], own[-1] - axis) + 0.5, 1)
-        cosine = np.sqrt(np.clip(1 - ((own - axis) / radius) ** 2, 0, 1))
-        depth = shown[0][k, own]
-        told = np.isfinite(depth) & (cosine > MIN_FRONT_COSINE)
+        radius = np.maximum(np.where(own < head.axis, head.axis - own[0], own[-1] - head.axis) + 0.5, 1)
+        cosine = np.sqrt(np.clip(1 - ((own - head.axis) / radius) ** 2, 0, 1))
+        told = np.isfinite(front[k, own]) & (cosine > MIN_FRONT_COSINE)
         if told.any():
-            need[k] = np.quantile((depth[told] + HAIR_CLEARANCE_PIXELS - middle) / cosine[told], FRONT_QUANTILE)
-        span = (np.abs(columns - axis) < half) & np.isfinite(shown[1][k])
-        if span.any():
-            behind[k] = shown[1][k][span].min()
-    wide = np.fmax(np.fmax(axis - outer[0], outer[1] - axis), 0.5)
-    wide = _known(wide, half)
-    stands_off = gaussian_filter1d(np.clip(wide - half, 0, MAX_BACK_HAIR_SHARE * size), DEPTH_ROW_SMOOTHING)
-    near = middle + np.clip(_known(need, USUAL_FRONT_SHARE * size), MIN_FRONT_SHARE * size, MAX_FRONT_HAIR_SHARE * size)
-    far = np.minimum.accumulate(_known(behind, float(low[2])) - stands_off)
-    near, far = (gaussian_filter1d(one, DEPTH_ROW_SMOOTHING, mode="nearest") for one in (near, far))
-    crown = int(np.argmax(beside)) if beside.any() else len(hair) - 1
-    share = np.clip(wide[:crown] / wide[crown], 0.02, 1)
-    near[:crown], far[:crown] = middle + share * (near[crown] - middle), middle + share * (far[crown] - middle)
-    return near, far - HAIR_CLEARANCE_PIXELS * np.clip(np.arange(len(hair)) / CLOSING_ROWS, 0, 1)
+            before = front[k, own][told] + HAIR_CLEARANCE_PIXELS - head.middle
+            need[k] = np.quantile(before / cosine[told], FRONT_QUANTILE)
+    least, most = MIN_FRONT_SHARE * head.depth, MAX_FRONT_HAIR_SHARE * head.depth
+    found = np.clip(_known(need, USUAL_FRONT_SHARE * head.depth), least, most)
+    return np.asarray(head.middle + gaussian_filter1d(found, DEPTH_ROW_SMOOTHING, mode="nearest"))
+
+
+def _far(
+    back: NDArray[np.float32], rows: NDArray[np.intp], wide: NDArray[np.float64], head: _Skull, *, hangs: bool
+) -> NDArray[np.float64]:
+    """How far (R,) hair is: as far behind the head as it is `wide` (R,) of it, and closer and closer to what is behind it, whose `back` is known
+    (R, w). From the chin down it `hangs`; else it keeps to the head from the ears down."""
+    span = np.abs(np.arange(back.shape[1]) - head.axis) < head.half
+    there = np.isfinite(back) & span & (rows >= head.crown)[:, None]
+    behind = np.where(there.any(1), np.where(there, back, np.inf).min(1), np.nan)
+    behind = _known(behind, float(head.low[2]))
+    start = head.high[1] if hangs else (head.low[1] + head.high[1]) / 2
+    closer = np.clip((rows - start) / max(rows[-1] - start, 1), 0, 1)
+    stands_off = (1 - closer) * np.clip(wide - head.half, 0, MAX_BACK_HAIR_SHARE * head.depth)
+    found = (np.minimum.accumulate(behind) if hangs else behind) - gaussian_filter1d(stands_off, DEPTH_ROW_SMOOTHING)
+    clear = HAIR_CLEARANCE_PIXELS * np.clip(np.arange(len(rows)) / CLOSING_ROWS, 0, 1)
+    return np.asarray(gaussian_filter1d(found, DEPTH_ROW_SMOOTHING, mode="nearest") - clear)
+
+
+def _closing(rows: NDArray[np.intp], wide: NDArray[np.float64], head: _Skull) -> NDArray[np.float64]:
+    """How deep (R,) hair is above the crown, as a share of how deep it is there: as its outline closes, and as a dome does."""
+    count = int((rows < head.crown).sum())
+    dome = np.sqrt(1 - (1 - np.arange(count) / max(count, 1)) ** 2)
+    as_wide = wide[:count] / wide[min(count, len(wide) - 1)]
+    return np.concatenate([np.clip(np.minimum(as_wide, dome), 0.02, 1), np.ones(len(rows) - count)])
 
 
 def _reach(there: NDArray[np.bool_], column: int) -> tuple[int, int]:

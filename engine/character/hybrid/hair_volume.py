@@ -1,32 +1,64 @@
-"""Hair that stands off the head or falls from it: a shell of its own around the template's head, open before the face.
+"""Hair that stands off the head or falls from it: a surface of its own around the template's head, open where no hair is seen.
 
 Beyond the paper, whose head is a relief: with long hair that is a hood with a face before it, and from its side there is none. The picture
 says how wide hair is at each height and what of it is before the neck; around the back it is as far from the head as it is at the sides,
-and hangs down.
+and hangs down. What of the head is beneath it is pressed in: nothing comes through.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.character.fit.template_fit import load_human
 from engine.character.hybrid.hair_colours import hair_round
-from engine.character.hybrid.hair_rings import BEHIND_THE_EAR_RADIANS, HairRings, hair_rings
+from engine.character.hybrid.hair_extent import BEHIND_THE_EAR_RADIANS, HeadLevels, hair_extent
+from engine.character.hybrid.hair_rings import HAIR_CLEARANCE_PIXELS, HairRings, hair_rings
+from engine.character.parts.labels import HEAD_LABEL
+from engine.character.shell.colours.head_map import (
+    CHIN_LANDMARK,
+    EYES_LANDMARKS,
+    NAPE_HEIGHT_SHARE,
+    NOSE_TIP_LANDMARK,
+)
 from engine.character.shell.piece import Colours, Piece
 from engine.character.shell.template_mesh import TemplateMesh
+from engine.geometry.mesh.clipping import clip, walled
+from engine.geometry.mesh.welding import same_rows
+from engine.imaging.filling.nearest import nearest_values
+from engine.render.rasteriser import rasterise
 
 SURE_HEAD_WEIGHT = 0.9
 """Weight of the head from which on a vertex is the skull's."""
-RING_VERTICES = 40
-"""Vertices of each of the two walls in a row, half of them on each side."""
+RING_COLUMNS = 80
+"""Columns of vertices around the head; behind, where the first meets the last, there is one more."""
 MIN_HAIR_ROWS = 8
 """Rows of hair that are worth a volume."""
 HAIR_THICKNESS_PIXELS, MAX_THICKNESS_SHARE = 4.0, 0.4
-"""Pixels between its walls, at most, and the same as a share of its width."""
-MIN_RADIUS_PIXELS = 0.3
-"""Of a ring, where it closes."""
+"""Pixels between its walls where it hangs, at most, and the same as a share of how far it is from the head's axis."""
+SKULL_DEPTH_PIXELS = 1.0
+"""Pixels within the head at which its inner wall is: on the head hair has no thickness that is seen."""
+STRAIGHT_COSINE = 0.35
+"""Cosine to the viewer from which on the inner wall is straight behind the outer one."""
 HEAD_HAIR_SHARE, TRUNK_HAIR_SHARE = 0.35, 0.75
 """How far below the chin, as a share of the head's height, hair moves with the head alone; how much of it moves with the trunk from twice as far on."""
+
+
+@dataclass(frozen=True)
+class HairedHead:
+    """A head with its hair.
+
+    hair : a closed surface, in its own colours.
+    pictured : (V, 3), the shell's vertices, what is beneath hair within it.
+    framed : (V,) float32, from 0 to 1, what of the head ends at hair further around: nothing else is beside it.
+    """
+
+    hair: Piece
+    pictured: NDArray[np.float64]
+    framed: NDArray[np.float32]
 
 
 def hair_volume(
@@ -37,9 +69,8 @@ def hair_volume(
     hair: NDArray[np.bool_],
     front: NDArray[np.float32],
     back: NDArray[np.float32],
-    face: NDArray[np.floating],
-) -> Piece | None:
-    """The shell of hair around a head; None where there is too little.
+) -> HairedHead | None:
+    """The hair around a head, and what of the head is beneath it within; None where there is too little.
 
     Parameters
     ----------
@@ -47,65 +78,166 @@ def hair_volume(
     rgb : (H, W, 3), the picture; `to_grid` (2, 3) takes its pixels to those of the grid.
     hair : (h, w), what of the grid shows hair.
     front, back : (h, w), how near and how far what is shown of the person besides reaches, z of picture space, infinite where nothing is.
-    face : (5,), the ellipse around the face.
     """
     if int(hair.any(1).sum()) < MIN_HAIR_ROWS:
         return None
-    skull = pictured[mesh.head > SURE_HEAD_WEIGHT]
-    of = hair_rings(hair, skull, front, back, float(face[0]))
-    angles = _angles(of)
-    outer = _ring(of, angles, np.zeros((len(of.rows), 1)))
-    thick = np.minimum(HAIR_THICKNESS_PIXELS, MAX_THICKNESS_SHARE * (of.right - of.left))
-    loop = np.concatenate([outer, _ring(of, angles, thick[:, None])[:, ::-1]], 1)
-    vertices = loop.reshape(-1, 3)
+    skull, levels = pictured[mesh.head > SURE_HEAD_WEIGHT], _levels(mesh, pictured)
+    of = hair_rings(hair, skull, front, back, levels.nape)
+    angles = np.linspace(-np.pi, np.pi, RING_COLUMNS + 1)
+    beneath = _head_radius(mesh, pictured, of)
+    outer = _clear_of_the_head(of, of.places(angles), beneath)
+    outer[:, -1] = outer[:, 0]
+    extent = hair_extent(hair, np.isfinite(front), of, outer, angles, levels)
+    extent[:, -1] = extent[:, 0]
+    pressed = _pressed(mesh, pictured, of, outer, extent)
+    inner = _inner_wall(of, outer, beneath, front, levels)
+    cut = clip(_grid_triangles(len(of.rows)), extent.ravel())
+    walls = [cut.extended(one.reshape(-1, 3)) for one in (outer, inner)]
+    column, row = np.meshgrid(np.linspace(0, 1, RING_COLUMNS + 1), np.linspace(0, 1, len(of.rows)))
+    places = cut.extended(np.stack([column, row], 2).reshape(-1, 2))
+    used = np.unique(cut.triangles)
+    if not len(used):
+        return None
+    number = np.full(len(places), -1, np.int32)
+    number[used] = np.arange(len(used))
+    triangles = walled(number[cut.triangles], same_rows(walls[0][used]), len(used))
+    vertices = np.concatenate(
+        [one[used] for one in (*walls, walls[1])]
+    )  # the border's inner end has the outer wall's colours
     bones, weights = _carried(mesh, skull, vertices)
-    column, row = np.meshgrid(np.linspace(0, 1, RING_VERTICES), np.linspace(0, 1, len(of.rows)))
-    places = np.stack([column, row], 2)
-    places = np.concatenate([places, places[:, ::-1]], 1).reshape(-1, 2)
-    seen = hair_round(rgb, to_grid, hair, outer[..., :2], angles)
-    return Piece("Head", vertices, _walls(len(of.rows)), bones, weights, Colours(places, seen))
+    outside, inside = hair_round(rgb, to_grid, hair, np.isfinite(front), outer[..., :2], float(np.ptp(skull[:, 1])))
+    half = places[used] * [0.5, 1]
+    colours = Colours(np.concatenate([half, half + np.array([0.5, 0]), half]), np.concatenate([outside, inside], 1))
+    hair_piece = Piece("Head", vertices, triangles, bones, weights, colours)
+    return HairedHead(hair_piece, pressed, _framed(mesh, pictured, of, angles, extent))
 
 
-def _angles(of: HairRings) -> NDArray[np.float64]:
-    """The angles (R, N) of a ring's vertices, radians from the front, from where hair ends on the right around the back to the left."""
-    meets = of.meets[:, None]
-    alone = (np.pi - meets) / (np.pi - BEHIND_THE_EAR_RADIANS)  # 1 where hair is on the right alone, -1 on the left
-    right, left = (of.opening(one)[:, None] for one in (True, False))
-    right, left = (
-        right + np.clip(-alone, 0, 1) * (meets - right),
-        left + np.clip(alone, 0, 1) * (2 * np.pi - meets - left),
-    )
-    along = np.linspace(0, 1, RING_VERTICES // 2)
-    halves = [right + along * (meets - right), meets + along * (2 * np.pi - left - meets)]
-    return np.asarray(np.concatenate(halves, 1))  # behind, both sides have a vertex of their own
+def _levels(mesh: TemplateMesh, pictured: NDArray[np.float64]) -> HeadLevels:
+    """The rows at which a head has its ears, its nape and its chin."""
+    row = pictured[mesh.renamed(load_human().face), 1]
+    eyes, nose, chin = float(row[EYES_LANDMARKS].mean()), float(row[NOSE_TIP_LANDMARK]), float(row[CHIN_LANDMARK])
+    return HeadLevels((eyes + nose) / 2, chin + NAPE_HEIGHT_SHARE * (nose - chin), chin)
 
 
-def _ring(of: HairRings, angles: NDArray[np.float64], inwards: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The vertices (R, N, 3) at some angles (R, N), so many pixels (R, 1) within the outline."""
-    across, along = np.sin(angles), np.cos(angles)
-    left, right = of.half(False)[:, None], of.half(True)[:, None]
-    radius = np.maximum(np.where(across > 0, right, left) - inwards, MIN_RADIUS_PIXELS)
-    ahead, behind = (of.near - of.middle)[:, None], (of.middle - of.far)[:, None]
-    deep = np.maximum(np.where(along > 0, ahead, behind) - inwards, MIN_RADIUS_PIXELS)
-    rows = np.broadcast_to(of.rows[:, None], angles.shape)
-    return np.stack([of.axis + radius * across, rows, of.middle + deep * along], 2)
+def _polar(of: HairRings, places: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Radians from the front around to the right, and pixels from the head's axis, of places (..., 3)."""
+    aside, ahead = places[..., 0] - of.axis, places[..., 2] - of.middle
+    return np.arctan2(aside, ahead), np.hypot(aside, ahead)
 
 
-def _walls(rows: int) -> NDArray[np.int32]:
-    """Triangles of a tube of so many loops of twice `RING_VERTICES` vertices, closed at its first and last."""
-    around = 2 * RING_VERTICES
-    ring = np.arange(rows * around).reshape(rows, around)
-    upper, lower = ring[:-1], ring[1:]
-    following, below = np.roll(upper, -1, 1), np.roll(lower, -1, 1)
-    sides = [
-        np.stack([upper, lower, below], -1).reshape(-1, 3),
-        np.stack([upper, below, following], -1).reshape(-1, 3),
-    ]
-    a = np.arange(RING_VERTICES - 1)
-    cap = np.concatenate(
-        [np.stack([a, a + 1, around - 1 - a], 1), np.stack([a + 1, around - 2 - a, around - 1 - a], 1)]
-    )
-    return np.concatenate([*sides, cap, cap[:, ::-1] + (rows - 1) * around]).astype(np.int32)
+def _at(
+    values: NDArray[np.floating], of: HairRings, angles: NDArray[np.float64], rows: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Values (R, `RING_COLUMNS` + 1) of rows and of even angles from -pi to pi at other angles and rows (...)."""
+    x = (angles + np.pi) / (2 * np.pi) * RING_COLUMNS
+    column, row = (np.atleast_2d(each).astype(np.float32) for each in (x, rows - of.rows[0]))
+    found = cv2.remap(np.asarray(values, np.float32), column, row, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    return np.asarray(found, np.float64).reshape(angles.shape)
+
+
+def _head_radius(mesh: TemplateMesh, pictured: NDArray[np.float64], of: HairRings) -> NDArray[np.float64]:
+    """How far head and neck, without ears, are from the axis (R, `RING_COLUMNS` + 1) at even angles from -pi to pi; 0 above and below them."""
+    own = (mesh.parts[:, HEAD_LABEL] > 0.5) & ~mesh.ear & ~mesh.eye
+    corners = mesh.triangles[own[mesh.triangles].all(1)]
+    angle, radius = _polar(of, pictured)
+    turned = angle[corners]
+    turned = turned[:, :1] + (turned - turned[:, :1] + np.pi) % (2 * np.pi) - np.pi
+    columns = (turned + np.pi) / (2 * np.pi) * RING_COLUMNS
+    places = np.stack([columns, pictured[corners, 1] - of.rows[0], -radius[corners]], -1)
+    copies = np.concatenate([places + np.array([turn * RING_COLUMNS, 0, 0]) for turn in (0, -1, 1)]).reshape(-1, 3)
+    drawn = rasterise(copies, np.arange(len(copies), dtype=np.int32).reshape(-1, 3), (len(of.rows), RING_COLUMNS + 1))
+    there = drawn.triangle >= 0
+    if not there.any():
+        return np.zeros(there.shape)
+    wide, deep = (np.concatenate([one[:, :-1], one, one[:, 1:]], 1) for one in (there, drawn.depth))
+    filled = -nearest_values(deep, wide)[:, RING_COLUMNS : 2 * RING_COLUMNS + 1]
+    return np.where(there.any(1, keepdims=True), filled, 0.0)
+
+
+def _clear_of_the_head(of: HairRings, places: NDArray[np.float64], beneath: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The `places` (R, N, 3) of hair moved outwards from what is `beneath` (R, N), no further aside than its outline."""
+    angle, radius = _polar(of, places)
+    clear = np.maximum(radius, _at(beneath, of, angle, places[..., 1]) + HAIR_CLEARANCE_PIXELS)
+    moved = places.copy()
+    moved[..., 0] = np.clip(of.axis + clear * np.sin(angle), of.left[:, None], of.right[:, None])
+    moved[..., 2] = of.middle + clear * np.cos(angle)
+    rise = np.clip(np.arange(len(of.rows)) / (2 * HAIR_CLEARANCE_PIXELS), 0, 1)[
+        :, None, None
+    ]  # at its top a ring is closed
+    return places + rise * (moved - places)
+
+
+def _inner_wall(
+    of: HairRings,
+    outer: NDArray[np.float64],
+    beneath: NDArray[np.float64],
+    front: NDArray[np.float32],
+    levels: HeadLevels,
+) -> NDArray[np.float64]:
+    """The inner wall (R, N, 3): within the head as far as there is one, and close to the `outer` one where hair hangs. In front it is straight
+    behind that, so that a viewer sees nothing of the border between both; `front` (h, w): how near what is beneath reaches."""
+    angle, radius = _polar(of, outer)
+    thin = radius - np.minimum(HAIR_THICKNESS_PIXELS, MAX_THICKNESS_SHARE * radius)
+    hangs = np.clip((of.rows - levels.nape) / max(levels.chin - levels.nape, 1), 0, 1)[:, None]
+    head = np.clip(_at(beneath, of, angle, outer[..., 1]) - SKULL_DEPTH_PIXELS, 0.2 * radius, thin)
+    within = head + hangs * (thin - head)
+    inner = outer.copy()
+    inner[..., 0], inner[..., 2] = of.axis + within * np.sin(angle), of.middle + within * np.cos(angle)
+    x, y = (np.rint(outer[..., k]).astype(np.intp).clip(0, front.shape[1 - k] - 1) for k in (0, 1))
+    behind = outer[..., 2] - HAIR_THICKNESS_PIXELS
+    head = np.where(np.isfinite(front[y, x]), np.minimum(front[y, x] - SKULL_DEPTH_PIXELS, behind), behind)
+    straight = np.maximum(head + hangs * (behind - head), of.middle)
+    share = np.clip(np.cos(angle) / STRAIGHT_COSINE, 0, 1)[..., None]
+    return inner + share * (np.stack([outer[..., 0], outer[..., 1], np.minimum(straight, outer[..., 2])], 2) - inner)
+
+
+def _pressed(
+    mesh: TemplateMesh,
+    pictured: NDArray[np.float64],
+    of: HairRings,
+    outer: NDArray[np.float64],
+    extent: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """The vertices `pictured` (V, 3) with what of the head is beneath hair within its `outer` wall (R, N, 3)."""
+    own = (mesh.parts[:, HEAD_LABEL] > 0.5) & ~mesh.eye
+    angle, radius = _polar(of, pictured)
+    row, wall = np.maximum(pictured[:, 1], of.rows[0] + HAIR_CLEARANCE_PIXELS), _polar(of, outer)[1]
+    beside = own & (row <= of.rows[-1])
+    covered = np.clip(2 * _at(extent, of, angle, row), 0, 1) * beside
+    most = np.maximum(_at(wall, of, angle, row) - HAIR_CLEARANCE_PIXELS, 0)
+    within = radius + covered * np.minimum(most - radius, 0)
+    moved = pictured.copy()
+    moved[own, 0] = (of.axis + within * np.sin(angle))[own]
+    moved[own, 1] = (pictured[:, 1] + covered * (row - pictured[:, 1]))[own]
+    moved[own, 2] = (of.middle + within * np.cos(angle))[own]
+    return moved
+
+
+def _framed(
+    mesh: TemplateMesh,
+    pictured: NDArray[np.float64],
+    of: HairRings,
+    angles: NDArray[np.float64],
+    extent: NDArray[np.float64],
+) -> NDArray[np.float32]:
+    """From 0 to 1 (V,), what of the head has hair further aside at its height, before where an ear would be."""
+    covered = np.clip(2 * extent, 0, 1) * (np.abs(angles) < BEHIND_THE_EAR_RADIANS)
+    half = RING_COLUMNS // 2
+    further = np.maximum.accumulate(covered[:, half:][:, ::-1], 1)[:, ::-1]
+    nearer = np.maximum.accumulate(covered[:, : half + 1], 1)
+    angle, _ = _polar(of, pictured)
+    row = pictured[:, 1]
+    found = _at(np.concatenate([nearer[:, :-1], further], 1), of, angle, row)
+    beside = (mesh.parts[:, HEAD_LABEL] > 0.5) & (row >= of.rows[0]) & (row <= of.rows[-1])
+    return np.where(beside, found, 0).astype(np.float32)
+
+
+def _grid_triangles(rows: int) -> NDArray[np.int32]:
+    """Triangles of so many rows of `RING_COLUMNS` + 1 vertices, turned outwards."""
+    number = np.arange(rows * (RING_COLUMNS + 1)).reshape(rows, -1)
+    upper, following, lower, below = number[:-1, :-1], number[:-1, 1:], number[1:, :-1], number[1:, 1:]
+    halves = [np.stack([upper, lower, below], -1), np.stack([upper, below, following], -1)]
+    return np.concatenate([half.reshape(-1, 3) for half in halves]).astype(np.int32)
 
 
 def _carried(

@@ -34,13 +34,13 @@ MIN_SHOWN_HEAD_WEIGHT = 0.3
 """Share of the head in what moves a vertex that may show in its outline."""
 HAIR_DEPTH_SHARE = 0.09
 """How far hair that keeps to the skull stands off it, as a share of the head's height."""
-MAX_LOOSE_HAIR_SHARE, MAX_UNCOVERED_SHARE = 0.06, 0.13
+MAX_LOOSE_HAIR_SHARE, MAX_UNCOVERED_SHARE = 0.02, 0.13
 """Share of what the picture shows of the head that may be further off, and share of the template's head that may lie
 beside the person, for it to be a head of that shape. Beyond, hair is loose, or the head is not where it is taken to
 be."""
 MAX_UNKNOWN_SHARE = 0.22
 """Share of the template's head that may lie beside the person where it is displaced to the outline, hair apart."""
-NECK_SURROUND_SHARE, COLLAR_DEPTH_SHARE, MAX_FALLEN_HAIR_SHARE = 0.25, 0.03, 0.27
+NECK_SURROUND_SHARE, COLLAR_DEPTH_SHARE, MAX_FALLEN_HAIR_SHARE = 0.25, 0.03, 0.22
 """How far about jaw and neck falling hair is looked for, and how far off them it is at least, both in heights of the
 head. And how much of it there may be, as a share of what jaw and neck cover."""
 FALLEN_HAIR_SHARE = 1.2

@@ -8,19 +8,16 @@ hair nor clothes. So each is what it is good at, and limbs reach into the trunk:
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.figure.face_region import face_ellipse
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
 from engine.character.hybrid.hair_volume import hair_volume
 from engine.character.hybrid.head import (
     hair_beside_the_head,
-    hair_keeps_to_the_head,
     head_is_known,
     joined_at_the_neck,
     with_hair_apart,
@@ -35,14 +32,19 @@ from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, TRUNK_LABEL
 from engine.character.parts.strange_colours import strange_colours
 from engine.character.shell.piece import Piece
 from engine.character.shell.props import props_of
-from engine.character.shell.shell import Shell, as_fitted, shaped, shell_of
+from engine.character.shell.shell import (
+    Shell,
+    as_fitted,
+    face_points,
+    shaped,
+    shell_of,
+    with_head_at_face,
+)
 from engine.character.shell.template_mesh import template_mesh
 from engine.character.surface.face_warp import seen_face
 from engine.character.surface.front_and_back import ClosedMesh, stitch_front_and_back
 from engine.render.rasteriser import rasterise
 
-LooseHair = Literal["shell", "relief"]
-"""What a head is whose hair does not keep to it."""
 SHOULDER_NEARNESS = 0.3
 """How near to a shoulder, from 0 to 1 there, the arm and the trunk are one surface."""
 
@@ -57,6 +59,7 @@ class Hybrid:
     labels : what each pixel shows of the body, as the trunk is made of them.
     strange : (h, w) bool, pixels that have not the colours of what they are labelled as.
     hair : (h, w) bool, what of the trunk's pixels shows hair that falls over it.
+    framed : (V,) float32, what of the shell's head ends at a surface of hair, from 0 to 1; none where there is none.
     """
 
     shell: Shell
@@ -65,6 +68,7 @@ class Hybrid:
     labels: Labels
     strange: NDArray[np.bool_]
     hair: NDArray[np.bool_]
+    framed: NDArray[np.float32] | None = None
 
     def at_shoulders(self) -> NDArray[np.bool_]:
         """The pixels (h, w) of the grid at which shoulders are, whose surface is the arm's and the trunk's alike."""
@@ -77,19 +81,16 @@ class Hybrid:
         )
 
 
-def make_hybrid(
-    figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels, loose_hair: LooseHair = "shell"
-) -> Hybrid:
-    """Both surfaces of a person: `figure` and `silhouette` as they were found, the `fitted` template, and the `labels` of its parts.
-
-    `loose_hair`: what a head is whose hair does not keep to it: the template's, with a `shell` of hair around it, or the `relief`'s.
-    """
+def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Hybrid:
+    """Both surfaces of a person: `figure` and `silhouette` as they were found, the `fitted` template, and the `labels` of its parts. A head that is
+    not known to be where the template's is remains the relief's."""
     mesh, human = template_mesh(), load_human()
     camera = silhouette.camera(fitted.picture_camera())
     labels = labels.bare
-    head = (figure, silhouette, labels, mesh, as_fitted(silhouette, fitted)[1])
-    with_its_head = head_is_known(*head) if loose_hair == "shell" else hair_keeps_to_the_head(*head)
-    if with_its_head and loose_hair == "shell":
+    placed = with_head_at_face(mesh, as_fitted(silhouette, fitted)[1], face_points(figure, silhouette, mesh))
+    head = (figure, silhouette, labels, mesh, placed)
+    with_its_head = head_is_known(*head)
+    if with_its_head:
         labels = with_hair_apart(*head)
     own = trunk_labels(labels)
     strange = strange_colours(silhouette.rgb, own.labels)
@@ -113,20 +114,16 @@ def make_hybrid(
     shown = cut_off(mesh, limbs).triangles
     pictured = drawn_to_the_outline(pictured, limbs, shown, trunk, silhouette.soft, own.held)
     covering = Piece("trunk", trunk.vertices, trunk.triangles, trunk.bones.astype(np.intp), trunk.weights)
-    pieces = props_of(mesh, pictured, silhouette, [covering], own.held)
+    pieces, framed = props_of(mesh, pictured, silhouette, [covering], own.held), None
     if own.held is not None and (own.held == HEAD_LABEL).any():
         front, back = _depths(pictured, shown, trunk, (own.labels.shape[0], own.labels.shape[1]))
-        ellipse = face_ellipse(figure, silhouette.to_grid, seen.labels == HEAD_LABEL)
-        hair = (
-            None
-            if ellipse is None
-            else hair_volume(
-                mesh, pictured, figure.rgb, silhouette.to_grid, own.held == HEAD_LABEL, front, back, ellipse
-            )
-        )
-        pieces += [] if hair is None else [hair]
+        front = np.where(silhouette.mask, front, -np.inf).astype(np.float32)
+        hair = hair_volume(mesh, pictured, figure.rgb, silhouette.to_grid, own.held == HEAD_LABEL, front, back)
+        if hair is not None:
+            pieces.append(hair.hair)
+            pictured, framed = hair.pictured, hair.framed
     shell = shell_of(mesh, replace(shape, pictured=pictured), silhouette, fitted, pieces)
-    return Hybrid(shell, limbs, trunk, own, strange, fallen)
+    return Hybrid(shell, limbs, trunk, own, strange, fallen, framed)
 
 
 def _depths(

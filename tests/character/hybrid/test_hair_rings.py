@@ -43,18 +43,34 @@ def long_hair() -> HairRings:
     aside = np.abs(x - MIDDLE[0])
     straight = (aside < half) & (aside > 0.9 * HALF[0]) & (y > top + half / 2) & (y < ENDS)
     front = depths().astype(np.float32)
-    return hair_rings(dome | straight, skull(), front, -front, float(MIDDLE[0]))
+    return hair_rings(dome | straight, skull(), front, -front, MIDDLE[1] + HALF[1])
 
 
 def test_the_back_of_long_hair_hangs_down_from_where_it_is_furthest(long_hair: HairRings) -> None:
-    """A neck is narrower and nearer than the head above: hair does not follow it."""
-    below = long_hair.rows > MIDDLE[1] - 0.5 * HALF[1]
-    assert (np.diff(long_hair.far[below]) < 1e-6).all()
+    """A neck is narrower and nearer than the head above: hair does not follow it, but comes to hang straight from the head."""
+    beside = (long_hair.rows > MIDDLE[1]) & (long_hair.rows < MIDDLE[1] + HALF[1] - 6)
     furthest = -HALF[2] - STANDS_OFF - HAIR_CLEARANCE_PIXELS
-    np.testing.assert_allclose(long_hair.far[long_hair.rows > MIDDLE[1] + HALF[1]], furthest, atol=1.0)
+    np.testing.assert_allclose(long_hair.far[beside], furthest, atol=1.0)
+    np.testing.assert_allclose(long_hair.far[-1], -HALF[2] - HAIR_CLEARANCE_PIXELS, atol=2.5)
+
+
+def test_they_close_above(long_hair: HairRings) -> None:
+    first = long_hair.places(np.linspace(-np.pi, np.pi, 20))[0]
+    assert np.hypot(first[:, 0] - MIDDLE[0], first[:, 2] - MIDDLE[2]).max() < 0.5
+
+
+def test_places_are_on_its_ellipses(long_hair: HairRings) -> None:
+    """Before, aside and behind it is where each quarter ends."""
+    ahead, right, behind, left = long_hair.places(np.array([0, 0.5 * np.pi, np.pi, 1.5 * np.pi]))[40:].transpose(
+        1, 0, 2
+    )
+    np.testing.assert_allclose(ahead[:, 2], long_hair.near[40:])
+    np.testing.assert_allclose(behind[:, 2], long_hair.far[40:])
+    np.testing.assert_allclose(right[:, 0], long_hair.right[40:])
+    np.testing.assert_allclose(left[:, 0], long_hair.left[40:])
 
 
 def test_its_outline_is_as_wide_as_it_is_seen(long_hair: HairRings) -> None:
     beside = (long_hair.rows > MIDDLE[1]) & (long_hair.rows < ENDS - 8)
-    for right in (False, True):
-        np.testing.assert_allclose(long_hair.half(right)[beside], HALF[0] + STANDS_OFF, atol=1.0)
+    for aside in (long_hair.axis - long_hair.left, long_hair.right - long_hair.axis):
+        np.testing.assert_allclose(aside[beside], HALF[0] + STANDS_OFF, atol=1.0)

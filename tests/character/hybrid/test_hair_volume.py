@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -10,11 +11,11 @@ from engine.character.figure.face_region import within_oval
 from engine.character.fit.template_fit import load_human, pose_template
 from engine.character.hybrid.hair_colours import COLUMNS, hair_round
 from engine.character.hybrid.hair_mask import hair_beside_the_face, hair_on_the_shoulders
-from engine.character.hybrid.hair_volume import hair_volume
+from engine.character.hybrid.hair_volume import HairedHead, hair_volume
 from engine.character.parts.labels import HEAD_LABEL
 from engine.character.shell.piece import Piece
 from engine.character.shell.template_mesh import template_mesh
-from engine.geometry.mesh.welding import is_closed
+from engine.geometry.mesh.welding import is_closed, same_rows
 from engine.render.rasteriser import rasterise
 from tests.character.shell.test_displacement import SHAPE, arms_down, covered, on_grid
 from tests.character.shell.test_pieces import volume
@@ -132,23 +133,26 @@ def picture(hair: NDArray[np.bool_], skull: NDArray[np.float64]) -> NDArray[np.u
 
 
 @pytest.fixture(scope="module")
-def piece(
-    body: NDArray[np.float64], hair: NDArray[np.bool_], face: NDArray[np.float64], picture: NDArray[np.uint8]
-) -> Piece:
+def haired(body: NDArray[np.float64], hair: NDArray[np.bool_], picture: NDArray[np.uint8]) -> HairedHead:
     mesh = template_mesh()
     near = rasterise(body * [1, 1, -1], mesh.triangles, SHAPE)
     far = rasterise(body, mesh.triangles, SHAPE)
     front = np.where(near.triangle >= 0, -near.depth, -np.inf).astype(np.float32)
     back = np.where(far.triangle >= 0, far.depth, np.inf).astype(np.float32)
-    made = hair_volume(mesh, body, picture, np.eye(2, 3), hair, front, back, face)
+    made = hair_volume(mesh, body, picture, np.eye(2, 3), hair, front, back)
     assert made is not None
     return made
+
+
+@pytest.fixture(scope="module")
+def piece(haired: HairedHead) -> Piece:
+    return haired.hair
 
 
 def test_it_is_a_closed_shell_with_the_outline_of_the_hair(
     piece: Piece, body: NDArray[np.float64], hair: NDArray[np.bool_]
 ) -> None:
-    assert is_closed(piece.triangles) and volume(piece) > 0
+    assert is_closed(same_rows(piece.vertices)[piece.triangles]) and volume(piece) > 0
     np.testing.assert_allclose(piece.weights.sum(1), 1, atol=1e-6)
     own = rasterise(piece.vertices * [1, 1, -1], piece.triangles, SHAPE).triangle >= 0
     both = own | covered(body)
@@ -178,14 +182,58 @@ def test_it_is_behind_the_head_and_before_its_sides_and_open_at_the_face(
     assert (hair_back > body_back)[behind].mean() > 0.97
 
 
+def test_nothing_of_the_head_comes_through_it(haired: HairedHead, piece: Piece, hair: NDArray[np.bool_]) -> None:
+    """Seen from four sides: where hair is at all it is outside, but for its border; the face is as it was."""
+    mesh = template_mesh()
+    own = mesh.triangles[(mesh.head > 0.5)[mesh.triangles].all(1)]
+    within = rasterise(haired.pictured * [1, 1, -1], own, SHAPE)
+    outside = rasterise(piece.vertices * [1, 1, -1], piece.triangles, SHAPE)
+    both = (within.triangle >= 0) & cv2.erode(hair.astype(np.uint8), np.ones((5, 5), np.uint8)).astype(bool)
+    assert both.sum() > 200 and (outside.depth < within.depth)[both].mean() > 0.99
+    back = rasterise(haired.pictured, own, SHAPE)
+    cover = rasterise(piece.vertices, piece.triangles, SHAPE)
+    above = (back.triangle >= 0) & (np.arange(SHAPE[0])[:, None] < haired.pictured[mesh.ear, 1].max())
+    assert (cover.depth < back.depth)[above].mean() > 0.99
+
+
+def test_the_face_is_left_as_it_was(haired: HairedHead, body: NDArray[np.float64]) -> None:
+    points = template_mesh().renamed(load_human().face)[27:]
+    np.testing.assert_allclose(haired.pictured[points], body[points], atol=0.7)
+    assert (haired.framed[template_mesh().renamed(load_human().face)[[36, 45]]] > 0.9).all(), "hair is beside both eyes"
+
+
 def test_around_the_back_it_has_the_colours_of_its_rows(piece: Piece) -> None:
     assert piece.colours is not None
     rgb = piece.colours.rgb.astype(float)
-    assert rgb.shape[1] == COLUMNS
-    behind = rgb[:, COLUMNS // 2 - 20 : COLUMNS // 2 + 20].mean(1)
+    assert rgb.shape[1] == 2 * COLUMNS, "outside and inside"
+    behind = np.concatenate([rgb[:, :20], rgb[:, COLUMNS - 20 : COLUMNS]], 1).mean(1)
     height = len(rgb)
     for rows, colour in ((slice(4, height // 8), HAT), (slice(height // 2, height - 4), HAIR)):
         assert np.abs(behind[rows] - colour).max() < 20
+
+
+def test_inside_it_is_darker(piece: Piece) -> None:
+    assert piece.colours is not None
+    outside, inside = (one.astype(float).mean((0, 1)) for one in np.split(piece.colours.rgb, 2, 1))
+    assert (inside < 0.75 * outside).all()
+
+
+def test_an_ear_among_hair_is_seen(
+    body: NDArray[np.float64], hair: NDArray[np.bool_], face: NDArray[np.float64], picture: NDArray[np.uint8]
+) -> None:
+    """Hair that is tucked behind it: from before the ear's pixels are open, and from its side hair goes on behind it."""
+    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
+    ear = np.hypot((x - face[0] - face[2] - 3) / 4, (y - face[1]) / 9) < 1
+    deep = np.where(covered(body), body[template_mesh().head > 0.9, 2].mean(), -np.inf).astype(np.float32)
+    made = hair_volume(template_mesh(), body, picture, np.eye(2, 3), hair & ~ear, deep, deep - 10)
+    assert made is not None
+    own = made.hair.triangles[(made.hair.vertices[:, 2] > deep.max())[made.hair.triangles].all(1)]
+    front = rasterise(made.hair.vertices * [1, 1, -1], own, SHAPE).triangle >= 0
+    inner = cv2.erode(ear.astype(np.uint8), np.ones((3, 3), np.uint8)).astype(bool)
+    assert not front[inner].any()
+    side = rasterise(made.hair.vertices[:, [2, 1, 0]] * [-1, 1, -1] + [SHAPE[1] / 2, 0, 0], made.hair.triangles, SHAPE)
+    level = side.triangle[round(float(face[1]))]
+    assert (level >= 0).sum() > 10
 
 
 def test_a_lock_that_falls_on_one_side_alone_does_not_go_round_the_back(
@@ -199,31 +247,29 @@ def test_a_lock_that_falls_on_one_side_alone_does_not_go_round_the_back(
     last = int(np.flatnonzero(hair.any(1))[-1])
     lock = (y > last - 2) & (y < last + 60) & (x > face[0] + face[2]) & (x < face[0] + face[2] + 14)
     deep = np.full(SHAPE, float(skull[:, 2].mean()), np.float32)
-    made = hair_volume(template_mesh(), body, picture, np.eye(2, 3), hair | lock, deep, deep - 10, face)
+    made = hair_volume(template_mesh(), body, picture, np.eye(2, 3), hair | lock, deep, deep - 10)
     assert made is not None
-    low = made.vertices[made.vertices[:, 1] > last + 20]
-    assert low[:, 0].min() > face[0] + 0.5 * face[2]
+    low = made.hair.vertices[made.hair.vertices[:, 1] > last + 20]
+    assert low[:, 0].min() > face[0] + 0.4 * face[2]
     assert low[:, 1].max() > last + 55
 
 
 def test_hair_that_is_nowhere_is_no_volume(body: NDArray[np.float64], picture: NDArray[np.uint8]) -> None:
     nothing = np.zeros(SHAPE, np.bool_)
     depth = np.zeros(SHAPE, np.float32)
-    face = np.array([200.0, 60.0, 20.0, 30.0, 0.0])
-    assert hair_volume(template_mesh(), body, picture, np.eye(2, 3), nothing, depth, depth, face) is None
+    assert hair_volume(template_mesh(), body, picture, np.eye(2, 3), nothing, depth, depth) is None
 
 
 def test_in_front_it_is_the_picture() -> None:
-    """A half cylinder of radius 20, of which the left side is dark and the right one light."""
-    rows, angles = np.arange(40.0), np.linspace(0.2, 2 * np.pi - 0.2, 40)
+    """A cylinder of radius 20, of which the left side is dark and the right one light."""
+    rows, angles = np.arange(40.0), np.linspace(-np.pi, np.pi, 40)
     ring = np.stack(np.broadcast_arrays(50 + 20 * np.sin(angles)[None], rows[:, None] + 10), 2)
     y, x = np.mgrid[:70, :100]
     hair = (np.abs(x - 50) < 20) & (y >= 10) & (y < 50)
     rgb = np.where(hair[..., None], np.where(x[..., None] < 50, 60, 160), 255).astype(np.uint8).repeat(3, 2)
-    found = hair_round(rgb, np.eye(2, 3), hair, ring, np.broadcast_to(angles, (40, 40))).astype(float)
-    turn = np.linspace(0.2, 2 * np.pi - 0.2, COLUMNS)
-    right, left = (np.cos(turn) > 0.6) & (turn < np.pi), (np.cos(turn) > 0.6) & (turn > np.pi)
-    assert np.abs(found[:, right & (np.sin(turn) > 0.3)] - 160).max() < 6
-    assert np.abs(found[:, left & (np.sin(turn) < -0.3)] - 60).max() < 6
-    behind = found[:, COLUMNS // 2].mean()
-    assert 90 < behind < 130, "from one side to the other"
+    outside, _ = hair_round(rgb, np.eye(2, 3), hair, hair, ring, 40.0)
+    found, turn = outside.astype(float), np.linspace(-np.pi, np.pi, COLUMNS)
+    front = np.cos(turn) > 0.6
+    assert np.abs(found[:, front & (np.sin(turn) > 0.3)] - 160).max() < 6
+    assert np.abs(found[:, front & (np.sin(turn) < -0.3)] - 60).max() < 6
+    assert 90 < found[:, 0].mean() < 130, "from one side to the other"

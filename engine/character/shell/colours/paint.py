@@ -68,6 +68,7 @@ def paint_shell(
     back: BackTexture = "see_through",
     hides: NDArray[np.int32] | None = None,
     strange: NDArray[np.bool_] | None = None,
+    framed: NDArray[np.float32] | None = None,
 ) -> NDArray[np.uint8]:
     """The texture (`SHELL_TEXTURE_SIZE_TEXELS`, `SHELL_TEXTURE_SIZE_TEXELS`, 3) of a shell, in the template's own chart.
 
@@ -79,6 +80,7 @@ def paint_shell(
     hides : (T, 3), the triangles that are shown and hide others, all of the shell's by default. What else it has is not
         painted.
     strange : (h, w), pixels of the grid that have not the colours of what they are labelled as.
+    framed : (V,), from 0 to 1, what of the head ends at hair beside it, and shows the picture at any slant.
 
     Raises
     ------
@@ -128,6 +130,8 @@ def paint_shell(
             head = [part.name for part in parts].index("head")
             at = interpolate(places[:, head].astype(np.float32), triangles, part_of_it)
             believed = believed * _at(trust, at[..., 1], at[..., 2])
+        if framed is not None:
+            believed = np.maximum(believed, interpolate(framed[:, None], triangles, part_of_it)[..., 0])
         shown[strip] = np.minimum(seen.shown, 1 - points[..., HEAD_ATTRIBUTE_INDEX] * (1 - believed))
         painted[strip] = seen.colours
     soft = _softened(np.where(wanted, shown, 0))
