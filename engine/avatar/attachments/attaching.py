@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.avatar.attachments.influences import influences
-from engine.avatar.attachments.piece_mesh import Mesh, piece_mesh, seen_area, simplified
+from engine.avatar.attachments.piece_mesh import Mesh, piece_meshes, seen_area, simplified
 from engine.avatar.attachments.seen_around import seen_around
 from engine.avatar.attachments.silhouettes import Silhouettes, silhouettes_beside
 from engine.avatar.attachments.solid import solid
@@ -31,6 +31,8 @@ from engine.geometry.texture_charts.texture_atlas import TextureAtlas, atlas_fro
 
 MAX_PIECES = 6
 """Pieces, the largest first."""
+MIN_SEEN_SQUARE_METRES = 0.005
+"""Square metres of a part's surface that the skin does not hide, at least."""
 MIN_TRIANGLE_SQUARE_METRES = 3e-5
 """Square metres of a triangle, where that makes no more of them."""
 UNWRAPPED_SIZE_TEXELS = 1024
@@ -90,9 +92,8 @@ def attachments(human: HumanModels, vertices: NDArray[np.float64], seen: Sightin
     around = seen_around(body, volume.hull, seen.cloud, seen.cameras, seen.near)
     meshes = []
     for piece in volume.pieces[:MAX_PIECES]:
-        mesh = piece_mesh(*solid(piece, body, silhouettes, around))
-        if mesh is not None:
-            meshes.append(mesh)
+        meshes += piece_meshes(*solid(piece, body, silhouettes, around, seen.cloud))
+    meshes = [mesh for mesh in meshes if seen_area(mesh, body) > MIN_SEEN_SQUARE_METRES]
     if not meshes:
         return no_attachments()
     areas = [seen_area(mesh, body) for mesh in meshes]

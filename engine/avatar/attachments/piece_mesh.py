@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 from engine.avatar.attachments.body_surface import BodySurface
+from engine.geometry.mesh.adjacency import neighbours
 from engine.geometry.mesh.fairing import fair
 from engine.geometry.mesh.surface import triangle_areas
 from engine.geometry.rigging.skeleton import Skeleton
@@ -27,12 +27,12 @@ Mesh = tuple[NDArray[np.float64], NDArray[np.int32]]
 """Vertices (V, 3) and triangles (T, 3)."""
 
 
-def piece_mesh(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> Mesh | None:
-    """The largest part of a solid's surface, closed and fair; None where that is too small to be worn."""
-    mesh = _largest(np.asarray(vertices, np.float64), np.asarray(triangles, np.int32))
-    if mesh is None or triangle_areas(*mesh).sum() < MIN_PIECE_SQUARE_METRES:
-        return None
-    return fair(*mesh, FAIRING_ROUNDS), mesh[1]
+def piece_meshes(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> list[Mesh]:
+    """Those parts of a solid's surface that are not too small to be worn, each closed and fair, the largest first: front and back of a
+    jacket's skirt, between which nothing is."""
+    parts = _parts(np.asarray(vertices, np.float64), np.asarray(triangles, np.int32))
+    large = [mesh for mesh in parts if triangle_areas(*mesh).sum() >= MIN_PIECE_SQUARE_METRES]
+    return [(fair(*mesh, FAIRING_ROUNDS), mesh[1]) for mesh in large]
 
 
 def seen_area(mesh: Mesh, body: BodySurface) -> float:
@@ -57,9 +57,9 @@ def simplified(mesh: Mesh, body: BodySurface, triangles: int) -> Mesh:
     hidden = body.distances(vertices) < -HIDDEN_DEPTH_METRES
     fewer = decimate(whole, triangles, np.where(hidden, HIDDEN_TRIANGLE_WEIGHT, 1.0)).mesh
     left = fewer.vertices.astype(np.float64)
-    found = _largest(left, fewer.triangles[_seen(left, fewer.triangles, body)])
-    assert found is not None, "a piece that silhouettes confirm is seen"
-    return found
+    found = _parts(left, fewer.triangles[_seen(left, fewer.triangles, body)])
+    assert found, "a piece that silhouettes confirm is seen"
+    return found[0]
 
 
 def _seen(vertices: NDArray[np.float64], triangles: NDArray[np.int32], body: BodySurface) -> NDArray[np.bool_]:
@@ -67,14 +67,14 @@ def _seen(vertices: NDArray[np.float64], triangles: NDArray[np.int32], body: Bod
     return body.distances(vertices[triangles].mean(1)) > -HIDDEN_DEPTH_METRES
 
 
-def _largest(vertices: NDArray[np.float64], triangles: NDArray[np.int32]) -> Mesh | None:
-    """The connected part with the most area, without the other vertices."""
+def _parts(vertices: NDArray[np.float64], triangles: NDArray[np.int32]) -> list[Mesh]:
+    """The connected parts of a mesh, that of the largest surface first."""
     if not len(triangles):
-        return None
-    start, end = triangles[:, [0, 1]].T
-    start, end = np.concatenate([start, triangles[:, 1]]), np.concatenate([end, triangles[:, 2]])
-    links = sp.csr_array((np.ones(len(start)), (start, end)), (len(vertices), len(vertices)))
-    part = connected_components(links, directed=False)[1][triangles[:, 0]]
-    kept = part == np.bincount(part, triangle_areas(vertices, triangles)).argmax()
-    used, index = np.unique(triangles[kept], return_inverse=True)
-    return vertices[used], index.reshape(-1, 3).astype(np.int32)
+        return []
+    part = connected_components(neighbours(triangles, len(vertices)), directed=False)[1][triangles[:, 0]]
+    area = np.bincount(part, triangle_areas(vertices, triangles))
+    found = []
+    for number in np.argsort(-area, kind="stable")[: np.count_nonzero(area)]:
+        used, index = np.unique(triangles[part == number], return_inverse=True)
+        found.append((vertices[used], index.reshape(-1, 3).astype(np.int32)))
+    return found

@@ -2,7 +2,7 @@
 
 Of what is filmed from all around and from above silhouettes leave little room beside the truth, and stereo, of plain dark hair and felt,
 is wrong by more. They fill hollows, as between hair and cheek, or two legs and the coat's tails behind: what views look through there
-is taken out of them.
+is taken out of them. What hangs beside the body is no thicker than cloth.
 """
 
 from __future__ import annotations
@@ -17,8 +17,14 @@ from scipy.spatial import cKDTree
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.avatar.attachments.seen_around import SeenAround
 from engine.avatar.attachments.silhouettes import Silhouettes
-from engine.avatar.attachments.standing_off import MIN_FACE_DISTANCE_METRES, StandingPiece
+from engine.avatar.attachments.standing_off import (
+    MIN_FACE_DISTANCE_METRES,
+    MIN_STANDING_OFF_METRES,
+    POINT_REACH_METRES,
+    StandingPiece,
+)
 from engine.geometry.mesh.iso_surface import iso_surface
+from engine.geometry.point_clouds.point_cloud import PointCloud
 
 GRID_SPACING_METRES = 0.004
 """Metres between the grid's points."""
@@ -34,6 +40,13 @@ FREE_SHARE, DOUBTED_SHARE = 0.5, 0.3
 for certainty."""
 ROOM_BLUR_GRID_POINTS, FREE_BLUR_GRID_POINTS, END_BLUR_GRID_POINTS = 0.8, 1.5, 3.0
 """Grid points of the Gaussians over what silhouettes and what views say, and over where the piece ends on the skin."""
+CLOTH_INSIDE_METRES, CLOTH_OUTSIDE_METRES = 0.015, 0.015
+"""Metres that what hangs beside the body reaches within what stereo has of its outside, and out of it: no view tells how thick cloth is,
+and outlines, which show it before or behind a leg, do not tell how far away it hangs."""
+CLOTH_POINTS = 24
+"""Points of a piece's outside that are nearest to a place, whose mean says how far within it is."""
+CLOTH_REACH_METRES = 0.06
+"""Metres from the nearest point of an outside up to which a piece goes: the holes that stereo leaves in plain cloth."""
 MAX_FIELD_DISTANCE_METRES = 4 * GRID_SPACING_METRES
 """Metres: the field says no more than that a place is so far off."""
 
@@ -57,10 +70,10 @@ class _Grid:
 
 
 def solid(
-    piece: StandingPiece, body: BodySurface, silhouettes: Silhouettes, seen: SeenAround
+    piece: StandingPiece, body: BodySurface, silhouettes: Silhouettes, seen: SeenAround, cloud: PointCloud
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """The closed surface, vertices (V, 3) and triangles (T, 3), of what stands off as a `piece`. `seen` is what views see
-    about the body."""
+    about the body, and `cloud` the points."""
     grid, places, away = _around(np.concatenate([piece.places, body.vertices[piece.covered & body.head]]))
     nearest = body.nearest(places)
     of_head, before_face = body.head[nearest], body.face[nearest]
@@ -70,7 +83,8 @@ def solid(
     room = np.where(before_face, np.minimum(room, off - MIN_FACE_DISTANCE_METRES), room)
     field = ndimage.gaussian_filter(grid.spread(room), ROOM_BLUR_GRID_POINTS)
     held, ends = _held(seen.votes(places, of_head)), SOLID_REACH_METRES - away
-    for said, blur in ((held, FREE_BLUR_GRID_POINTS), (ends, END_BLUR_GRID_POINTS)):
+    sheet = np.where(of_head, np.inf, cloth_depths(places, _outside(piece, body, cloud)))
+    for said, blur in ((held, FREE_BLUR_GRID_POINTS), (ends, END_BLUR_GRID_POINTS), (sheet, FREE_BLUR_GRID_POINTS)):
         field = np.minimum(field, ndimage.gaussian_filter(grid.spread(said), blur))
     return iso_surface(np.minimum(field, grid.spread(off + SKIN_OVERLAP_METRES)), grid.origin, GRID_SPACING_METRES)
 
@@ -80,6 +94,25 @@ def _held(votes: NDArray[np.integer]) -> NDArray[np.float64]:
     share = votes[:, 0] / np.maximum(votes.sum(1), 1)
     said = np.clip((FREE_SHARE - share) / DOUBTED_SHARE, -1, 1)
     return MAX_FIELD_DISTANCE_METRES * np.where(votes[:, 0] >= MIN_LOOKING_VIEWS, said, 1.0)
+
+
+def _outside(piece: StandingPiece, body: BodySurface, cloud: PointCloud) -> PointCloud:
+    """The points of a piece's own surface."""
+    near = cKDTree(piece.places).query(cloud.points, distance_upper_bound=POINT_REACH_METRES)[0]
+    own = cloud[np.isfinite(near)]
+    return own[body.distances(own.points) > MIN_STANDING_OFF_METRES]
+
+
+def cloth_depths(places: NDArray[np.float64], outside: PointCloud) -> NDArray[np.float64]:
+    """(N,) metres by which `places` (N, 3) lie within cloth whose `outside` is known: from `CLOTH_OUTSIDE_METRES` before it to
+    `CLOTH_INSIDE_METRES` behind it, and no farther aside than `CLOTH_REACH_METRES`. +inf where fewer than `CLOTH_POINTS` tell of it."""
+    if len(outside) < CLOTH_POINTS:
+        return np.full(len(places), np.inf)
+    away, nearest = (np.asarray(found) for found in cKDTree(outside.points).query(places, k=CLOTH_POINTS))
+    off = places[:, None] - outside.points[nearest]
+    outwards = np.einsum("nkd,nkd->nk", off, outside.normals[nearest]).mean(1)
+    within = np.minimum(CLOTH_INSIDE_METRES + outwards, CLOTH_OUTSIDE_METRES - outwards)
+    return np.asarray(np.minimum(within, CLOTH_REACH_METRES - away[:, 0]))
 
 
 def _around(own: NDArray[np.floating]) -> tuple[_Grid, NDArray[np.float64], NDArray[np.float64]]:
