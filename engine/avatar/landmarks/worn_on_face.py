@@ -32,8 +32,8 @@ def worn_on_face(seen: Sequence[FrameLandmarks]) -> tuple[Notice, ...]:
         notices.append(
             Notice(
                 "beard_as_skin",
-                "The person seems to have a beard or a moustache. It is not modelled as hair: its colour lies on the skin,"
-                " which is flat above the lip.",
+                "The person seems to have a beard or a moustache. It is not modelled as hair: it is skin of its colour, which"
+                " stands off as far as the head's clip shows.",
             )
         )
     return tuple(notices)

@@ -13,6 +13,7 @@ from engine.avatar.registration.coarse import CoarseFit, fit_to_landmarks, fit_t
 from engine.avatar.registration.eyes.fitted_eyes import with_eyes, with_sockets
 from engine.avatar.registration.face.expressions import transferred_units
 from engine.avatar.registration.face.face_parts import head_change, place_parts
+from engine.avatar.registration.face.facial_hair import facial_hair, with_facial_hair
 from engine.avatar.registration.face.inner_mouth import inner_skin
 from engine.avatar.registration.feet.standing_feet import with_feet
 from engine.avatar.registration.fine import fit_body, fit_head
@@ -95,12 +96,14 @@ def register(
     fitted = fit_body(models.skin, body_fit.vertices, cloud, face)
     check()
     placed: Similarity | None = None
+    hair = np.zeros(len(fitted))
     if head is not None and len(head.cloud) >= MIN_CLOUD_POINTS:
         placed = head_to_body(models.skin, fitted, body.cloud, head.cloud, head.landmarks, head.sized)
         if placed is not None:
             fitted = _with_head(models, fitted, cloud, head, placed)
+            hair = facial_hair(models.skin, fitted, head.cloud.moved(placed)) if faced else hair
     check()
-    return _person(
+    person = _person(
         models,
         body_fit,
         coefficients,
@@ -109,6 +112,7 @@ def register(
         body.landmarks.eyes if head is None or placed is None else placed(head.landmarks.eyes),
         _notices(by_landmarks, body_fit, coefficients, head is not None and placed is None),
     )
+    return with_facial_hair(models.skin, person, hair)
 
 
 def _with_head(
