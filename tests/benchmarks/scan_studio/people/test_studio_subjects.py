@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from benchmarks.scan_studio.people.bearded import BEARD_METRES, with_beard
 from benchmarks.scan_studio.people.scanned_people import (
     RIGGED_PEOPLE,
     SCANNED_HEIGHT_METRES,
@@ -16,6 +17,8 @@ from benchmarks.scan_studio.people.scanned_people import (
 )
 from benchmarks.scan_studio.people.subject import Subject
 from benchmarks.scan_studio.people.template_people import LIP_RGB, template_subject
+from engine.body.body_space import load_body_space
+from engine.body.face.face_points import face_points
 from engine.body.makehuman import read_mask
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig, load_template
@@ -75,6 +78,15 @@ def test_template_people_are_the_template_vertex_by_vertex(template_a: Subject) 
         assert direction(template_a, f"{side}Arm", f"{side}ForeArm")[1] == pytest.approx(
             -np.sin(np.radians(50)), abs=0.02
         )
+
+
+def test_a_beard_stands_off_as_far_as_is_said_below_the_nose_alone(template_a: Subject) -> None:
+    bearded = with_beard(template_a, "bearded")
+    height = np.linalg.norm(bearded.vertices - template_a.vertices, axis=1)
+    assert height.max() == pytest.approx(BEARD_METRES, rel=1e-3)
+    nose = template_a.vertices[face_points(load_template(), load_body_space())[33]]
+    assert template_a.vertices[height > 0, 1].max() < nose[1]
+    assert np.linalg.norm(template_a.vertices[height > 0] - nose, axis=1).max() < 0.12
 
 
 def test_lips_are_red_where_the_mask_has_them_and_no_texel_is_bare(template_a: Subject) -> None:
