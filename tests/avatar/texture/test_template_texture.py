@@ -12,6 +12,7 @@ from engine.avatar.texture.template_surface import TemplateSurface, template_sur
 from engine.avatar.texture.template_texture.eyes import Eyeballs, painted_eyes, persons_eyes
 from engine.avatar.texture.template_texture.hands import hand_bones, painted_hand, past_wrist
 from engine.avatar.texture.template_texture.mouth import (
+    LINING_IN_MOUTH_RGB,
     MIN_MOUTH_LIGHT_SHARE,
     mouth_light,
     painted_lining,
@@ -228,6 +229,13 @@ def test_what_is_deeper_in_the_mouth_is_darker() -> None:
     places[:, 2] = np.linspace(0.0, -0.08, 40)
     light = mouth_light(places)
     assert light[0] == pytest.approx(1)
-    assert (np.diff(light) < 0).all()
-    assert light[-1] == pytest.approx(MIN_MOUTH_LIGHT_SHARE, abs=0.02)
+    assert (np.diff(light, axis=0) < 0).all()
+    assert light[-1, 0] == pytest.approx(MIN_MOUTH_LIGHT_SHARE, abs=0.02)
     assert not len(mouth_light(places[:0]))
+
+
+def test_teeth_at_the_back_of_a_mouth_are_reddish() -> None:
+    """The deepest is lit by what its lining sends back."""
+    places = np.array([[0, 0, 0], [0, 0, -1.0]])
+    light = mouth_light(places)
+    np.testing.assert_allclose(light[1] / light[1, 0], LINING_IN_MOUTH_RGB / LINING_IN_MOUTH_RGB[0], rtol=1e-3)

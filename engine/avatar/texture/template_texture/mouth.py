@@ -27,14 +27,15 @@ and the least of it."""
 
 
 def mouth_light(places: NDArray[np.floating]) -> NDArray[np.float32]:
-    """(N,) which share of the light on the foremost of a part's `places` (N, 3) falls on each in a mouth that is open.
-    Engines light it as if there were no lips before it."""
+    """(N, 3) which share of the light on the foremost of a part's `places` (N, 3) falls on each in a mouth that is open.
+    Engines light it as if there were no lips before it. It is the redder the less it is: the least has come by way of the
+    lining."""
     if not len(places):
-        return np.zeros(0, np.float32)
+        return np.zeros((0, 3), np.float32)
     behind = places[:, 2].max() - places[:, 2]
-    return np.asarray(
-        MIN_MOUTH_LIGHT_SHARE + (1 - MIN_MOUTH_LIGHT_SHARE) * np.exp(-behind / MOUTH_LIGHT_REACH_METRES), np.float32
-    )
+    share = MIN_MOUTH_LIGHT_SHARE + (1 - MIN_MOUTH_LIGHT_SHARE) * np.exp(-behind / MOUTH_LIGHT_REACH_METRES)
+    reddening = np.log(LINING_IN_MOUTH_RGB / LINING_IN_MOUTH_RGB[0]) / np.log(MIN_MOUTH_LIGHT_SHARE)
+    return np.asarray(share[:, None] ** (1 + reddening), np.float32)
 
 
 def painted_teeth(places: NDArray[np.floating], upper: bool) -> NDArray[np.float32]:

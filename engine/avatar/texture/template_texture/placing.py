@@ -53,8 +53,9 @@ def place_mouth(texture: NDArray[np.uint8], surface: TemplateSurface, raster: Ra
         texels = PartTexels.fine(surface.atlas, surface.of(part), len(texture))
         places = texels.blend(surface.rest, surface.triangles)
         upper = part == "upper_teeth"
-        painted = painted_tongue(places) if part == "tongue" else painted_teeth(places, upper)
-        texels.put(texture, painted * mouth_light(places)[:, None])
+        light = mouth_light(places)
+        lit = painted_tongue(places) * light[:, :1] if part == "tongue" else painted_teeth(places, upper) * light
+        texels.put(texture, lit)  # a tongue is painted the redder the deeper it is
     lining = PartTexels.of(raster, surface.mouth)
     lining.put(texture, painted_lining(lining.blend(surface.rest, surface.triangles)))
 
