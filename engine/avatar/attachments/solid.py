@@ -30,6 +30,9 @@ GRID_SPACING_METRES = 0.004
 """Metres between the grid's points."""
 SOLID_REACH_METRES = 0.03
 """Metres about what stands off, and about what it covers of a head, within which the piece is."""
+NAPE_REACH_METRES = 0.008
+"""Metres about what stands off a head within which it is beside neck and shoulders: outlines have room below hair, down to a collar that
+does not turn with the head."""
 SKIN_OVERLAP_METRES, SKIN_COVER_METRES = 0.006, 0.0015
 """Metres that a piece reaches into the skin, so that no gap shows, and by which it lies over the skin that it covers on a
 head, where it is whole."""
@@ -83,6 +86,8 @@ def solid(
     room = np.where(before_face, np.minimum(room, off - MIN_FACE_DISTANCE_METRES), room)
     field = ndimage.gaussian_filter(grid.spread(room), ROOM_BLUR_GRID_POINTS)
     held, ends = _held(seen.votes(places, of_head)), SOLID_REACH_METRES - away
+    if body.beside_head(piece.places).mean() > 0.5:
+        ends = np.where(of_head, ends, NAPE_REACH_METRES - cKDTree(piece.places).query(places)[0])
     sheet = np.where(of_head, np.inf, cloth_depths(places, _outside(piece, body, cloud)))
     for said, blur in ((held, FREE_BLUR_GRID_POINTS), (ends, END_BLUR_GRID_POINTS), (sheet, FREE_BLUR_GRID_POINTS)):
         field = np.minimum(field, ndimage.gaussian_filter(grid.spread(said), blur))
