@@ -48,6 +48,8 @@ CLOTH_INSIDE_METRES, CLOTH_OUTSIDE_METRES = 0.015, 0.015
 and outlines, which show it before or behind a leg, do not tell how far away it hangs."""
 CLOTH_POINTS = 24
 """Points of a piece's outside that are nearest to a place, whose mean says how far within it is."""
+CLOTH_BLOCK_PLACES = 50_000
+"""Places that are looked at at once."""
 CLOTH_REACH_METRES = 0.06
 """Metres from the nearest point of an outside up to which a piece goes: the holes that stereo leaves in plain cloth."""
 MAX_FIELD_DISTANCE_METRES = 4 * GRID_SPACING_METRES
@@ -88,7 +90,8 @@ def solid(
     held, ends = _held(seen.votes(places, of_head)), SOLID_REACH_METRES - away
     if body.beside_head(piece.places).mean() > 0.5:
         ends = np.where(of_head, ends, NAPE_REACH_METRES - cKDTree(piece.places).query(places)[0])
-    sheet = np.where(of_head, np.inf, cloth_depths(places, _outside(piece, body, cloud)))
+    sheet = np.full(len(places), np.inf)
+    sheet[~of_head] = cloth_depths(places[~of_head], _outside(piece, body, cloud))
     for said, blur in ((held, FREE_BLUR_GRID_POINTS), (ends, END_BLUR_GRID_POINTS), (sheet, FREE_BLUR_GRID_POINTS)):
         field = np.minimum(field, ndimage.gaussian_filter(grid.spread(said), blur))
     return iso_surface(np.minimum(field, grid.spread(off + SKIN_OVERLAP_METRES)), grid.origin, GRID_SPACING_METRES)
@@ -113,11 +116,16 @@ def cloth_depths(places: NDArray[np.float64], outside: PointCloud) -> NDArray[np
     `CLOTH_INSIDE_METRES` behind it, and no farther aside than `CLOTH_REACH_METRES`. +inf where fewer than `CLOTH_POINTS` tell of it."""
     if len(outside) < CLOTH_POINTS:
         return np.full(len(places), np.inf)
-    away, nearest = (np.asarray(found) for found in cKDTree(outside.points).query(places, k=CLOTH_POINTS))
-    off = places[:, None] - outside.points[nearest]
-    outwards = np.einsum("nkd,nkd->nk", off, outside.normals[nearest]).mean(1)
-    within = np.minimum(CLOTH_INSIDE_METRES + outwards, CLOTH_OUTSIDE_METRES - outwards)
-    return np.asarray(np.minimum(within, CLOTH_REACH_METRES - away[:, 0]))
+    tree = cKDTree(outside.points)
+    found = np.empty(len(places))
+    for start in range(0, len(places), CLOTH_BLOCK_PLACES):
+        some = places[start : start + CLOTH_BLOCK_PLACES]
+        away, nearest = (np.asarray(one) for one in tree.query(some, k=CLOTH_POINTS))
+        off = some[:, None] - outside.points[nearest]
+        outwards = np.einsum("nkd,nkd->nk", off, outside.normals[nearest]).mean(1)
+        within = np.minimum(CLOTH_INSIDE_METRES + outwards, CLOTH_OUTSIDE_METRES - outwards)
+        found[start : start + CLOTH_BLOCK_PLACES] = np.minimum(within, CLOTH_REACH_METRES - away[:, 0])
+    return found
 
 
 def _around(own: NDArray[np.floating]) -> tuple[_Grid, NDArray[np.float64], NDArray[np.float64]]:
