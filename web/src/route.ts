@@ -1,6 +1,6 @@
 /** Which page an address means. The part after `#` never reaches a server, so links work wherever the page lies. */
 
-import { useEffect, useState } from 'preact/hooks';
+import { useLayoutEffect, useState } from 'preact/hooks';
 import type { Status } from './api';
 import type { Kind } from './kind/kind';
 
@@ -72,7 +72,8 @@ export function replaceAddress(hash: string): void {
 
 export function useRoute(kinds: readonly Kind[]): Route {
   const [route, setRoute] = useState(() => parseRoute(kinds, location.hash, location.pathname));
-  useEffect(() => {
+  // at once, not after the first picture: an address that changed in between would be missed for good
+  useLayoutEffect(() => {
     const follow = (): void => setRoute(parseRoute(kinds, location.hash, location.pathname));
     addEventListener('hashchange', follow);
     return () => removeEventListener('hashchange', follow);

@@ -34,6 +34,17 @@ describe('an address that means nothing', () => {
   });
 });
 
+it('an address that changes as soon as the page is drawn is followed', async () => {
+  const page = await open(browser, '', {}, () => {
+    new MutationObserver((_, observer) => {
+      if (!document.querySelector('main')) return;
+      observer.disconnect();
+      location.hash = '#/nonsense';
+    }).observe(document, { childList: true, subtree: true });
+  });
+  await found(page).waitFor({ timeout: 20_000 });
+});
+
 describe('help', () => {
   it.each(['', '#/character', '#/history', '#/keys', '#/webhooks', '#/nonsense'])('is at hand on the page %s', async (hash) => {
     const page = await open(browser, hash);

@@ -4,7 +4,6 @@ import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { answered, complaints, expectComplaint } from './complaints';
 import { isMade, launchIn3D } from './character_kit';
 import { readable } from './axe';
-import { LONG } from './jobs';
 import { portrait } from './media';
 import { finished, somebody } from './own_service';
 import { open } from './page';
@@ -47,7 +46,7 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
   'its joints': {
     hash: () => `#/jobs/${character}`,
     show: async (page) => {
-      await page.getByText('Edit and make again').click({ timeout: LONG });
+      await page.getByText('Edit and make again').click();
       await page.getByRole('button', { name: 'Move the joints' }).click();
       await page.getByLabel('Hands, feet and face').check();
     },
@@ -55,7 +54,7 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
   'its parts, painted': {
     hash: () => `#/jobs/${character}`,
     show: async (page) => {
-      await page.getByText('Edit and make again').click({ timeout: LONG });
+      await page.getByText('Edit and make again').click();
       await page.getByRole('button', { name: 'Paint the body parts' }).click();
       await page.getByRole('radio', { name: 'Torso' }).check();
       await page.getByRole('dialog').getByRole('application').click();
@@ -64,14 +63,14 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
   'a picture of nobody': {
     hash: () => `#/jobs/${nobody}`,
     show: async (page) => {
-      await page.getByText('Correct and try again').click({ timeout: LONG });
+      await page.getByText('Correct and try again').click();
       await page.getByRole('button', { name: 'Place the joints by hand' }).waitFor();
     },
   },
   'a result with its corrections and links': {
     hash: () => `#/jobs/${done}`,
     show: async (page) => {
-      await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
+      await page.getByRole('region', { name: 'Result and performance' }).waitFor();
       await page.getByText('Share', { exact: true }).click();
       await page.getByRole('button', { name: 'Create link' }).click();
       await page.getByRole('button', { name: 'Revoke' }).first().waitFor();
@@ -85,7 +84,7 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
   'the landmarks': {
     hash: () => `#/jobs/${done}`,
     show: async (page) => {
-      await page.getByText('Edit and make again').click({ timeout: LONG });
+      await page.getByText('Edit and make again').click();
       await page.getByRole('button', { name: 'Move the landmarks' }).click();
       await page.getByLabel('Single points').check();
     },
@@ -93,7 +92,7 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
   'a failure': {
     hash: () => `#/jobs/${failed}`,
     show: async (page) => {
-      await page.getByText('Correct and try again').click({ timeout: LONG });
+      await page.getByText('Correct and try again').click();
       await page.getByRole('button', { name: 'Place the face by hand' }).waitFor();
     },
   },

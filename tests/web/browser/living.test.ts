@@ -5,7 +5,6 @@ import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, it } from 'vitest';
 import { complaints } from './complaints';
 import { launch } from './browser';
-import { LONG } from './jobs';
 import { portrait } from './media';
 import { finished } from './own_service';
 import { open } from './page';
@@ -20,7 +19,7 @@ afterAll(() => browser.close());
 it('comes without a performance, and shows what is asked for', async () => {
   const page = await open(browser, `#/jobs/${job}`);
   const happy = page.getByRole('button', { name: 'Happy', exact: true });
-  await happy.waitFor({ timeout: LONG });
+  await happy.waitFor();
   await page.getByRole('button', { name: 'Idle', pressed: true }).waitFor();
   await happy.click();
   await page.getByRole('button', { name: 'Happy', pressed: true }).waitFor();
@@ -39,12 +38,12 @@ it('is a card among the performances', async () => {
   expect(Object.keys(body.inputs)).toEqual(['image']);
   expect(body.options).toEqual({ reactive: true });
   await page.getByRole('button', { name: 'Cancel' }).click();
-  await page.getByText('Canceled', { exact: true }).first().waitFor({ timeout: LONG });
+  await page.getByText('Canceled', { exact: true }).first().waitFor();
 });
 
 it('says so where it cannot be played', async () => {
   const page = await open(browser);
   await page.route('**/reactive-portrait.js', (route) => route.abort());
   await page.evaluate((job) => (location.hash = `#/jobs/${job}`), job);
-  await page.getByText('The portrait could not be loaded completely. Reload the page.').waitFor({ timeout: LONG });
+  await page.getByText('The portrait could not be loaded completely. Reload the page.').waitFor();
 });

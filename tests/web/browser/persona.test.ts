@@ -8,7 +8,7 @@ import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { readable } from './axe';
 import { launch } from './browser';
 import { complaints, watch } from './complaints';
-import { LONG } from './jobs';
+import { LONG_WITH_COMPILING } from './jobs';
 import { inPython } from './media';
 import { serve } from './service';
 import { settled } from './settled';
@@ -24,7 +24,7 @@ beforeAll(async () => {
   photos = readdirSync(folder).sort().map((name) => join(folder, name));
   browser = await launch(['--enable-unsafe-swiftshader']);
   service = await serve({ GALATEA_WORKER_KINDS: 'persona', GALATEA_DISK_RESERVE_MB: '1' });
-}, LONG);
+}, LONG_WITH_COMPILING);
 afterAll(async () => {
   await service?.end();
   await browser?.close();
@@ -76,9 +76,9 @@ describe('photos of somebody', () => {
     expect(asked.inputs.photos).toHaveLength(photos.length - 1);
 
     const faces = page.getByRole('region', { name: 'The faces that were found' });
-    await faces.getByRole('img', { name: /^\d+ faces are used$/ }).waitFor({ timeout: LONG });
+    await faces.getByRole('img', { name: /^\d+ faces are used$/ }).waitFor({ timeout: LONG_WITH_COMPILING });
     await page.getByAltText('The average of the photos so far').waitFor();
-    await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
+    await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG_WITH_COMPILING });
     const made = jobOf(page);
     await readable(page);
     await page.getByRole('button', { name: 'In 3D', exact: true }).click();
@@ -131,7 +131,7 @@ describe('photos of somebody', () => {
     await page.getByText('4 files').waitFor();
     await page.getByLabel('The photos show me, or somebody who agreed to this.').check();
     await page.getByRole('button', { name: 'Create persona' }).click();
-    await page.getByText('There are too few photos of use').waitFor({ timeout: LONG });
+    await page.getByText('There are too few photos of use').waitFor({ timeout: LONG_WITH_COMPILING });
     await page.getByRole('toolbar', { name: /faces? (is|are) used$/ }).waitFor();
     await readable(page);
     await page.getByRole('link', { name: 'Add photos in the studio' }).click();
