@@ -28,7 +28,7 @@ from benchmarks.scan_studio.truth import Truth, read_truth
 from engine.avatar.landmarks.in_frames import EYE_MESH_VERTICES
 from engine.avatar.landmarks.spatial import LID_POINT_COUNT
 from engine.geometry.camera import Camera
-from engine.perception.faces import find_faces
+from engine.perception.face.faces import find_faces
 
 ASKED_FRAME_STEP = 2
 """Each so many frames of the head's film are asked."""

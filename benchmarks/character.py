@@ -35,7 +35,7 @@ from engine.character.options import CharacterOptions
 from engine.character.pipeline import cut_all_out, find_figures, reconstruct, wake_up
 from engine.character.rig.measures import picture_camera
 from engine.motion.library import CLIPS
-from engine.render.character import draw_character, prepare_character
+from engine.render.scene.character import draw_character, prepare_character
 from engine.run import Run
 from engine.store import StageStore
 

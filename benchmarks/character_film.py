@@ -28,15 +28,15 @@ from engine.character.film.cast_shadow import ground_shadow
 from engine.character.film.film import film, film_size
 from engine.character.film.motions import MotionChoice, choose_motion
 from engine.character.rig.measures import picture_camera
-from engine.export.encoders import VideoTarget
-from engine.export.video import VideoWriter
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.geometry.rigging.skinning import skin
-from engine.render import character as renderer
-from engine.render.ground_shadow import cast_on_ground
-from engine.render.multisampling import draw_samples, select_pixels
-from engine.render.outline import facings, mark_outline
-from engine.render.rasteriser import draw_into
-from engine.render.texturing import colour_inside, colour_samples, corner_table
+from engine.render.lighting.ground_shadow import cast_on_ground
+from engine.render.rasterisation.multisampling import draw_samples, select_pixels
+from engine.render.rasterisation.outline import facings, mark_outline
+from engine.render.rasterisation.rasteriser import draw_into
+from engine.render.scene import character as renderer
+from engine.render.textures.texturing import colour_inside, colour_samples, corner_table
 
 FILM_FPS = 30.0
 """Frames a second of the film."""
@@ -48,7 +48,7 @@ STAGE_FUNCTIONS: Mapping[str, tuple[Any, ...]] = {
     "inside": (corner_table, colour_inside),
     "edges": (select_pixels, draw_samples, colour_samples),
 }
-"""The functions that `engine.render.character` calls for each column; imported, so that mypy knows where one is renamed."""
+"""The functions that `engine.render.scene.character` calls for each column; imported, so that mypy knows where one is renamed."""
 END_FRAMES = 5
 """Frames at the beginning and at the end for which the cost is told apart."""
 

@@ -43,8 +43,8 @@ from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.geometry.rigging.skinning import bone_transforms, skin
 from engine.imaging.masks.mask_pieces import bounding_box
 from engine.media.limits import Limits
-from engine.perception.body import BODY_LANDMARKS
-from engine.render.rasteriser import rasterise
+from engine.perception.pose.body import BODY_LANDMARKS
+from engine.render.rasterisation.rasteriser import rasterise
 
 JOINT_OF_LIMB = {"arms": "Arm", "forearms": "ForeArm", "thighs": "UpLeg", "shins": "Leg"}
 COMPARED_JOINTS = ("Arm", "ForeArm", "Hand", "Leg", "Foot")

@@ -50,8 +50,8 @@ from engine.motion.clip import Clip
 from engine.motion.edit import in_place
 from engine.motion.kinematics import pose_transforms
 from engine.motion.library import CLIPS, built_in
-from engine.render.character import draw_character, prepare_character
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
+from engine.render.scene.character import draw_character, prepare_character
 
 VIEW_YAW_DEGREES = tuple(range(0, 360, 45))
 """Degrees from the front."""

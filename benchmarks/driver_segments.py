@@ -26,8 +26,8 @@ from numpy.typing import NDArray
 
 from benchmarks.presentation.tables import machine, table
 from benchmarks.shared_media import media, write_clip
-from engine.export.encoders import VideoTarget
-from engine.export.video import VideoWriter
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.media.video import read_video
 from engine.performances import PERFORMANCE_STATES, names, performance, video
 from engine.portrait.driver_segments import find_segments

@@ -14,10 +14,10 @@ from pathlib import Path
 gc.set_threshold(20_000, 20, 20)
 atexit.register(gc.freeze)
 
-from engine.export.encoders import VideoTarget  # noqa: E402
-from engine.export.video import VideoWriter  # noqa: E402 - rubbish is looked for less often while these are loaded
+from engine.export.videos.encoders import VideoTarget  # noqa: E402
+from engine.export.videos.video import VideoWriter  # noqa: E402 - rubbish is looked for less often while these are loaded
 from engine.media.video import probe_video, read_video  # noqa: E402
-from engine.perception.faces import FaceTracker  # noqa: E402
+from engine.perception.face.faces import FaceTracker  # noqa: E402
 
 
 def floor(clip: Path, out: Path) -> None:

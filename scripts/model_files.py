@@ -13,8 +13,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from engine.package_data import package_folder
-from engine.perception import salience
 from engine.perception.identity import dlib_descriptor
+from engine.perception.masks import salience
 
 
 @dataclass(frozen=True)

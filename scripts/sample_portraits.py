@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.imaging.masks.mask_pieces import pieces_touching
 from engine.media.video import read_video
-from engine.perception.person import person_mask
+from engine.perception.masks.person import person_mask
 from engine.performances import video
 
 Array = NDArray[np.float32]

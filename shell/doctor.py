@@ -185,7 +185,7 @@ def _face_descriptor(settings: Settings) -> Iterator[Finding]:
 def _outlines(settings: Settings) -> Iterator[Finding]:
     """What sees outlines of people beside the networks that know people, loaded as a job does: the file's hash is checked."""
     from engine.package_data import IncompleteInstallation
-    from engine.perception.salience import MODEL_FILE, loaded_network
+    from engine.perception.masks.salience import MODEL_FILE, loaded_network
 
     try:
         loaded_network()

@@ -7,8 +7,8 @@ from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
 from engine.package_data import package_folder
-from engine.perception import salience
 from engine.perception.identity.dlib_descriptor import MODEL_FILE
+from engine.perception.masks import salience
 from engine.performances.catalogue import scored
 from service.installed import checkout
 

@@ -10,9 +10,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.export.encoders import VideoTarget
-from engine.export.video import VideoWriter
-from engine.perception.faces import find_faces
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
+from engine.perception.face.faces import find_faces
 
 OPENS = (1.9, 2.7)
 """Seconds of `man_mouth_open_d18.mp4` in which a closed mouth opens wide: 24 frames."""

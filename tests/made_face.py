@@ -13,10 +13,18 @@ from numpy.typing import NDArray
 
 from engine.geometry.registration.rigid import fit_similarity
 from engine.media.film_strip import FilmStripWriter
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import (
+    FACE_OVAL,
+    LEFT_EYE,
+    LEFT_IRIS,
+    LIPS_INNER,
+    LIPS_OUTER,
+    RIGHT_EYE,
+    RIGHT_IRIS,
+)
 from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LEFT_IRIS, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, RIGHT_IRIS
 
 SKIN, LIP, DARK, WHITE, BROWN = (205, 165, 140), (170, 90, 85), (70, 20, 20), (235, 232, 228), (60, 40, 25)
 

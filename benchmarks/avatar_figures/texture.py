@@ -34,11 +34,11 @@ from engine.body.template import load_rig, load_template
 from engine.geometry.camera import Camera
 from engine.geometry.texture_charts.texture_atlas import unwrap
 from engine.imaging.histogram_matching import to_lab
-from engine.media.tone_mapping import srgb_code, srgb_light
+from engine.media.colour_conversion.tone_mapping import srgb_code, srgb_light
 from engine.media.video import read_video
-from engine.render.attributes import interpolate, sample_texture
-from engine.render.rasteriser import rasterise
-from engine.render.texture_bake import charts_of, pad_charts
+from engine.render.rasterisation.attributes import interpolate, sample_texture
+from engine.render.rasterisation.rasteriser import rasterise
+from engine.render.textures.texture_bake import charts_of, pad_charts
 
 PERSON_SUPERSAMPLING = 2
 """Along a side of a pixel, when the textured person is drawn."""

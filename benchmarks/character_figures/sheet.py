@@ -25,7 +25,7 @@ from engine.geometry.camera import Camera
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place
 from engine.motion.library import built_in
-from engine.render.character import draw_character, prepare_character
+from engine.render.scene.character import draw_character, prepare_character
 
 ROW_HEIGHT_PIXELS = 420
 """Pixels of a row."""

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from benchmarks.known_truth.comparison import Comparison
 from benchmarks.presentation.contact_sheet import Row, at_height, contact_sheet, write_sheet
 from engine.geometry.mesh.surface import vertex_normals
-from engine.render.attributes import interpolate
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.rasterisation.rasteriser import rasterise
 
 CELL_HEIGHT_PIXELS = 360
 """Pixels of a cell's height."""

@@ -17,8 +17,8 @@ from engine.body.shape import Phenotype, load_shape_space
 from engine.body.template import load_rig, load_template
 from engine.geometry.mesh.surface import triangulate, vertex_normals
 from engine.geometry.rigging.skinning import bone_transforms, skin
-from engine.render.attributes import interpolate
-from engine.render.rasteriser import Raster
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.rasterisation.rasteriser import Raster
 
 Turns = Mapping[str, tuple[float, float, float]]
 """Degrees about x, y and z, in this order, by joint."""

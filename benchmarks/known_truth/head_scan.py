@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from engine.geometry.camera import Camera
 from engine.geometry.mesh.surface import vertex_normals
 from engine.media.image import read_image
-from engine.render.attributes import interpolate, sample_texture
-from engine.render.film import box_downsample
-from engine.render.rasteriser import rasterise
+from engine.render.lighting.film import box_downsample
+from engine.render.rasterisation.attributes import interpolate, sample_texture
+from engine.render.rasterisation.rasteriser import rasterise
 
 SCAN_SUPERSAMPLING = 3
 CAMERA_DISTANCE_SCAN_HEIGHTS = 8.0

@@ -11,9 +11,9 @@ from scipy.spatial.transform import Rotation
 
 from engine.geometry.camera import Camera
 from engine.geometry.mesh.surface import vertex_normals
-from engine.render.attributes import interpolate
-from engine.render.film import box_downsample
-from engine.render.rasteriser import Raster, rasterise
+from engine.render.lighting.film import box_downsample
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.rasterisation.rasteriser import Raster, rasterise
 
 PICTURE_SUPERSAMPLING = 3
 PERSON_PICTURE_SIZE = (960, 720)

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from trimesh.visual.material import PBRMaterial
 
 from benchmarks.known_truth.known_person import Person
-from engine.render.attributes import interpolate, sample_texture
-from engine.render.rasteriser import Raster
+from engine.render.rasterisation.attributes import interpolate, sample_texture
+from engine.render.rasterisation.rasteriser import Raster
 
 BODY_HEIGHT_METRES = 1.8
 """Height to which scans are scaled."""

@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 from trimesh.triangles import closest_point
 
 from engine.geometry.registration.rigid import Similarity, fit_similarity
-from engine.render.rasteriser import depth_map
+from engine.render.rasterisation.rasteriser import depth_map
 
 SURFACE_SAMPLES = 40_000
 """Points drawn on a surface."""

@@ -30,7 +30,7 @@ from engine.persona.texture.appearance_subspace import SUBSPACE_RANK, exposed
 from engine.persona.texture.bare_skin import bared
 from engine.persona.texture.dense_alignment import SMOOTHING_SIGMA
 from engine.persona.texture.texture_frame import TextureFrame
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 PHOTOS_OF_A, PHOTOS_OF_B = 8, 30
 WIDE_SIGMA_PIXELS = 16.0

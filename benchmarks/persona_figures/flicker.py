@@ -19,8 +19,8 @@ from benchmarks.presentation.tables import table
 from benchmarks.shared_media import media
 from engine.errors import InputError
 from engine.media.video import read_video
-from engine.perception.faces import FaceTracker
-from engine.perception.landmarks import FACE_OVAL
+from engine.perception.face.faces import FaceTracker
+from engine.perception.face.landmarks import FACE_OVAL
 from engine.performances import video
 from engine.persona.options import PersonaOptions
 from engine.persona.pipeline import make_persona

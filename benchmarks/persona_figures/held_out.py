@@ -31,8 +31,8 @@ from engine.geometry.registration.rigid import fit_similarity
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.media.limits import Limits
 from engine.perception.expression.features import frontalise
+from engine.perception.face.landmarks import LIPS_INNER, RIGID_VERTICES, fiducials
 from engine.perception.identity.backend import descriptor_distances, descriptor_name
-from engine.perception.landmarks import LIPS_INNER, RIGID_VERTICES, fiducials
 from engine.persona.collection.photos import Photos, read_photos
 from engine.persona.collection.sorting import Choice
 from engine.persona.learning import learn_persona

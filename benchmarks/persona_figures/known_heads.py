@@ -20,9 +20,9 @@ from benchmarks.scan_studio.people.template_people import template_subject
 from benchmarks.shared_media import media
 from engine.body.template import load_template
 from engine.geometry.mesh.surface import vertex_normals
-from engine.perception.faces import FaceTracker
-from engine.render.attributes import interpolate, sample_texture
-from engine.render.rasteriser import depth_map, rasterise
+from engine.perception.face.faces import FaceTracker
+from engine.render.rasterisation.attributes import interpolate, sample_texture
+from engine.render.rasterisation.rasteriser import depth_map, rasterise
 
 PHOTO_SIDE_PIXELS = 360
 """Pixels of a photograph."""

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from benchmarks.persona_figures.known_heads import KnownHead, from_before, head_scan, photographs, template_person
 from benchmarks.presentation.tables import table
 from engine.geometry.registration.rigid import fit_similarities, fit_similarity
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import FACE_OVAL, RIGID_VERTICES
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import FACE_OVAL, RIGID_VERTICES
 from engine.persona.learning import learn_persona
 from engine.persona.motion.performance import FRAME_SIZE
 from engine.persona.persona import Persona
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 PHOTO_COUNT = 60
 

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from benchmarks.presentation.tables import table
 from benchmarks.shared_media import media
-from engine.export.encoders import VideoTarget
-from engine.export.video import VideoWriter
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.media.image import read_image
 from engine.media.video import read_video
-from engine.perception.faces import FaceTracker
+from engine.perception.face.faces import FaceTracker
 from engine.performances import video
 from engine.persona.options import PersonaOptions
 from engine.persona.persona import Persona, read_persona

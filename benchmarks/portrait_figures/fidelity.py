@@ -22,9 +22,9 @@ from engine.face_animation.motion_transfer.control_points import carry_fiducials
 from engine.face_animation.rig import rig_target
 from engine.imaging.warping.mesh_warp import inverse_map
 from engine.media.image import read_image
-from engine.perception.faces import find_faces
-from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_EYE, eye_distance
-from engine.perception.segmentation import person_confidence
+from engine.perception.face.faces import find_faces
+from engine.perception.face.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_EYE, eye_distance
+from engine.perception.masks.segmentation import person_confidence
 from engine.portrait.options import PortraitOptions
 
 MAX_CLIP_FRAMES, COMPARED_FRAME_STEP = 240, 8

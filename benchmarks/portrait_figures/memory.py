@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from benchmarks.portrait_figures.speed import SMALL_CLIP, TIMED_PICTURE_SIZE, portrait
 from benchmarks.presentation.tables import table
 from benchmarks.shared_media import ROOT, media
-from engine.export.encoders import VideoTarget
-from engine.export.video import VideoWriter
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.media.video import probe_video, read_video
 
 CLIP_SECONDS = (5, 180)

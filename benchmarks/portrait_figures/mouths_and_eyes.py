@@ -20,7 +20,7 @@ from engine.face_animation.eyes.eyes import iris_positions
 from engine.face_animation.mouth.lip_contours import LOWER_INNER_LIP, UPPER_INNER_LIP
 from engine.face_animation.skin_colour import skin_colour
 from engine.media.image import read_image
-from engine.perception.landmarks import (
+from engine.perception.face.landmarks import (
     LEFT_EYE,
     LEFT_IRIS,
     LIPS_INNER,

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from benchmarks.presentation.tables import table
 from benchmarks.shared_media import ROOT, media
-from engine.export.encoders import VideoTarget
-from engine.export.video import VideoWriter
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.media.image import read_image, write_image
 from engine.media.video import probe_video, read_video
 from engine.portrait.options import PortraitOptions

@@ -16,8 +16,8 @@ from benchmarks.presentation.tables import table
 from benchmarks.shared_media import driving_clips, media, write_clip
 from engine.media.image import read_image
 from engine.media.video import probe_video, read_video
-from engine.perception.faces import FaceTracker
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, eye_opening, mouth_opening
+from engine.perception.face.faces import FaceTracker
+from engine.perception.face.landmarks import FACE_OVAL, MESH_SIZE, eye_opening, mouth_opening
 from engine.portrait.options import PortraitOptions
 
 SENSOR_SIGMA_GREY_LEVELS = 2.0

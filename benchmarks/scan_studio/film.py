@@ -16,7 +16,7 @@ from av.video.stream import VideoStream
 from numpy.typing import NDArray
 
 from benchmarks.scan_studio.camera.developing import HLG_TRANSFER, hlg_frame, srgb_frame
-from engine.media.ycbcr import BT709, BT2020, LIMITED_RANGE
+from engine.media.colour_conversion.ycbcr import BT709, BT2020, LIMITED_RANGE
 
 FilmFormat = Literal["h264", "hevc", "hlg"]
 FRAMES_PER_SECOND = 30

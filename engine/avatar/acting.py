@@ -18,8 +18,8 @@ from engine.motion.edit import in_place, loop_travel
 from engine.motion.kinematics import pose_transforms
 from engine.motion.library import CLIPS, built_in
 from engine.motion.rotation import from_matrix
-from engine.render.character import Actor, film_cast, prepare_character
-from engine.render.ground_shadow import GroundShadow
+from engine.render.lighting.ground_shadow import GroundShadow
+from engine.render.scene.character import Actor, film_cast, prepare_character
 
 TRAVEL_METRES = 0.1
 """Metres: a loop that gets further than this in one round goes somewhere."""

@@ -16,9 +16,9 @@ from engine.avatar.face_performance import acting_clip, capture_performance
 from engine.avatar.options import CAPTURE_OPTIONS, AvatarOptions
 from engine.avatar.writing import write_avatar
 from engine.errors import InputError
-from engine.export.encoders import VideoTarget
 from engine.export.still import write_still, write_thumbnail
-from engine.export.video import VideoWriter
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.kind import Given
 from engine.media.excerpt import Excerpt
 from engine.motion.clip import Clip

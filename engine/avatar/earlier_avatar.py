@@ -1,7 +1,7 @@
 """An avatar read back from its own file, so that it acts anew without a capture.
 
 Specification: Khronos, glTF 2.0, 3.7 (geometry, skins, morph targets), 3.11 (animations); what is read is what
-`engine.export.glb` writes.
+`engine.export.gltf.glb` writes.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from engine.avatar.avatar import Avatar
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import FACE_UNITS, load_rig
 from engine.errors import InputError
-from engine.export.gltf_joints import axes_above
+from engine.export.gltf.joints import axes_above
 from engine.geometry.rigging.morph_target import MorphTarget, morph_target
 from engine.geometry.rigging.skeleton import Skeleton
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh

@@ -26,8 +26,8 @@ from engine.media.excerpt import Excerpt
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.edit import repeat_loop
+from engine.perception.face.head_pose import canonical_face
 from engine.perception.face_track.track import NoFaceSeen, track_face
-from engine.perception.head_pose import canonical_face
 
 NECK_SHARE = 0.4
 """Of a head's turn: what the neck takes of it."""

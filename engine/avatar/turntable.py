@@ -12,8 +12,8 @@ from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.geometry.rigging.skinning import skin
 from engine.motion.clip import Clip
 from engine.motion.kinematics import pose_transforms
-from engine.render.character import Actor, film_cast, prepare_character
-from engine.render.ground_shadow import GroundShadow
+from engine.render.lighting.ground_shadow import GroundShadow
+from engine.render.scene.character import Actor, film_cast, prepare_character
 
 FIELD_OF_VIEW_RADIANS = np.radians(28.0)
 """Along the picture's height: a long lens, as for portraits, so that what is near is not large."""

@@ -13,11 +13,11 @@ import numpy as np
 from engine.avatar.acting import Scene, built_in_clips
 from engine.avatar.avatar import Avatar, coarser
 from engine.avatar.options import AvatarOptions
-from engine.export.glb import CharacterModel, write_glb
+from engine.export.gltf.glb import CharacterModel, write_glb
+from engine.export.gltf.vrm import VrmMeta, write_vrm
+from engine.export.gltf.vrm_expressions import arkit_expressions
 from engine.export.still import write_still
 from engine.export.usdz import write_usdz
-from engine.export.vrm import VrmMeta, write_vrm
-from engine.export.vrm_expressions import arkit_expressions
 from engine.geometry.camera import Camera
 from engine.run import Run
 

@@ -11,7 +11,7 @@ from engine.body.body_space import BodySpace
 from engine.body.rig import Rig
 from engine.body.template import Template
 from engine.geometry.rigging.joint_names import FINGER_NAMES, Side
-from engine.perception.hands import HAND_JOINTS
+from engine.perception.pose.hands import HAND_JOINTS
 
 FINGERTIP_DEPTH_METRES = 0.006
 """Metres within the skin at which the landmark of a fingertip lies."""
@@ -19,7 +19,7 @@ FINGERTIP_DEPTH_METRES = 0.006
 
 @dataclass(frozen=True)
 class HandModel:
-    """A hand's landmarks at rest, linear in the body's coefficients, as `engine.perception.hands.HAND_JOINTS` orders them.
+    """A hand's landmarks at rest, linear in the body's coefficients, as `engine.perception.pose.hands.HAND_JOINTS` orders them.
 
     side : the person's.
     joints : (21,) int, the joint of the space that carries each.

@@ -59,7 +59,7 @@ class LandmarkModel:
 
 
 def landmark_model(template: Template, space: BodySpace, rig: Rig) -> LandmarkModel:
-    """The landmarks of `engine.perception.body.BODY_LANDMARKS` on the template. `rig` has the joints of `space`."""
+    """The landmarks of `engine.perception.pose.body.BODY_LANDMARKS` on the template. `rig` has the joints of `space`."""
     found: dict[str, tuple[str, NDArray[np.intp] | None]] = {}
     for side, _ in SIDE_SIGNS:
         found |= {f"{side}{name}": (f"{side}{joint}", None) for name, joint in JOINT_LANDMARKS.items()}

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, Self, get_args
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from engine.motion.options import JointName, MotionClip, MotionJoints
-from engine.render.camera_moves import Move
+from engine.render.scene.camera_moves import Move
 
 Side = Annotated[int, Field(ge=64, le=4096)]
 Coordinate = Annotated[float, Field(ge=-16384, le=16384)]

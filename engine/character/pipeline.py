@@ -42,21 +42,21 @@ from engine.character.stages import (
     make_shell_character,
 )
 from engine.errors import InputError
-from engine.export.animated_gif import MAX_GIF_SIDE_PIXELS
-from engine.export.encoders import VideoTarget
-from engine.export.glb import TEXTURE_JPEG_QUALITY, CharacterModel, write_glb
+from engine.export.gltf.glb import TEXTURE_JPEG_QUALITY, CharacterModel, write_glb
+from engine.export.gltf.vrm import VrmMeta, write_vrm
 from engine.export.still import write_first_impression, write_still
 from engine.export.usdz import write_usdz
-from engine.export.video import VideoWriter
-from engine.export.vrm import VrmMeta, write_vrm
+from engine.export.videos.animated_gif import MAX_GIF_SIDE_PIXELS
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.kind import Given
 from engine.media.image import over_white, write_image
 from engine.motion.clip import Clip
 from engine.motion.retargeting.joint_map import lost_warning
-from engine.perception.matting import matting_model
-from engine.render.character import film_cast
-from engine.render.ground_shadow import GroundShadow
+from engine.perception.masks.matting import matting_model
+from engine.render.lighting.ground_shadow import GroundShadow
+from engine.render.scene.character import film_cast
 from engine.run import Run
 from engine.run_report import write_report
 

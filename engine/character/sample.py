@@ -10,8 +10,8 @@ from engine.character.fit.template_fit import load_human
 from engine.geometry.camera import Camera
 from engine.geometry.mesh.surface import vertex_normals
 from engine.geometry.rigging.skinning import bone_transforms, skin
-from engine.render.attributes import interpolate
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.rasterisation.rasteriser import rasterise
 
 SKIN_COLOUR, SHIRT_COLOUR, TROUSERS_COLOUR, SHOES_COLOUR = (224, 172, 140), (70, 110, 170), (60, 58, 66), (120, 60, 40)
 WALL_COLOUR, FLOOR_COLOUR = (128, 138, 148), (92, 84, 78)

@@ -1,6 +1,6 @@
 """A lit, shadowed preview of a character by `pyrender`, where OpenGL can be had without a screen (EGL or OSMesa).
 
-Nothing else needs it: the project's own rasteriser (`engine.render.character`) draws unlit pictures everywhere.
+Nothing else needs it: the project's own rasteriser (`engine.render.scene.character`) draws unlit pictures everywhere.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from engine.errors import InputError
 from engine.geometry.camera import Camera
 from engine.geometry.mesh.surface import vertex_normals
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
-from engine.render.character import DrawnCharacter
+from engine.render.scene.character import DrawnCharacter
 
 NEAR_PLANE_METRES, FAR_PLANE_METRES = 0.05, 100.0
 """Metres from the camera between which things are seen."""
@@ -68,7 +68,7 @@ class LitPreview:
     def draw(
         self, posed: NDArray[np.float32], camera: Camera, background: NDArray[np.uint8] | None = None
     ) -> DrawnCharacter:
-        """The character as its vertices `posed` (V, 3) stand, as `engine.render.character.draw_character` gives it.
+        """The character as its vertices `posed` (V, 3) stand, as `engine.render.scene.character.draw_character` gives it.
 
         Light falls from above the camera's left, whichever way the camera looks.
         """

@@ -13,7 +13,7 @@ import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, UsdSkel, UsdUtils, Vt
 
 from engine.export.animation_tracks import tracks
-from engine.export.glb import jpeg
+from engine.export.gltf.glb import jpeg
 from engine.export.influences import FULL_INFLUENCE, quantise_influences
 from engine.export.synthetic import SOURCE_TYPE, SYNTHETIC_STATEMENT
 from engine.geometry.mesh.welding import seamless_normals

@@ -36,8 +36,8 @@ from engine.face_animation.warping.unfold import MIN_AREA_SHARE, MIN_LIP_AREA_SH
 from engine.imaging.composite import composite_over, upsample_twice, warp_layer
 from engine.imaging.warping.fold_edges import smooth_folds
 from engine.imaging.window import Window
+from engine.perception.face.landmarks import MESH_SIZE, eye_distance
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.landmarks import MESH_SIZE, eye_distance
 
 FRAMES_AHEAD = 2
 """Frames in the making for each thread: keeps all cores busy, holds little memory."""

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
-from engine.perception.landmarks import FACE_OVAL, eye_distance
+from engine.perception.face.landmarks import FACE_OVAL, eye_distance
 
 MOUTH_SKIN_VERTICES = (164, 167, 393, 18, 200, 92, 322, 186, 410)
 """Vertices on the skin around the mouth."""

@@ -31,10 +31,10 @@ from engine.face_animation.rig import rig_target
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.layers import single_layer
 from engine.imaging.window import Window
+from engine.perception.face.faces import FaceTracker
+from engine.perception.face.landmarks import MESH_SIZE
 from engine.perception.face_track.face_crop import CROP_SHAPE, crop_place
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.faces import FaceTracker
-from engine.perception.landmarks import MESH_SIZE
 
 OBSERVED_FRAMES = 24
 """How many frames are looked at, besides the neutral one."""

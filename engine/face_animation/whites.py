@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.skin_colour import skin_colour
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
-from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
+from engine.perception.face.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
 USUAL_WHITE_HUE_SHARE, WHITE_HUE_SHARE_RANGE = 0.25, (0.15, 0.45)
 """Of the skin's hue in what is white, where no eye shows it, and between which it is."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from engine.errors import InputError
-from engine.media.demux import Header, without_picture
+from engine.media.decoding.demux import Header, without_picture
 from engine.media.limits import MAX_DECODED_SIDE_PIXELS, MIN_SIDE_PIXELS, Limits
 from engine.media.sniff import VIDEO_TYPES, is_still_webp, sniff
 

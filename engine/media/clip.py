@@ -10,15 +10,15 @@ from pathlib import Path
 from av.video.frame import VideoFrame
 
 from engine.errors import InputError
-from engine.media import animated_webp
 from engine.media.admission import admit_video, check_claims, check_video
-from engine.media.colour import transfer_of
-from engine.media.decode import Damage, decode
-from engine.media.demux import Header, Timetable, header_of, open_video, timetable_of, unreadable
-from engine.media.display import Orientation, orientation_of
+from engine.media.colour_conversion.colour import transfer_of
+from engine.media.colour_conversion.tone_mapping import Transfer
+from engine.media.decoding import animated_webp
+from engine.media.decoding.decode import Damage, decode
+from engine.media.decoding.demux import Header, Timetable, header_of, open_video, timetable_of, unreadable
+from engine.media.decoding.display import Orientation, orientation_of
+from engine.media.decoding.timing import Rate, at_own_times, rate_of, resample
 from engine.media.limits import Limits
-from engine.media.timing import Rate, at_own_times, rate_of, resample
-from engine.media.tone_mapping import Transfer
 
 
 @dataclass(frozen=True)

@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from engine.media.clip import Clip, open_clip
-from engine.media.colour import SrgbConverter
-from engine.media.decode import Damage
+from engine.media.colour_conversion.colour import SrgbConverter
+from engine.media.decoding.decode import Damage
 from engine.media.limits import Limits
 from engine.media.video import Warn, report_damage
 

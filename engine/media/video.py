@@ -13,11 +13,11 @@ from av.video.frame import VideoFrame
 
 from engine.errors import InputError
 from engine.media.clip import Clip, open_clip, too_short
-from engine.media.colour import SrgbConverter
-from engine.media.decode import Damage
-from engine.media.demux import unreadable
+from engine.media.colour_conversion.colour import SrgbConverter
+from engine.media.decoding.decode import Damage
+from engine.media.decoding.demux import unreadable
+from engine.media.decoding.timing import MIN_SPAN_SECONDS
 from engine.media.limits import Limits
-from engine.media.timing import MIN_SPAN_SECONDS
 
 Warn = Callable[[str, str], None]
 

@@ -13,8 +13,8 @@ import click
 import cv2
 import numpy as np
 
-from engine.export.encoders import VideoTarget
-from engine.export.video import VideoWriter
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.media.image import write_image
 from engine.media.video import read_video
 from engine.performances.catalogue import (

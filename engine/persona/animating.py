@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.export.encoders import VideoTarget
 from engine.export.still import write_still
-from engine.export.video import VideoWriter
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.face_animation.driver_tracking.neutral import choose_neutral_frame, warn_if_never_at_rest
 from engine.face_animation.stages import follow_driver
 from engine.kind import Given

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.export.still import write_still
-from engine.perception.head_pose import canonical_face
+from engine.perception.face.head_pose import canonical_face
 from engine.perception.identity.descriptor import IdentityDistances
 from engine.persona.collection.person import belonging
 from engine.persona.collection.photo_face import PhotoFace

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.expression.features import frontalise
-from engine.perception.landmarks import LIPS_INNER, mouth_opening
+from engine.perception.face.landmarks import LIPS_INNER, mouth_opening
 from engine.persona.collection.rest import at_rest
 from engine.persona.persona import Persona
 from engine.persona.shape.average_shape import average_depth

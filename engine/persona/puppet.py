@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.geometry.mesh.adjacency import edge_table
 from engine.geometry.mesh.subdivision import midpoint_subdivision
-from engine.perception.face_tessellation import face_triangles, opening_triangles
+from engine.perception.face.face_tessellation import face_triangles, opening_triangles
 from engine.persona.mouth.persona_mouth import puppet_mouth
 from engine.persona.persona import Persona
-from engine.render.mipmap import build_mipmap
-from engine.render.scratch import Scratch
-from engine.render.surface import Surface, draw_surface, triangle_spread
+from engine.render.scene.scratch import Scratch
+from engine.render.scene.surface import Surface, draw_surface, triangle_spread
+from engine.render.textures.mipmap import build_mipmap
 
 FRAME_SUBDIVISIONS = 2
 """Of the subdivision: triangles of a frame 194 wide are three pixels wide then."""

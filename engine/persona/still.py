@@ -11,7 +11,7 @@ from engine.errors import InputError
 from engine.export.still import write_still
 from engine.media.image import over_grey, read_image
 from engine.perception.expression.features import frontalise
-from engine.perception.faces import find_faces
+from engine.perception.face.faces import find_faces
 from engine.persona.backdrop import backdrop
 from engine.persona.collection.photo_face import as_looked_at
 from engine.persona.composite.photo_still import expression_of_photo

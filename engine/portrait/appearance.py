@@ -21,9 +21,9 @@ from engine.geometry.registration.rigid import fit_similarities
 from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.perception.expression.features import frontalise, measure_expression
-from engine.perception.head_pose import canonical_face, head_pose
-from engine.perception.landmarks import RIGID_VERTICES, eye_distance
-from engine.perception.one_face import OneFace
+from engine.perception.face.head_pose import canonical_face, head_pose
+from engine.perception.face.landmarks import RIGID_VERTICES, eye_distance
+from engine.perception.face.one_face import OneFace
 
 BARE_SKIN = (
     *(50, 101, 118, 205, 207, 36, 280, 330, 347, 425, 427, 266),  # cheeks

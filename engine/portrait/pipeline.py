@@ -9,16 +9,16 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.export.encoders import VideoTarget
 from engine.export.still import write_first_impression, write_still
-from engine.export.video import VideoWriter
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget
 from engine.face_animation.driver_tracking.neutral import choose_neutral_frame, warn_if_never_at_rest
 from engine.face_animation.stages import analyse_driver, follow_driver, prepare_target
 from engine.face_animation.target_face import TargetFace
 from engine.kind import Candidates, Given
+from engine.perception.face.landmarks import fiducials
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.landmarks import fiducials
 from engine.portrait.driver_selection import choose_driver
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import in_pixels, look_for_face

@@ -11,17 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.export.animated_gif import MAX_GIF_SIDE_PIXELS
+from engine.export.videos.animated_gif import MAX_GIF_SIDE_PIXELS
 from engine.face_animation.eyes.lower_lids import fit_lower_lids
 from engine.face_animation.target_face import TargetFace
 from engine.imaging.resample import even_size
 from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits
 from engine.perception.expression.features import EXPRESSION_FEATURES, measure_expression
-from engine.perception.faces import find_faces, same_face
-from engine.perception.head_pose import head_pose, mesh_from_fiducials
-from engine.perception.landmarks import FACE_OVAL, eye_distance, eye_opening, mouth_opening
-from engine.perception.segmentation import people_confidence
+from engine.perception.face.faces import find_faces, same_face
+from engine.perception.face.head_pose import head_pose, mesh_from_fiducials
+from engine.perception.face.landmarks import FACE_OVAL, eye_distance, eye_opening, mouth_opening
+from engine.perception.masks.segmentation import people_confidence
 from engine.portrait.options import PortraitOptions
 from engine.run import ConcurrentStage, Run
 

@@ -7,7 +7,7 @@ from engine.avatar.mesh import AVATAR_PARTS
 from engine.body.template import load_template
 from engine.geometry.mesh.surface import triangulate
 from engine.geometry.texture_charts.texture_atlas import TextureAtlas, atlas_from_uv
-from engine.render.texture_bake import chart_gap, charts_of, texel_raster
+from engine.render.textures.texture_bake import chart_gap, charts_of, texel_raster
 
 
 def atlas(uv: np.ndarray) -> TextureAtlas:

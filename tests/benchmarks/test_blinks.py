@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from benchmarks.portrait_figures.steadiness import blinks
-from engine.perception.landmarks import MESH_SIZE
+from engine.perception.face.landmarks import MESH_SIZE
 
 UPPER, LOWER = (159, 158, 160, 386, 385, 387), (145, 153, 144, 374, 380, 373)
 CORNERS = {33: 0.0, 133: 100.0, 263: 200.0, 362: 100.0}

@@ -15,7 +15,7 @@ from engine.body.template import load_rig
 from engine.geometry.camera import Camera
 from engine.geometry.rigging.joint_names import FINGER_NAMES
 from engine.geometry.rigging.skinning import bone_transforms
-from engine.perception.hands import HAND_JOINTS
+from engine.perception.pose.hands import HAND_JOINTS
 
 FOCAL, CENTRE, WRIST = 2000.0, (500.0, 500.0), np.array([0.4, 0.1, -3.5])
 CAMERA = Camera((0, 0, 0), FOCAL, CENTRE, (1000, 1000))

@@ -11,7 +11,7 @@ from engine.body.face.face_points import face_points
 from engine.body.landmarks import landmark_model
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
-from engine.perception.body import BODY_LANDMARKS
+from engine.perception.pose.body import BODY_LANDMARKS
 
 MIRRORED = (*range(16, -1, -1), *range(26, 16, -1), *(27, 28, 29, 30), *range(35, 30, -1))
 """The point on the other side for each of the first 36 of the face: jaw, brows and nose."""

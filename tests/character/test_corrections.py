@@ -27,8 +27,8 @@ from engine.character.texture.texture import PictureOnGrid, paint_tiles
 from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
-from engine.perception.body import BODY_LANDMARKS
-from engine.perception.people import MAX_DETECTED_PEOPLE, find_people, person_box
+from engine.perception.pose.body import BODY_LANDMARKS
+from engine.perception.pose.people import MAX_DETECTED_PEOPLE, find_people, person_box
 from engine.run import Run
 
 LIMITS = Limits()

@@ -11,7 +11,7 @@ from template_character import template_character
 
 from engine.character.pipeline import MAX_GLB_BYTES, write_small_glb
 from engine.errors import Canceled
-from engine.export.glb import TEXTURE_REDUCTIONS
+from engine.export.gltf.glb import TEXTURE_REDUCTIONS
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.run import Run
 

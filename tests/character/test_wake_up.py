@@ -25,7 +25,7 @@ from engine.media.image import read_image, write_image
 from engine.media.video import read_video
 from engine.motion import rotation
 from engine.motion.files.gltf_motion import read_gltf_motion
-from engine.render.character import draw_character, prepare_character
+from engine.render.scene.character import draw_character, prepare_character
 from engine.run import Progress, Run
 from engine.store import StageStore
 from galatea import wake_up

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from template_character import template_character
 
 from benchmarks.known_truth.written_character import outline, read_written
-from engine.export.glb import CharacterModel, write_glb
+from engine.export.gltf.glb import CharacterModel, write_glb
 from engine.geometry.rigging.skinning import skin
 from engine.motion.clip import Clip
 from engine.motion.kinematics import pose_transforms

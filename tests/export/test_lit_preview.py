@@ -14,7 +14,7 @@ from engine.export.lit_preview import LitPreview
 from engine.geometry.camera import Camera
 from engine.geometry.rigging.skinning import skin
 from engine.motion.kinematics import pose_transforms
-from engine.render.character import draw_character, prepare_character
+from engine.render.scene.character import draw_character, prepare_character
 
 SIZE = (480, 360)
 CAMERA = Camera((0, 0, 0), 520, (175.0, 240.5), SIZE).aimed((1.4, 1.3, 2.6), (0, 0.85, 0.3))

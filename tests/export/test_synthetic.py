@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from engine.export.encoders import VideoTarget
 from engine.export.synthetic import append_to_mp4, mark_image
-from engine.export.video import VideoWriter
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.media.image import write_image
 from engine.media.video import probe_video
 

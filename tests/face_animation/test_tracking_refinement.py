@@ -20,9 +20,9 @@ from engine.face_animation.tracking_refinement import OBSERVED_FRAMES, ObservedD
 from engine.face_animation.warping.layers import separate_layers
 from engine.media.excerpt import Excerpt
 from engine.media.limits import Limits
+from engine.perception.face.faces import FaceTracker
+from engine.perception.face.landmarks import LIPS_INNER, LIPS_OUTER
 from engine.perception.face_track.face_crop import CROP_SHAPE, crop_place
-from engine.perception.faces import FaceTracker
-from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import find_target_face
 

@@ -14,11 +14,11 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from engine.errors import InputError
-from engine.media import animated_webp
-from engine.media.demux import open_container
+from engine.media.decoding import animated_webp
+from engine.media.decoding.demux import open_container
+from engine.media.decoding.timing import rate_of
 from engine.media.limits import Limits
 from engine.media.sniff import IMAGE_TYPES, VIDEO_TYPES, is_still_webp, sniff_bytes
-from engine.media.timing import rate_of
 from service.files.admission import shown_name
 from service.files.intake import MAX_FIELDS, Form
 from service.http.ranges import Unsatisfiable, not_modified, parse_ranges, range_applies

@@ -20,7 +20,7 @@ from engine.body.rest_pose import t_pose
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import FACE_UNITS, load_rig, load_template
 from engine.motion.library import built_in
-from engine.render.texture_bake import texel_raster
+from engine.render.textures.texture_bake import texel_raster
 from engine.run import Run
 
 SKIN = (198, 156, 132)

@@ -29,10 +29,10 @@ from engine.avatar.writing import WrittenCameras, write_avatar, write_cameras
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig, load_template
 from engine.errors import InputError
-from engine.export.encoders import VideoTarget
 from engine.export.ply import write_ply
 from engine.export.still import write_first_impression, write_still
-from engine.export.video import VideoWriter
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.geometry.camera import Camera
 from engine.geometry.point_clouds.point_cloud import PointCloud
 from engine.kind import Given, Needs

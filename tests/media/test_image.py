@@ -18,8 +18,8 @@ from PIL import Image, ImageCms
 from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
-from engine.perception.faces import find_faces
-from engine.perception.people import find_people
+from engine.perception.face.faces import find_faces
+from engine.perception.pose.people import find_people
 
 PIXELS = quadrants(64, 48)
 

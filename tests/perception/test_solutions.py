@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from engine.media.image import read_image
-from engine.perception.body import find_body
-from engine.perception.faces import find_faces
+from engine.perception.face.faces import find_faces
+from engine.perception.pose.body import find_body
 from engine.perception.solutions import kept_networks, network
 
 SELFIE: dict[str, Any] = {"model_selection": 0}
@@ -48,7 +48,7 @@ def test_other_parts_of_mediapipe_are_loaded_when_they_are_used() -> None:
 
 FIND = """
 import numpy as np
-from engine.perception.faces import find_faces
+from engine.perception.face.faces import find_faces
 find_faces(np.zeros((64, 64, 3), np.uint8))
 """
 

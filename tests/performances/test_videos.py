@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from engine.media.image import read_image
 from engine.media.video import probe_video, read_video
-from engine.perception.faces import FaceTracker
-from engine.perception.head_pose import head_pose
+from engine.perception.face.faces import FaceTracker
+from engine.perception.face.head_pose import head_pose
 from engine.performances import catalogue, names, performance, poster, video
 from engine.performances.catalogue import PERFORMANCE_FPS, POSTER_SIDE_PIXELS
 from engine.performances.scores.score import SCORES

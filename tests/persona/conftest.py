@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from engine.media.image import read_image
-from engine.perception.faces import FaceTracker
+from engine.perception.face.faces import FaceTracker
 from engine.persona.sample import write_sample_photos
 
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from engine.errors import InputError
-from engine.export.encoders import VideoTarget
-from engine.export.video import VideoWriter
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.media.video import read_video

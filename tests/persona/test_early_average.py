@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from engine.media.image import read_image
-from engine.perception.head_pose import canonical_face
+from engine.perception.face.head_pose import canonical_face
 from engine.perception.identity.descriptor import IdentityDistances
 from engine.persona.collection.photo_face import PhotoFace
 from engine.persona.collection.sorting import Choice

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from engine.errors import InputError
-from engine.perception.landmarks import mouth_opening
+from engine.perception.face.landmarks import mouth_opening
 from engine.persona.learning import learn_persona
 from engine.persona.persona import Persona, read_persona, write_persona
 from engine.persona.texture.expression_weights import expression_weights

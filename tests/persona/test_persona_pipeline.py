@@ -13,8 +13,8 @@ import pytest
 from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.video import probe_video, read_video
-from engine.perception.faces import FaceTracker
-from engine.perception.landmarks import mouth_opening
+from engine.perception.face.faces import FaceTracker
+from engine.perception.face.landmarks import mouth_opening
 from engine.performances import video
 from engine.persona.animating import with_composite
 from engine.persona.composite.framing import framed

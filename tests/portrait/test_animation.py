@@ -13,7 +13,7 @@ from made_clip import OPENS, face, unpacked, write_frames
 from numpy.typing import NDArray
 
 from engine.media.image import read_image
-from engine.perception.landmarks import eye_distance, eye_opening, fiducials, mouth_opening
+from engine.perception.face.landmarks import eye_distance, eye_opening, fiducials, mouth_opening
 from engine.performances import video
 
 

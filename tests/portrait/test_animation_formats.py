@@ -13,8 +13,8 @@ import pytest
 from made_clip import OPENS, read_frames, unpacked
 from numpy.typing import NDArray
 
-from engine.export.encoders import VideoTarget
-from engine.export.video import VideoWriter
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.media.image import read_image, write_image
 from engine.media.video import read_video
 

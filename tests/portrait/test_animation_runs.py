@@ -15,7 +15,7 @@ import galatea
 from engine.errors import Canceled, InputError
 from engine.media.image import read_image
 from engine.media.limits import Limits
-from engine.perception.landmarks import fiducials
+from engine.perception.face.landmarks import fiducials
 from engine.portrait import PortraitOptions
 from engine.portrait.pipeline import animate_portrait
 from engine.run import Progress, Run

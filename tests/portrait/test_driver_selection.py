@@ -13,14 +13,14 @@ import pytest
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.export.encoders import VideoTarget
-from engine.export.video import VideoWriter
+from engine.export.videos.encoders import VideoTarget
+from engine.export.videos.video import VideoWriter
 from engine.face_animation.target_face import TargetFace
 from engine.kind import Candidates
 from engine.media.image import write_image
 from engine.media.limits import Limits
 from engine.media.video import read_video
-from engine.perception.faces import find_faces
+from engine.perception.face.faces import find_faces
 from engine.performances import names, performance, video
 from engine.portrait.appearance import Appearance, appearance_of_driver, appearance_of_face
 from engine.portrait.driver_selection import CRITERION_WEIGHTS, choose_driver, library_appearances, score_driver

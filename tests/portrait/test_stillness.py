@@ -19,8 +19,8 @@ from engine.face_animation.warping.layers import Layers, separate_layers
 from engine.media.excerpt import Excerpt
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
-from engine.perception.landmarks import FACE_OVAL
-from engine.perception.person import person_mask
+from engine.perception.face.landmarks import FACE_OVAL
+from engine.perception.masks.person import person_mask
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import find_target_face
 

@@ -17,8 +17,8 @@ from engine.face_animation.warping.layers import separate_layers
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.perception.expression.features import measure_expression
-from engine.perception.faces import find_faces
-from engine.perception.landmarks import eye_distance, eye_opening, fiducials, mouth_opening
+from engine.perception.face.faces import find_faces
+from engine.perception.face.landmarks import eye_distance, eye_opening, fiducials, mouth_opening
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import (
     MAX_PICTURE_SIDE_PIXELS,

@@ -13,8 +13,8 @@ import httpx
 import pytest
 
 from engine.media.video import probe_video, read_video
-from engine.perception.faces import find_faces
-from engine.perception.landmarks import mouth_opening
+from engine.perception.face.faces import find_faces
+from engine.perception.face.landmarks import mouth_opening
 
 ROOT = Path(__file__).parents[2]
 SCRIPT = ROOT / "scripts" / "demo.py"

@@ -22,8 +22,8 @@ from click.testing import CliRunner, Result
 from engine.character.sample import sample_picture
 from engine.media.image import write_image
 from engine.media.video import read_video
-from engine.perception.faces import find_faces
-from engine.perception.landmarks import mouth_opening
+from engine.perception.face.faces import find_faces
+from engine.perception.face.landmarks import mouth_opening
 from engine.performances import video
 from service.catalogue.registry import load_kinds
 from service.settings import Settings

@@ -10,8 +10,8 @@ import numpy as np
 from av.video.frame import VideoFrame
 from numpy.typing import NDArray
 
-from engine.media.tone_mapping import PEAK_NITS, WHITE_NITS, srgb_code, xyz_of
-from engine.media.ycbcr import BT2020, LIMITED_RANGE, frame_from_rgb
+from engine.media.colour_conversion.tone_mapping import PEAK_NITS, WHITE_NITS, srgb_code, xyz_of
+from engine.media.colour_conversion.ycbcr import BT2020, LIMITED_RANGE, frame_from_rgb
 
 TONE_TABLE_STEPS = 4096
 """Steps of the table from light to sRGB."""
@@ -44,7 +44,7 @@ def hlg_frame(light: NDArray[np.float32]) -> VideoFrame:
 
 def hlg_code(scene: NDArray[np.floating]) -> NDArray[np.floating]:
     """HLG code values in [0, 1] of a scene's light in [0, 1] (BT.2100, table 5): the inverse of
-    `engine.media.tone_mapping.hlg_scene_light`."""
+    `engine.media.colour_conversion.tone_mapping.hlg_scene_light`."""
     a, b, c = 0.17883277, 0.28466892, 0.55991073
     bright = a * np.log(np.maximum(12 * scene - b, DARKEST_LIGHT)) + c
     return np.asarray(np.where(scene <= 1 / 12, np.sqrt(3 * np.maximum(scene, 0)), bright))

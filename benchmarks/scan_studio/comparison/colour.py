@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from benchmarks.scan_studio.scenery.drawing import TexturedMesh, draw_over, empty_depths
 from engine.geometry.camera import Camera
-from engine.media.tone_mapping import srgb_code, srgb_light, xyz_of
+from engine.media.colour_conversion.tone_mapping import srgb_code, srgb_light, xyz_of
 
 UNCOUNTED_OUTLINE_PIXELS = 2
 """Pixels along the outline that do not count."""

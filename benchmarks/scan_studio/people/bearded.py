@@ -16,8 +16,8 @@ from engine.body.face.face_points import face_points
 from engine.body.template import load_template
 from engine.geometry.mesh.surface import vertex_normals
 from engine.geometry.texture_charts.texture_atlas import atlas_from_uv
-from engine.render.attributes import interpolate
-from engine.render.texture_bake import texel_raster
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.textures.texture_bake import texel_raster
 
 BEARD_METRES = 0.012
 """Metres by which the beard stands off the skin."""

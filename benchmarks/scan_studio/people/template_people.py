@@ -27,9 +27,9 @@ from engine.body.template import Template, load_rig, load_template
 from engine.geometry.mesh.surface import triangulate, vertex_normals
 from engine.geometry.texture_charts.texture_atlas import atlas_from_uv
 from engine.imaging.filling.nearest import nearest_colours
-from engine.render.attributes import interpolate
-from engine.render.rasteriser import Raster
-from engine.render.texture_bake import texel_raster
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.rasterisation.rasteriser import Raster
+from engine.render.textures.texture_bake import texel_raster
 
 TEXTURE_SIZE_TEXELS = 2048
 DRAWN_PARTS = ("body", "left_eye", "right_eye")

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
-from engine.render.mipmap import Mipmap, build_mipmap
-from engine.render.rasteriser import draw_into
-from engine.render.texturing import PictureWindow, TexturedSurface, colour_inside, corner_table
+from engine.render.rasterisation.rasteriser import draw_into
+from engine.render.textures.mipmap import Mipmap, build_mipmap
+from engine.render.textures.texturing import PictureWindow, TexturedSurface, colour_inside, corner_table
 
 
 @dataclass(frozen=True)

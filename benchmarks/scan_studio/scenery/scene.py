@@ -16,7 +16,7 @@ from benchmarks.scan_studio.scenery.drawing import draw_over, empty_depths, text
 from benchmarks.scan_studio.scenery.room import Room
 from engine.compiled import njit
 from engine.geometry.camera import Camera
-from engine.media.tone_mapping import srgb_light
+from engine.media.colour_conversion.tone_mapping import srgb_light
 
 SAMPLE_OFFSETS_PIXELS = ((-0.375, 0.125), (0.125, 0.375), (-0.125, -0.375), (0.375, -0.125))
 """Pixels from a pixel's centre at which it is looked at, one moment of the exposure each: a turned grid."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.geometry.camera import Camera
 from engine.geometry.multiview.silhouette_depth import Beside, silhouette_depths
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 MAX_WRONG_SILHOUETTES_SHARE = 0.12
 """Share of the silhouettes that may leave out what is there: masks miss a hat or its rim in some. With 0.15 a hat and hair came out 6 mm

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
 from engine.imaging.masks.colour_segmentation import MIN_MIXTURE_PIXELS, ColourMixture
-from engine.render.sampling import bilinear
+from engine.render.textures.sampling import bilinear
 
 MOSAIC_SPACING_METRES = 0.005
 """Metres between points of the mosaic."""

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.imaging.resample import resized, size_within
-from engine.perception.body import BODY_LANDMARKS, Body
-from engine.perception.people import find_people
+from engine.perception.pose.body import BODY_LANDMARKS, Body
+from engine.perception.pose.people import find_people
 from engine.perception.solutions import kept_networks
 
 EXAMINED_FRAMES = 12

@@ -16,7 +16,7 @@ from engine.avatar.capture.person_lock import PersonLock, focus_of
 from engine.avatar.capture.scene_cameras import ClipScene
 from engine.geometry.multiview.bundle import Bundle, undistorted
 from engine.geometry.registration.rigid import Similarity
-from engine.perception.body import Body
+from engine.perception.pose.body import Body
 
 TAKEN_HEIGHT_METRES = 1.7
 """Metres that the person is taken to be tall: how tall they are is a matter of scale, which nothing that is measured tells."""

@@ -13,7 +13,7 @@ from engine.avatar.capture.scene_cameras import ClipScene
 from engine.imaging.masks.colour_segmentation import grab_cut
 from engine.imaging.masks.mask_pieces import without_small_pieces
 from engine.imaging.resample import resized, size_within
-from engine.perception.segmentation import people_confidence
+from engine.perception.masks.segmentation import people_confidence
 from engine.perception.solutions import kept_networks
 
 MASK_SIDE_PIXELS = 480

@@ -12,7 +12,7 @@ from engine.avatar.landmarks.robust_triangulation import triangulate_robustly
 from engine.avatar.options import PlacedLandmark
 from engine.errors import InputError
 from engine.geometry.camera import Camera
-from engine.perception.body import BODY_LANDMARKS
+from engine.perception.pose.body import BODY_LANDMARKS
 
 POINTED_AT_SIGMA_SHARE = 12 / 720
 """By what share of a frame's shorter side a landmark is off that somebody has pointed at in a small picture of it."""

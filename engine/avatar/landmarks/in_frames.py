@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.rigging.joint_names import SIDE_NAMES
-from engine.perception.body import BODY_LANDMARKS, Body, find_body
-from engine.perception.face_wear import FaceWear, face_wear
-from engine.perception.faces import find_faces
-from engine.perception.hands import find_hands
-from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS, fiducials
+from engine.perception.face.face_wear import FaceWear, face_wear
+from engine.perception.face.faces import find_faces
+from engine.perception.face.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS, fiducials
+from engine.perception.pose.body import BODY_LANDMARKS, Body, find_body
+from engine.perception.pose.hands import find_hands
 
 SKELETON_BONES = (
     *(("LeftShoulder", "RightShoulder"), ("LeftHip", "RightHip")),

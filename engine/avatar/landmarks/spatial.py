@@ -14,7 +14,7 @@ from engine.geometry.rigging.joint_names import SIDE_NAMES
 FACE_LANDMARKS = 68
 """Points of a face (iBUG)."""
 HAND_LANDMARKS = 21
-"""Points of a hand (`engine.perception.hands.HAND_JOINTS`)."""
+"""Points of a hand (`engine.perception.pose.hands.HAND_JOINTS`)."""
 LID_POINT_COUNT, EYE_POINT_COUNT = 16, 21
 """Points of an eye between its lids, from the outer corner over the upper lid; and all with those of its iris, the
 middle first."""

@@ -12,7 +12,7 @@ from engine.errors import Notice
 MIN_FACE_FRAMES = 3
 """Frames that must tell of a face."""
 MIN_BRIDGE_STRENGTH = 0.05
-"""Of `engine.perception.face_wear.FaceWear.bridge`, in the median frame, from which glasses are worn."""
+"""Of `engine.perception.face.face_wear.FaceWear.bridge`, in the median frame, from which glasses are worn."""
 MIN_BEARD_LIP_DARKNESS = 1.1
 """Of `FaceWear.lip_darkness`, from which a beard is: a third of the cheek's light."""
 

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
-from engine.render.rasteriser import rasterise
-from engine.render.sampling import bilinear
+from engine.render.rasterisation.rasteriser import rasterise
+from engine.render.textures.sampling import bilinear
 
 OUTLINE_REACH_METRES = 0.12
 """Metres around a part within which its outline may be."""

@@ -23,9 +23,9 @@ from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.compiled import njit
 from engine.geometry.mesh.surface import vertex_normals
 from engine.imaging.resample import resized, size_within
-from engine.render.sampling import bilinear
-from engine.render.texture_bake import texel_raster
-from engine.render.visibility import depth_buffer, seen_points
+from engine.render.rasterisation.visibility import depth_buffer, seen_points
+from engine.render.textures.sampling import bilinear
+from engine.render.textures.texture_bake import texel_raster
 
 
 class Level(NamedTuple):

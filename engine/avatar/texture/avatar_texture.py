@@ -16,7 +16,7 @@ from engine.avatar.texture.template_texture.placing import place_eyes, place_han
 from engine.avatar.texture.views import FrameView
 from engine.body.rig import Rig
 from engine.geometry.mesh.surface import triangle_areas
-from engine.render.texture_bake import charts_of, pad_charts
+from engine.render.textures.texture_bake import charts_of, pad_charts
 
 
 @dataclass(frozen=True)

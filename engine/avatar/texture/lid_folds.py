@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from engine.avatar.registration.eyes.eyeballs import sphere
 from engine.geometry.camera import Camera
-from engine.render.visibility import depth_buffer, seen_points, view_cosines
+from engine.render.rasterisation.visibility import depth_buffer, seen_points, view_cosines
 
 LID_FOLD_EYE_WIDTHS = 0.25
 """Widths of an eye from the rims of its lids within which skin may lie in a fold."""

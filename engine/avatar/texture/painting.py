@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from engine.avatar.texture.labels import UNSEEN_LABEL
 from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.compiled import njit
-from engine.render.rasteriser import Raster
-from engine.render.sampling import bilinear
-from engine.render.texture_bake import STRIP_TEXELS
+from engine.render.rasterisation.rasteriser import Raster
+from engine.render.textures.sampling import bilinear
+from engine.render.textures.texture_bake import STRIP_TEXELS
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ def paint(
 ) -> PaintedTexture:
     """The texture of a surface whose faces take their colours from the frames `labels` (T,) of `views`.
 
-    `raster` (S, S): of its texels (`engine.render.texture_bake.texel_raster`); `gains` (N, 3) of the frames; at most `strip`
+    `raster` (S, S): of its texels (`engine.render.textures.texture_bake.texel_raster`); `gains` (N, 3) of the frames; at most `strip`
     texels are worked on at once, which changes nothing.
     """
     size = len(raster.triangle)

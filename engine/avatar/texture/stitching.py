@@ -17,9 +17,9 @@ from engine.avatar.texture.photo_consistency import consistent
 from engine.avatar.texture.view_samples import ViewSamples, sample_views
 from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.geometry.mesh.surface import triangle_areas
-from engine.render.rasteriser import Raster
-from engine.render.texture_bake import charts_of, texel_raster
-from engine.render.texture_fill import fill_over_surface
+from engine.render.rasterisation.rasteriser import Raster
+from engine.render.textures.texture_bake import charts_of, texel_raster
+from engine.render.textures.texture_fill import fill_over_surface
 
 AVATAR_TEXTURE_SIZE_TEXELS = 4096
 

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.geometry.mesh.adjacency import edge_table, neighbours
 from engine.geometry.mesh.surface import vertex_normals
-from engine.render.sampling import bilinear
-from engine.render.visibility import depth_buffer, seen_points, view_cosines
+from engine.render.rasterisation.visibility import depth_buffer, seen_points, view_cosines
+from engine.render.textures.sampling import bilinear
 
 FACE_SAMPLE_COORDINATES = np.array([[1, 1, 1], [1.8, 0.6, 0.6], [0.6, 1.8, 0.6], [0.6, 0.6, 1.8]]) / 3
 """Barycentric coordinates of the points at which it is asked whether a face is seen."""

@@ -25,7 +25,7 @@ from engine.body.template import FACE_UNITS, Template
 from engine.compiled import njit
 from engine.geometry.registration.rigid import fit_similarities
 from engine.geometry.rigging.joint_names import SIDE_NAMES
-from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS, RIGID_VERTICES, eye_distance
+from engine.perception.face.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS, RIGID_VERTICES, eye_distance
 
 CAPTURED_UNITS = tuple(unit for unit in FACE_UNITS if unit != "tongueOut")
 """The face units that a face mesh shows: it has no tongue."""

@@ -16,7 +16,7 @@ from scipy.spatial import cKDTree
 from engine.body.body_space import BodySpace
 from engine.body.face.face_points import lay_canonical_face
 from engine.body.template import Template
-from engine.perception.landmarks import (
+from engine.perception.face.landmarks import (
     FACE_OVAL,
     LEFT_BROW,
     LEFT_EYE,

@@ -9,8 +9,8 @@ from scipy.spatial.transform import Rotation
 
 from engine.body.body_space import BodySpace
 from engine.body.template import Template
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import fiducials
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import fiducials
 
 PICTURE_TO_TEMPLATE = np.diag([1.0, -1.0, -1.0])
 """From the axes of pictures (y down, z away) to the template's."""

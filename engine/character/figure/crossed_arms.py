@@ -16,8 +16,8 @@ from engine.body.fitting.observation import Crossing
 from engine.character.figure.figure import MIN_JOINT_CONFIDENCE, Figure
 from engine.geometry.rigging.joint_names import SIDE_NAMES, Side
 from engine.imaging.masks.colour_segmentation import ColourMixture
-from engine.perception.body import BODY_LANDMARKS
-from engine.perception.landmarks import FACE_OVAL
+from engine.perception.face.landmarks import FACE_OVAL
+from engine.perception.pose.body import BODY_LANDMARKS
 
 FINGER_LANDMARKS = ("Pinky", "Index", "Thumb")
 HAND_SEARCH_RADIUS_FOREARMS = 0.175

@@ -12,7 +12,7 @@ from engine.character.figure.figure import Figure
 from engine.character.figure.placed_joints import REQUIRED_PLACED_JOINTS
 from engine.errors import InputError
 from engine.imaging.masks.mask_distance import distance_to
-from engine.perception.body import BODY_LANDMARKS
+from engine.perception.pose.body import BODY_LANDMARKS
 
 SURE_JOINT_CONFIDENCE = 0.8
 """Confidence of joints that are seen. Of those that are guessed, behind a table or another arm, a mask need not have any."""

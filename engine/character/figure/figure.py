@@ -17,12 +17,12 @@ from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.imaging.resample import resized, size_within
 from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits
-from engine.perception.body import BODY_LANDMARKS, Body
-from engine.perception.faces import find_faces
-from engine.perception.figure import figure_on_paper
-from engine.perception.hands import HAND_JOINTS, find_hands
-from engine.perception.outline_skeleton import outline_skeleton
-from engine.perception.people import covered_by, find_body_within, find_people, person_box
+from engine.perception.face.faces import find_faces
+from engine.perception.masks.figure import figure_on_paper
+from engine.perception.pose.body import BODY_LANDMARKS, Body
+from engine.perception.pose.hands import HAND_JOINTS, find_hands
+from engine.perception.pose.outline_skeleton import outline_skeleton
+from engine.perception.pose.people import covered_by, find_body_within, find_people, person_box
 
 MAX_PICTURE_PIXELS = 1920
 """Pixels: larger pictures are made smaller first."""
@@ -65,13 +65,13 @@ class Figure:
     rgb : (H, W, 3) the picture's colours, to be seen only as far as its own `alpha` shows them, if it has one.
     alpha : (H, W) float32 in [0, 1].
     points : (33, 2) pixels.
-    confidence : (33,) of the points, as in `engine.perception.body.Body`.
+    confidence : (33,) of the points, as in `engine.perception.pose.body.Body`.
     world : (33, 3) as there; `spatial` says whether it is known.
     original : width and height of the picture as it was given, of which `rgb` may be a smaller copy.
     people : (N, 4) the boxes of all who were found, of whom this is number `index`.
     others : (H, W) bool, where the rest of them surely are.
-    face : (478, 3) the mesh of the face, as `engine.perception.faces.find_faces` gives it; None where none is seen.
-    hands : the left and the right, each (21, 3) as `engine.perception.hands.Hand` has its points, with their depth; None where it is not seen.
+    face : (478, 3) the mesh of the face, as `engine.perception.face.faces.find_faces` gives it; None where none is seen.
+    hands : the left and the right, each (21, 3) as `engine.perception.pose.hands.Hand` has its points, with their depth; None where it is not seen.
     drawn : nobody whom networks see, but a figure on plain paper, whose joints are its outline's.
     placed : the joints that were placed by hand.
     """

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.perception.body import BODY_LANDMARKS
+from engine.perception.pose.body import BODY_LANDMARKS
 
 PLACEABLE_JOINTS = tuple(name for name in BODY_LANDMARKS if not name.endswith(("Inner", "Outer")))
 """The joints that can be placed by hand."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.perception.body import BODY_LANDMARKS
+from engine.perception.pose.body import BODY_LANDMARKS
 
 MAX_TRUNK_LEAN_DEGREES = 55.0
 """Degrees by which the trunk may lean in the picture."""

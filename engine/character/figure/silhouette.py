@@ -22,11 +22,11 @@ from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import bounding_box, largest_piece
 from engine.imaging.resample import resized
 from engine.media.limits import Limits
-from engine.perception.body import BODY_LANDMARKS
-from engine.perception.matting import MattingModel
-from engine.perception.person import DOUBTFUL_BELIEF, LIKELY_BELIEF, person_mask
-from engine.perception.salience import with_salience
-from engine.perception.segmentation import people_confidence
+from engine.perception.masks.matting import MattingModel
+from engine.perception.masks.person import DOUBTFUL_BELIEF, LIKELY_BELIEF, person_mask
+from engine.perception.masks.salience import with_salience
+from engine.perception.masks.segmentation import people_confidence
+from engine.perception.pose.body import BODY_LANDMARKS
 
 GRID_HEIGHT_PIXELS = 400
 """Pixels of the person's height on the grid."""

@@ -18,7 +18,7 @@ from engine.character.rig.measures import picture_camera, pose
 from engine.character.rig.rigging import Character
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import bounding_box, pieces_touching
-from engine.render.ground_shadow import GroundShadow
+from engine.render.lighting.ground_shadow import GroundShadow
 
 UPPER_MARGIN_HEIGHTS, LOWER_MARGIN_HEIGHTS, SIDE_MARGIN_HEIGHTS = 0.3, 0.2, 1.2
 """What of the picture is looked at, in heights of the person: above the feet, below them, and to either side."""

@@ -15,10 +15,10 @@ from engine.character.rig.rigging import Character
 from engine.geometry.camera import Camera
 from engine.imaging.resample import even_size
 from engine.motion.clip import Clip
-from engine.render.backdrop import Backdrop
-from engine.render.camera_moves import Move, camera_at
-from engine.render.character import Actor, film_cast, prepare_character
-from engine.render.ground_shadow import GroundShadow
+from engine.render.lighting.ground_shadow import GroundShadow
+from engine.render.scene.backdrop import Backdrop
+from engine.render.scene.camera_moves import Move, camera_at
+from engine.render.scene.character import Actor, film_cast, prepare_character
 
 DEFAULT_VIDEO_PIXELS = 1280
 """Pixels of the video by default."""

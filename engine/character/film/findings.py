@@ -18,7 +18,7 @@ from engine.character.film.person import Person
 from engine.character.rig.measures import picture_camera
 from engine.media.image import write_image
 from engine.motion.kinematics import joint_places
-from engine.perception.body import BODY_LANDMARKS
+from engine.perception.pose.body import BODY_LANDMARKS
 
 
 def write_findings(out: Path, people: Sequence[Person]) -> None:

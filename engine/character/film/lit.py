@@ -11,7 +11,7 @@ from engine.export.lit_preview import LitPreview
 from engine.geometry.camera import Camera
 from engine.geometry.rigging.skinning import skin
 from engine.motion.kinematics import pose_transforms
-from engine.render.character import Actor
+from engine.render.scene.character import Actor
 
 
 def lit_picture(cast: Sequence[Actor], camera: Camera, plate: NDArray[np.uint8]) -> NDArray[np.uint8]:

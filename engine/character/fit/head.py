@@ -16,7 +16,7 @@ from engine.body.face.face_points import PICTURE_TO_TEMPLATE
 from engine.character.figure.face_region import in_profile
 from engine.character.figure.figure import Figure
 from engine.character.fit.template_fit import FittedBody, load_human
-from engine.perception.landmarks import fiducials
+from engine.perception.face.landmarks import fiducials
 
 MAX_FIDUCIAL_ERROR_EYE_DISTANCES = 0.2
 """Distances of the eyes by which fiducials may be off on the average; beyond, the face is not believed."""

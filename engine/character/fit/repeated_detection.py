@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from engine.character.figure.figure import MIN_JOINT_CONFIDENCE, Figure, moved_along
 from engine.imaging.masks.mask_pieces import bounding_box
-from engine.perception.body import BODY_LANDMARKS, FAINT_CONFIDENCE, Body, find_body
+from engine.perception.pose.body import BODY_LANDMARKS, FAINT_CONFIDENCE, Body, find_body
 
 BACKDROP_GREY_LEVEL = 128
 """Of what is before and behind the person."""

@@ -28,8 +28,8 @@ from engine.character.fit.posed_template import PosedTemplate
 from engine.geometry.camera import Camera
 from engine.geometry.mesh.surface import triangulate
 from engine.geometry.rigging.skinning import bone_transforms, skin
-from engine.perception.body import BODY_LANDMARKS
-from engine.render.rasteriser import rasterise
+from engine.perception.pose.body import BODY_LANDMARKS
+from engine.render.rasterisation.rasteriser import rasterise
 
 RIG_NAME = "mixamo"
 """The rig of a character, who is one surface: the joints of `engine.body.rig.FACE_JOINTS` would move nothing that opens or turns."""

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.mesh.surface import vertex_normals
-from engine.render.attributes import interpolate
-from engine.render.rasteriser import Raster, rasterise
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.rasterisation.rasteriser import Raster, rasterise
 
 Side = Literal["front", "back"]
 

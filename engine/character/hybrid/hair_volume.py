@@ -29,7 +29,7 @@ from engine.character.shell.template_mesh import TemplateMesh
 from engine.geometry.mesh.clipping import clip, walled
 from engine.geometry.mesh.welding import same_rows
 from engine.imaging.filling.nearest import nearest_values
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 SURE_HEAD_WEIGHT = 0.9
 """Weight of the head from which on a vertex is the skull's."""

@@ -28,7 +28,7 @@ from engine.geometry.mesh.adjacency import neighbours
 from engine.geometry.mesh.welding import same_rows
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import largest_piece, mask_height
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 MIN_SHOWN_HEAD_WEIGHT = 0.3
 """Share of the head in what moves a vertex that may show in its outline."""

@@ -43,7 +43,7 @@ from engine.character.shell.shell import (
 from engine.character.shell.template_mesh import template_mesh
 from engine.character.surface.face_warp import seen_face
 from engine.character.surface.front_and_back import ClosedMesh, stitch_front_and_back
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 SHOULDER_NEARNESS = 0.3
 """How near to a shoulder, from 0 to 1 there, the arm and the trunk are one surface."""

@@ -30,8 +30,8 @@ from engine.geometry.mesh.adjacency import neighbours
 from engine.geometry.mesh.surface import area_vectors
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
 from engine.imaging.masks.mask_pieces import rows_apart
-from engine.render.attributes import interpolate
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.rasterisation.rasteriser import rasterise
 
 SHELL_SHOULDER_OVERLAP_METRES, SHELL_HIP_OVERLAP_METRES = 0.15, 0.16
 """Metres at rest around the joint in which the shell of arm or leg goes on in the trunk."""

@@ -15,7 +15,7 @@ from engine.character.hybrid.limbs import Limbs
 from engine.character.shell.outlines import border_points
 from engine.character.surface.front_and_back import ClosedMesh
 from engine.imaging.masks.mask_distance import dilate_mask
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 FINE_SCALE = 3
 """Pixels at which silhouettes are compared for each of the grid's."""

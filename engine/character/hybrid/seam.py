@@ -22,7 +22,7 @@ from engine.character.texture.texture import Tiles
 from engine.geometry.mesh.surface import vertex_normals
 from engine.imaging.filling.nearest import nearest_colours
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 TRUNK_WEIGHT_THRESHOLD = 0.5
 """Share of the trunk in what moves a vertex from which on its colours go over to the trunk's."""

@@ -16,7 +16,7 @@ from engine.character.fit.template_fit import FittedBody, load_human, pose_templ
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import LEG_LABELS
 from engine.character.shell.template_mesh import template_mesh
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 MIN_LEG_OVERLAP_SHARE, MIN_FOOT_DEPTH_SHARE = 0.05, 0.2
 """Share of a leg that is before or behind the other, and how far one foot is behind the other as a share of the person's height, from which on

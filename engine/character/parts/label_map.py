@@ -34,7 +34,7 @@ from engine.character.parts.overlapping_legs import as_the_template, beside_the_
 from engine.character.parts.pockets import parted, template_hand, with_hand_parted
 from engine.character.parts.shoulders import labelled_shoulders
 from engine.character.parts.unfound_hands import UnfoundHand
-from engine.render.attributes import interpolate
+from engine.render.rasterisation.attributes import interpolate
 
 MIN_LEG_SEPARATION_METRES = 0.05
 """Metres at rest between points of the legs that touch in the picture and are not joined: near the crotch they are."""

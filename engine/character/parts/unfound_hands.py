@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from engine.character.figure.figure import Figure
 from engine.character.parts.labels import ARM_LABELS
 from engine.geometry.rigging.joint_names import SIDE_NAMES
-from engine.perception.body import BODY_LANDMARKS
+from engine.perception.pose.body import BODY_LANDMARKS
 
 HIP_DEPTH_TRUNK_SHARE, WRIST_HIP_WIDTH_RATIO, MAX_HIP_DISTANCE_TRUNK_LENGTHS = 0.7, 1.5, 0.5
 """Where a wrist is at the hip. It is so far down the trunk, at least; so much further from the middle than the hip's

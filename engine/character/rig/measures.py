@@ -20,7 +20,7 @@ from engine.geometry.rigging.skinning import skin
 from engine.imaging.masks.mask_pieces import rows_apart
 from engine.motion.clip import Clip
 from engine.motion.kinematics import pose_transforms
-from engine.render.rasteriser import SUBPIXEL_STEPS, rasterise
+from engine.render.rasterisation.rasteriser import SUBPIXEL_STEPS, rasterise
 
 
 def pose(character: Character, clip: Clip, frame: int = 0) -> NDArray[np.float32]:

@@ -13,7 +13,7 @@ from engine.geometry.camera import Camera
 from engine.geometry.mesh.adjacency import neighbours
 from engine.geometry.mesh.welding import weld
 from engine.motion.kinematics import pose_transforms
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 MAX_TURNED_SMOOTHING_ROUNDS = 6
 """How often points are drawn to their neighbours at most; a round that shows more backs than the one before is not taken."""

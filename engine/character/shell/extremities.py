@@ -23,7 +23,7 @@ from engine.character.fit.template_fit import FittedBody, load_human
 from engine.character.parts.label_map import Labels
 from engine.character.shell.template_mesh import TemplateMesh, template_mesh
 from engine.geometry.rigging.joint_names import FINGER_NAMES
-from engine.perception.landmarks import fiducials
+from engine.perception.face.landmarks import fiducials
 
 FINGER_CURL_DEGREES = (12.0, 20.0, 24.0, 28.0, 32.0)
 """Degrees by which each joint of thumb, index, middle, ring and little finger bends in a hand at rest."""

@@ -22,7 +22,7 @@ from engine.character.shell.template_mesh import TemplateMesh
 from engine.geometry.mesh.surface import vertex_normals
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
 from engine.imaging.masks.mask_pieces import pieces_by_area
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 MIN_PROP_PIXELS, MIN_HELD_PIECE_PIXELS = 110, 50
 """Pixels of what is worth being a piece; and of what a hand holds or is on a head."""

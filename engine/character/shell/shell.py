@@ -29,7 +29,7 @@ from engine.character.shell.template_mesh import MIN_SURE_HEAD_WEIGHT, TemplateM
 from engine.character.shell.thickness import thickened
 from engine.geometry.rigging.skinning import bone_transforms, skin
 from engine.imaging.masks.mask_distance import distance_to
-from engine.perception.landmarks import JAW_LANDMARK_COUNT, fiducials
+from engine.perception.face.landmarks import JAW_LANDMARK_COUNT, fiducials
 
 HEAD_SIZES = (0.85, 1.25)
 """How large a head may be, as a share of the fitted template's."""

@@ -16,7 +16,7 @@ from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.parts.label_map import Labels
 from engine.character.surface.part_surface import Warp
-from engine.perception.landmarks import JAW_LANDMARK_COUNT, fiducials
+from engine.perception.face.landmarks import JAW_LANDMARK_COUNT, fiducials
 
 FIXED_POINT_SPACING_PIXELS = 8
 """Pixels between the points of the head's border that stay."""

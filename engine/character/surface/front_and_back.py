@@ -19,7 +19,7 @@ from engine.character.surface.part_surface import Surface
 from engine.character.surface.rim import joining_strip, open_edges, smoothed_border, to_the_edge
 from engine.character.surface.solid_limb import SolidLimb, places_on_the_picture
 from engine.geometry.rigging.skinning import MAX_VERTEX_INFLUENCES
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 MIN_HALF_DEPTH_PIXELS, MIN_BORDER_HALF_DEPTH_PIXELS = 0.5, 0.3
 """Pixels between the middle and each side, at least, inside a part; and at its border."""

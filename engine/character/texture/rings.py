@@ -20,7 +20,7 @@ from engine.character.fit.posed_template import PosedTemplate
 from engine.character.fit.template_maps import side_maps
 from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, OPPOSITE_LABEL
 from engine.imaging.filling.nearest import nearest_in
-from engine.render.attributes import interpolate
+from engine.render.rasterisation.attributes import interpolate
 
 RING_LENGTH_METRES = 0.01
 """Metres along a limb of a ring."""

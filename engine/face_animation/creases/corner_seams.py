@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from engine.face_animation.creases.carried_change import add_carried
 from engine.face_animation.creases.own_folds import NARROW_MOUTH_SHARES, OwnFolds, mouth_width, wears_no_moustache
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.landmarks import MOUTH_CORNER_VERTICES, eye_distance, mouth_opening
+from engine.perception.face.landmarks import MOUTH_CORNER_VERTICES, eye_distance, mouth_opening
 
 SEAM_HALF_WIDTH_EYE_DISTANCES = 0.045
 """Half the width of the widest line."""

@@ -28,9 +28,9 @@ from engine.imaging.masks.colour_segmentation import grab_cut
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.warping.mesh_warp import inverse_map
 from engine.media.film_strip import FilmStrip, FilmStripWriter
+from engine.perception.face.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
 from engine.perception.face_track.face_crop import CROP_EYE_DISTANCE_PIXELS, CROP_SHAPE
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
 
 BRIGHTENING_FACTOR = 0.01
 """Section 6: ratios above one are tuned down by this factor."""

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.geometry.registration.rigid import Similarity, fit_similarity
+from engine.perception.face.landmarks import fiducials
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.landmarks import fiducials
 
 SIGNIFICANT_RATIO = 1.1
 """Section 6: ratios above this or below its inverse are significant."""

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from engine.face_animation.creases.carried_change import add_carried
 from engine.face_animation.creases.fine_details import NOSE_VERTICES
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.landmarks import (
+from engine.perception.face.landmarks import (
     CHIN_VERTEX,
     FACE_OVAL,
     LEFT_EYE_CORNER_VERTICES,

@@ -21,9 +21,7 @@ from engine.face_animation.driver_tracking.unseen_blinks import eye_contrast, sh
 from engine.face_animation.mouth.lip_contours import MIN_TEETH_OPENING
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.warping.mesh_warp import inverse_map
-from engine.perception.face_track.face_crop import CROP_EYE_DISTANCE_PIXELS, CROP_SHAPE
-from engine.perception.face_track.track import FaceTrack
-from engine.perception.landmarks import (
+from engine.perception.face.landmarks import (
     FACE_OVAL,
     LEFT_EYE,
     LEFT_IRIS,
@@ -33,6 +31,8 @@ from engine.perception.landmarks import (
     RIGHT_IRIS,
     mouth_opening,
 )
+from engine.perception.face_track.face_crop import CROP_EYE_DISTANCE_PIXELS, CROP_SHAPE
+from engine.perception.face_track.track import FaceTrack
 from engine.perception.temporal_filter import remove_jitter
 
 SMOOTHING_PIXELS = 4.0

@@ -15,9 +15,9 @@ from engine.face_animation.motion_transfer.spectacles import behind_frame
 from engine.face_animation.skin_colour import chroma
 from engine.face_animation.smoothstep import smoothstep
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
+from engine.perception.face.face_wear import face_wear
+from engine.perception.face.landmarks import FACE_OVAL, LEFT_BROW, LEFT_EYE, LIPS_OUTER, RIGHT_BROW, RIGHT_EYE
 from engine.perception.face_track.face_crop import CROP_EYE_DISTANCE_PIXELS
-from engine.perception.face_wear import face_wear
-from engine.perception.landmarks import FACE_OVAL, LEFT_BROW, LEFT_EYE, LIPS_OUTER, RIGHT_BROW, RIGHT_EYE
 
 CELL_PIXELS = 3
 """Pixels of the crop, along each axis, that are looked at as one."""

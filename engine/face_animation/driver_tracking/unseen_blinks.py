@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import grey_opening
 
 from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS, LID_SKIN_VERTEX_PAIRS
-from engine.perception.landmarks import LEFT_EYE, RIGHT_EYE
+from engine.perception.face.landmarks import LEFT_EYE, RIGHT_EYE
 
 EYE_CONTOURS = np.array((RIGHT_EYE, LEFT_EYE))
 INNER_CORNER_INDEX = 8

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.whites import eye_whites, white_tint
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
-from engine.perception.landmarks import (
+from engine.perception.face.landmarks import (
     LEFT_EYE,
     LEFT_EYE_CORNER_VERTICES,
     LEFT_IRIS,

@@ -19,7 +19,7 @@ from engine.face_animation.eyes.lid_colours import (
 )
 from engine.face_animation.smoothstep import smoothstep
 from engine.imaging.warping.mesh_warp import inverse_map
-from engine.perception.landmarks import LEFT_EYE_CORNER_VERTICES, RIGHT_EYE_CORNER_VERTICES
+from engine.perception.face.landmarks import LEFT_EYE_CORNER_VERTICES, RIGHT_EYE_CORNER_VERTICES
 
 EYE_CORNER_VERTEX_PAIRS = (RIGHT_EYE_CORNER_VERTICES, LEFT_EYE_CORNER_VERTICES)
 """Vertices at which both lids of an eye end; right eye first."""

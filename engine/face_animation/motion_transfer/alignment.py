@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.registration.rigid import Similarity, fit_similarity
-from engine.perception.landmarks import EYES_AND_NOSE_TIP
+from engine.perception.face.landmarks import EYES_AND_NOSE_TIP
 
 
 def align(neutral: NDArray[np.floating], target: NDArray[np.floating]) -> Similarity:

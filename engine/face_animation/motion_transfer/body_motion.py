@@ -21,7 +21,7 @@ from engine.face_animation.motion_transfer.head_proxy import (
 )
 from engine.face_animation.motion_transfer.head_room import soft_limit
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.landmarks import CHIN_VERTEX, FACE_OVAL, MESH_SIZE
+from engine.perception.face.landmarks import CHIN_VERTEX, FACE_OVAL, MESH_SIZE
 
 NECK_ROOM_FACE_LENGTHS = (0.35, (0.18, 0.25))
 """How far a head goes from its place on the shoulders, in lengths from eyes to chin: to either side; up and down."""

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.landmarks import FACE_OVAL, eye_distance, eyes_and_chin
+from engine.perception.face.landmarks import FACE_OVAL, eye_distance, eyes_and_chin
 
 CHEEK_CONTOUR_EDGES = (*range(8, 14), *range(22, 28))
 """Edges of `FACE_OVAL` from the ears to the chin, by where they begin; forehead and chin stay in sight."""

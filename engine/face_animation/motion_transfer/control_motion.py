@@ -51,9 +51,9 @@ from engine.face_animation.mouth.lips_and_skin import keep_lips_off_skin, philtr
 from engine.face_animation.mouth.smile_curve import SmileCurve
 from engine.face_animation.smoothstep import smoothstep
 from engine.geometry.registration.rigid import Similarity
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import FACE_OVAL, MESH_SIZE, eye_distance
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, eye_distance
 
 PLANE_SHARE = 0.65
 """Inside a face that the picture shows turned, the paper's plane counts this much beside the proxy turned in space:

@@ -27,8 +27,8 @@ from engine.geometry.mesh.surface import area_vectors, summed_at_corners
 from engine.geometry.registration.rigid import Similarity
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.window import Window
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import CHIN_VERTEX, LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import CHIN_VERTEX, LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
 
 PERIPHERY_SPACING_EYE_DISTANCES = 0.5
 """Distance of peripheral points, in eye distances."""

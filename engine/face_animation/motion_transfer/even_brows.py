@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.head_pose import canonical_face
+from engine.perception.face.head_pose import canonical_face
 
 BROW_HEIGHTS = (-0.15, -0.25)
 """Heights between which a face becomes brows and forehead (`canonical_face`)."""

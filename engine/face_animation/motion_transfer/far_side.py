@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.contour import outward
 from engine.face_animation.motion_transfer.head_proxy import beside_rim
-from engine.perception.landmarks import FACE_OVAL
+from engine.perception.face.landmarks import FACE_OVAL
 
 COVERING_WEIGHTS = np.interp(np.arange(len(FACE_OVAL)), (5, 7, 29, 31), (0, 1, 1, 0))
 """How far each vertex of `FACE_OVAL` may pass before what lies beside it: not the forehead, where hair grows."""

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.even_brows import brow_share
 from engine.face_animation.skin_colour import chroma
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import MESH_SIZE, eye_distance
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import MESH_SIZE, eye_distance
 
 SKIN_VERTICES = (8, 168, 6, 50, 280, 117, 346, 205, 425)
 """Between the brows, on the nose's bridge and on the cheeks, which hair seldom covers."""

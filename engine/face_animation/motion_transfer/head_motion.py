@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.registration.rigid import fit_similarities
-from engine.perception.landmarks import RIGID_VERTICES
+from engine.perception.face.landmarks import RIGID_VERTICES
 
 SOFT_WEIGHT = 0.01
 """What a vertex that expressions move counts for, against 1 for one of the rigid set."""

@@ -22,7 +22,7 @@ from engine.face_animation.motion_transfer.head_motion import SOFT_WEIGHT, HeadM
 from engine.face_animation.motion_transfer.head_room import skull_centre, skull_shift
 from engine.face_animation.smoothstep import smoothstep
 from engine.geometry.registration.rigid import fit_similarities
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES, eyes_and_chin
+from engine.perception.face.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES, eyes_and_chin
 
 NECK_FADE_CHIN_LENGTHS = (0.9, 1.7)
 """The head's rigid motion fades out between these distances below the eyes, in lengths from eyes to chin."""

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.head_motion import HeadMotion
 from engine.geometry.registration.rigid import Similarity, fit_similarities
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import FACE_OVAL, NOSE_TIP_VERTEX, RIGID_VERTICES, eyes_and_chin
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import FACE_OVAL, NOSE_TIP_VERTEX, RIGID_VERTICES, eyes_and_chin
 
 FREE_ROOM_SHARE = 0.5
 """Share of the room over which nothing is held back."""

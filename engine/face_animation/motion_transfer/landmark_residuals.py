@@ -14,9 +14,8 @@ from engine.face_animation.motion_transfer.lids_and_lips import (
     LID_EDGE_VERTEX_PAIRS,
     LID_SKIN_VERTEX_PAIRS,
 )
-from engine.perception.face_track.face_crop import CROP_EYE_DISTANCE_PIXELS
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import (
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import (
     LEFT_EYE,
     LEFT_IRIS,
     LIPS_INNER,
@@ -27,6 +26,7 @@ from engine.perception.landmarks import (
     eye_centres,
     eye_distance,
 )
+from engine.perception.face_track.face_crop import CROP_EYE_DISTANCE_PIXELS
 
 CORRECTED_SHARE = 0.6
 """Share of a residual that is corrected; the rest is the tracker's own scatter."""

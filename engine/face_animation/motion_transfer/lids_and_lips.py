@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.landmarks import CHIN_VERTEX, FOREHEAD_VERTEX, LEFT_IRIS, RIGHT_IRIS, eye_opening
+from engine.perception.face.landmarks import CHIN_VERTEX, FOREHEAD_VERTEX, LEFT_IRIS, RIGHT_IRIS, eye_opening
 
 LID_EDGE_VERTEX_PAIRS = (
     *((246, 7), (161, 163), (160, 144), (159, 145), (158, 153), (157, 154), (173, 155)),

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.mouth.lips_and_skin import in_order, with_neighbours
-from engine.perception.landmarks import LEFT_EYE_CORNER_VERTICES, RIGHT_EYE_CORNER_VERTICES
+from engine.perception.face.landmarks import LEFT_EYE_CORNER_VERTICES, RIGHT_EYE_CORNER_VERTICES
 
 LID_COLUMNS = (
     ((246, 247, 113), (161, 30, 225), (160, 29, 224), (159, 27, 223), (158, 28, 222), (157, 56, 221), (173, 190, 189)),

@@ -17,7 +17,7 @@ from engine.face_animation.motion_transfer.body_motion import MIN_TRUSTED_POINTS
 from engine.face_animation.motion_transfer.head_motion import HeadMotion, with_expression
 from engine.face_animation.motion_transfer.head_proxy import HeadProxy, chin_length, followed_outline, move_head
 from engine.face_animation.motion_transfer.head_room import skull_centre, skull_shift
-from engine.perception.landmarks import MESH_SIZE, RIGID_VERTICES
+from engine.perception.face.landmarks import MESH_SIZE, RIGID_VERTICES
 
 HAIR_WEIGHT, RIGID_DEPTH_WEIGHT = 1.5, 2.0
 """What all tracked points of the hair together, and the depths of the face's rigid vertices, count against 1 for where those lie in the picture."""

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.face_wear import face_wear
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, MESH_SIZE, RIGHT_EYE, RIGHT_IRIS
+from engine.perception.face.face_wear import face_wear
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import LEFT_EYE, LEFT_IRIS, MESH_SIZE, RIGHT_EYE, RIGHT_IRIS
 
 BRIDGE_STRENGTHS = (0.06, 0.1)
 """Of `FaceWear.bridge`, up to which there are no spectacles, and from which on there surely are: brows that meet over the nose have 0.07."""

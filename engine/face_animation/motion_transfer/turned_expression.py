@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from engine.face_animation.motion_transfer.head_motion import HeadMotion
 from engine.face_animation.smoothstep import smoothstep
 from engine.geometry.registration.rigid import fit_similarities
-from engine.perception.head_pose import canonical_face, mirror_vertices
-from engine.perception.landmarks import RIGID_VERTICES
+from engine.perception.face.head_pose import canonical_face, mirror_vertices
+from engine.perception.face.landmarks import RIGID_VERTICES
 
 EVENING_START_RADIANS, EVENING_END_RADIANS = np.deg2rad(5.0), np.deg2rad(18.0)
 """Turns aside, radians, from which a face's halves take their mean, and from which on they do so fully."""

@@ -19,8 +19,8 @@ from engine.face_animation.mouth.lips_and_skin import (
 )
 from engine.face_animation.mouth.skin_around_lips import with_lips
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import MOUTH_CORNER_VERTICES, mouth_opening
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import MOUTH_CORNER_VERTICES, mouth_opening
 
 UPPER_SHARE = 0.6
 """Of the gap, that the upper lip goes down: teeth that a smile bares are the upper ones."""

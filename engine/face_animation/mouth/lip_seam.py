@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from engine.face_animation.mouth.lip_contours import LOWER_INNER_LIP, UPPER_INNER_LIP, box_around
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.landmarks import eye_distance, mouth_opening
+from engine.perception.face.landmarks import eye_distance, mouth_opening
 
 MEETING_OPENINGS = (0.012, 0.05)
 """Openings of a mouth, its gap over its width, up to which its lips have met, and from which on they have not."""

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import CHIN_VERTEX, FOREHEAD_VERTEX
+from engine.perception.face.landmarks import CHIN_VERTEX, FOREHEAD_VERTEX
 
 UPPER_LIP_COLUMNS = (
     *((184, 183, 191), (74, 42, 80), (73, 41, 81), (72, 38, 82), (11, 12, 13)),

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.mesh.adjacency import edges
-from engine.perception.face_tessellation import face_triangles
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, NOSE_BASE_VERTEX
+from engine.perception.face.face_tessellation import face_triangles
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import FACE_OVAL, MESH_SIZE, NOSE_BASE_VERTEX
 
 
 def with_lips(vertices: NDArray[np.integer], moved: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -18,8 +18,8 @@ from engine.face_animation.mouth.lips_and_skin import (
 )
 from engine.face_animation.mouth.skin_around_lips import with_lips
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import CHIN_VERTEX, FOREHEAD_VERTEX, MOUTH_CORNER_VERTICES
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import CHIN_VERTEX, FOREHEAD_VERTEX, MOUTH_CORNER_VERTICES
 
 CORNER_VERTICES = (61, 76, 62, 78, 291, 306, 292, 308)
 LIPS_MIDDLE_VERTICES, INNER_UPPER_LIP_VERTICES = (0, 13, 14, 17), (13,)

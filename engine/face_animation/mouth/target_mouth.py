@@ -25,8 +25,8 @@ from engine.face_animation.skin_colour import skin_colour
 from engine.face_animation.target_face import TargetFace
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.perception.expression.features import frontalise
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import eye_distance, mouth_opening
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import eye_distance, mouth_opening
 
 
 def target_mouth(target: TargetFace) -> MouthInterior:

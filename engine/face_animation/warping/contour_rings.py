@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import FACE_OVAL, eye_distance
+from engine.perception.face.landmarks import FACE_OVAL, eye_distance
 
 RING_EYE_DISTANCES = (0.06, 0.14, 0.26, 0.42)
 """How far outside the contour rings lie, in eye distances."""

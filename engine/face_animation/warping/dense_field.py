@@ -20,7 +20,7 @@ from engine.face_animation.warping.round_cheeks import points_between
 from engine.face_animation.warping.warp_mesh import WarpMesh
 from engine.imaging.warping.constrained_delaunay import constrained_delaunay
 from engine.imaging.warping.delaunay import delaunay
-from engine.perception.landmarks import FACE_OVAL
+from engine.perception.face.landmarks import FACE_OVAL
 
 BLUR_KERNEL_COUNT = 10
 """Section 4: "10 different blurring kernels"."""

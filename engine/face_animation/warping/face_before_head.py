@@ -10,7 +10,7 @@ from engine.compiled import njit
 from engine.face_animation.warping.contour_rings import round_contour
 from engine.face_animation.warping.warp_mesh import WarpMesh
 from engine.imaging.warping.mesh_warp import UNCOVERED_ORIGIN_PIXELS
-from engine.perception.landmarks import FACE_OVAL, eye_distance
+from engine.perception.face.landmarks import FACE_OVAL, eye_distance
 
 SKIN_RIM_EYE_DISTANCES = 0.06
 """By which what goes with the face reaches beyond its contour: skin ends a little outside of that, often in a dark line."""

@@ -16,9 +16,9 @@ from engine.imaging.filling.background_plate import background_plate
 from engine.imaging.picture_frame import inner_picture
 from engine.imaging.window import Window
 from engine.media.image import is_cut_out, over_grey
-from engine.perception.landmarks import FACE_OVAL
-from engine.perception.matting import MattingModel
-from engine.perception.person import person_mask
+from engine.perception.face.landmarks import FACE_OVAL
+from engine.perception.masks.matting import MattingModel
+from engine.perception.masks.person import person_mask
 
 LAYER_MARGIN_SHARE = 0.2
 """Share of a picture's shorter side by which its layer goes on beyond its border."""

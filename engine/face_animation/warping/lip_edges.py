@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import (
+from engine.perception.face.landmarks import (
     CHIN_VERTEX,
     FOREHEAD_VERTEX,
     LEFT_EYE,

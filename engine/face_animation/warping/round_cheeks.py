@@ -15,7 +15,7 @@ from scipy.sparse import csr_array, diags_array, eye_array, vstack
 from engine.face_animation.warping.lip_edges import parting_edges
 from engine.geometry.mesh.adjacency import edges
 from engine.imaging.warping.constrained_delaunay import constrained_delaunay
-from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, eye_distance
+from engine.perception.face.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, eye_distance
 
 CHEEK_BAND_EYE_DISTANCES = 0.6
 """Width of the band inside the contour."""

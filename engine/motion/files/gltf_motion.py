@@ -118,7 +118,7 @@ def read_gltf_motion(source: Path | bytes, clip: str | None = None, name: str = 
 
 
 def _loops(animation: Any) -> bool | None:
-    """What the animation's extras say, as `engine.export.glb` writes them."""
+    """What the animation's extras say, as `engine.export.gltf.glb` writes them."""
     said = animation.extras.get("loops") if isinstance(animation.extras, dict) else None
     return said if isinstance(said, bool) else None
 

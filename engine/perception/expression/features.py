@@ -6,8 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.registration.rigid import fit_similarities
-from engine.perception.head_pose import canonical_face, mirror_vertices
-from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES, eye_distance, eye_opening, mouth_opening
+from engine.perception.face.head_pose import canonical_face, mirror_vertices
+from engine.perception.face.landmarks import (
+    LIPS_INNER,
+    LIPS_OUTER,
+    RIGID_VERTICES,
+    eye_distance,
+    eye_opening,
+    mouth_opening,
+)
 
 EXPRESSION_FEATURES = ("mouth_open", "mouth_wide", "corners_up", "inner_brows_up", "outer_brows_up", "eyes_open")
 """What is measured of an expression, in eye distances of the face turned to the front; the eyes' opening is over

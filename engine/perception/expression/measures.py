@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.expression.features import frontalise
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import EYE_CORNER_VERTICES, RIGID_VERTICES, eye_opening
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import EYE_CORNER_VERTICES, RIGID_VERTICES, eye_opening
 
 MEASURES = (
     *("mouth_open", "mouth_wide", "right_corner_up", "left_corner_up"),

@@ -13,8 +13,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.perception.face.faces import MIN_CONFIDENCE, FaceTracker
 from engine.perception.face_track.face_crop import FaceCrop
-from engine.perception.faces import MIN_CONFIDENCE, FaceTracker
 
 COMPARED_SIZE = (80, 72)
 """Height and width at which faces are compared, pixels."""

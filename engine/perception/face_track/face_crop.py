@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from engine.geometry.registration.rigid import fit_similarity
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.warping.mesh_warp import inverse_map
-from engine.perception.landmarks import LIPS_INNER, eye_centres
+from engine.perception.face.landmarks import LIPS_INNER, eye_centres
 
 CROP_SHAPE = (320, 288)
 """Height and width of the kept appearance of the face, pixels: about 20 kB a frame."""

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.registration.rigid import Similarity, fit_similarity
 from engine.perception.face_track.held_face import EASE_BACK_FRAMES, return_share
-from engine.perception.segmentation import selfie_mask
+from engine.perception.masks.segmentation import selfie_mask
 
 MAX_POINTS = 100
 TRACKED_HEIGHT_PIXELS = 360

@@ -13,16 +13,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.media.decoding.timing import MIN_SPAN_SECONDS
 from engine.media.excerpt import Excerpt
 from engine.media.film_strip import FilmStrip, FilmStripWriter
-from engine.media.timing import MIN_SPAN_SECONDS
 from engine.media.video import probe_video, read_video
+from engine.perception.face.landmarks import MESH_SIZE
+from engine.perception.face.one_face import OneFace
 from engine.perception.face_track.covered_face import CoveredFace
 from engine.perception.face_track.face_crop import FaceCrop, crop_face
 from engine.perception.face_track.held_face import HeldFace
 from engine.perception.face_track.periphery import PeripheryTracker
-from engine.perception.landmarks import MESH_SIZE
-from engine.perception.one_face import OneFace
 from engine.perception.temporal_filter import remove_jitter
 
 MAX_TRACKED_SIDE_PIXELS = 1280

@@ -21,7 +21,7 @@ from engine.performances.modelling.shirt import Shirt, drape, sew_shirt
 from engine.performances.modelling.skin import Skin, paint_skin
 from engine.performances.modelling.teeth import Arch, Dentition, build_dentition
 from engine.performances.modelling.wrinkles import Wrinkles, carve, wrinkle_relief
-from engine.render.light import Lamps
+from engine.render.lighting.light import Lamps
 
 
 class Part(IntEnum):

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.performances.modelling.chart import smooth_step
-from engine.render.light import Lamps
+from engine.render.lighting.light import Lamps
 
 VOXEL_METRES = 0.0016
 """Metres."""

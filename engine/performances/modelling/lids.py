@@ -14,7 +14,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from engine.performances.modelling.eyes import Eyeball
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 RIM_OVERLAP_METRES = 0.0003
 """Metres by which the upper rim covers the lower one when shut."""

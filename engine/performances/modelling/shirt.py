@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.mesh.surface import triangulate
 from engine.performances.modelling.figure import Figure
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 NECKLINE_AXIS_DEPTH = 0.012
 """Metres: z of the vertical axis around which the neckline runs."""

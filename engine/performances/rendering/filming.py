@@ -30,8 +30,8 @@ from engine.performances.rendering.studio import (
     finish,
     parts_seen,
 )
-from engine.render.attributes import interpolate
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.rasterisation.rasteriser import rasterise
 
 MAX_KEY_FRAME_DISTANCE = 14
 """Frames between two key frames at most."""

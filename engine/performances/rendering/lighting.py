@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from engine.performances.modelling.actor import Part, Scene
 from engine.performances.modelling.chart import smooth_step
 from engine.performances.rendering.visibility import VisiblePoints
-from engine.render.light import Lamps, dome, softbox
+from engine.render.lighting.light import Lamps, dome, softbox
 
 KEY_BOX = (-40.0, 34.0, 44.0, 52.0)
 FILL_BOX = (50.0, 8.0, 70.0, 60.0)

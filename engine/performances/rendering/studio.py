@@ -12,12 +12,12 @@ from engine.performances.modelling.actor import Actor, Scene
 from engine.performances.rendering.lighting import catchlights, interreflection, lamps
 from engine.performances.rendering.surface_materials import materials
 from engine.performances.rendering.visibility import unit, visible_points
-from engine.render.film import box_downsample, develop
-from engine.render.light import Lamps
-from engine.render.rasteriser import Raster
-from engine.render.shading import Surface, illuminate
-from engine.render.strands import draw_strands, shade_strands
-from engine.render.subsurface import diffuse
+from engine.render.lighting.film import box_downsample, develop
+from engine.render.lighting.light import Lamps
+from engine.render.lighting.shading import Surface, illuminate
+from engine.render.lighting.strands import draw_strands, shade_strands
+from engine.render.lighting.subsurface import diffuse
+from engine.render.rasterisation.rasteriser import Raster
 
 FRAME_SIDE_PIXELS = 512
 SAMPLES_PER_PIXEL_SIDE = 2

@@ -13,8 +13,8 @@ from engine.performances.modelling.actor import Actor, Part, Scene
 from engine.performances.modelling.eyes import colour_of_eye
 from engine.performances.modelling.shirt import COLLAR_WIDTH
 from engine.performances.rendering.visibility import VisiblePoints, unit
-from engine.render.attributes import interpolate, sample_texture
-from engine.render.bump import bump
+from engine.render.lighting.bump import bump
+from engine.render.rasterisation.attributes import interpolate, sample_texture
 
 
 @dataclass(frozen=True)

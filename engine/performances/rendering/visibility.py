@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
 from engine.performances.modelling.actor import Scene
-from engine.render.attributes import interpolate
-from engine.render.rasteriser import Raster, rasterise
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.rasterisation.rasteriser import Raster, rasterise
 
 
 @dataclass(frozen=True)

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from engine.imaging.blur import blur_effect
 from engine.imaging.resample import resized, size_within
-from engine.perception.faces import find_faces
-from engine.perception.head_pose import head_pose
+from engine.perception.face.faces import find_faces
+from engine.perception.face.head_pose import head_pose
+from engine.perception.face.landmarks import eye_centres
 from engine.perception.identity.descriptor import FaceDescriptor
 from engine.perception.identity.face_chip import ARCFACE_LAYOUT, face_chip
-from engine.perception.landmarks import eye_centres
 
 LOOKED_AT_SIDE_PIXELS = 1600
 """Pixels at which photographs are looked at: faces of people who had their picture taken are large in them by then."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import mouth_opening
+from engine.perception.face.landmarks import mouth_opening
 from engine.persona.texture.expression_weights import expression_points
 
 NEUTRAL_SHARE = 0.25

@@ -14,7 +14,7 @@ from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth, appeari
 from engine.face_animation.mouth.pictured.teeth_strip import teeth_strip
 from engine.face_animation.target_face import TargetFace
 from engine.perception.expression.features import frontalise
-from engine.perception.landmarks import eye_distance
+from engine.perception.face.landmarks import eye_distance
 from engine.persona.persona import Persona
 from engine.run import Run
 

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from engine.face_animation.eyes.lower_lids import fit_lower_lids
 from engine.face_animation.target_face import TargetFace
 from engine.imaging.resample import even_size, resized
-from engine.perception.faces import find_faces
-from engine.perception.landmarks import FACE_OVAL
-from engine.perception.segmentation import people_confidence
+from engine.perception.face.faces import find_faces
+from engine.perception.face.landmarks import FACE_OVAL
+from engine.perception.masks.segmentation import people_confidence
 from engine.persona.collection.face_photo import FacePhoto
 
 BUST_FACE_HEIGHTS = 2.9

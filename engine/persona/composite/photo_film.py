@@ -14,7 +14,7 @@ from engine.face_animation.creases.fine_details import RatioStrip
 from engine.face_animation.motion_transfer.control_motion import ControlMotion, carry_motion
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
 from engine.perception.expression.features import frontalise
-from engine.perception.landmarks import MESH_SIZE
+from engine.perception.face.landmarks import MESH_SIZE
 from engine.persona.composite.retouching import Retouching
 from engine.persona.persona import Persona
 from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.skin_colour import is_grey
-from engine.perception.landmarks import eye_opening, mouth_opening
+from engine.perception.face.landmarks import eye_opening, mouth_opening
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.collection.photo_face import PhotoFace
 from engine.persona.composite.framing import head_box

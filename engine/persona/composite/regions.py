@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import LEFT_EYE, LIPS_OUTER, RIGHT_EYE
+from engine.perception.face.landmarks import LEFT_EYE, LIPS_OUTER, RIGHT_EYE
 from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 from engine.persona.texture.texture_frame import TextureFrame
 

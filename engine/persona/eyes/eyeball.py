@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from engine.body.face.face_capture import MAX_GAZE_TRAVEL_EYE_WIDTHS
-from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
+from engine.perception.face.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
 EYE_AND_IRIS_VERTICES = {"Left": (LEFT_EYE, LEFT_IRIS), "Right": (RIGHT_EYE, RIGHT_IRIS)}
 BALL_OPENING_RATIO = 1.12

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from engine.face_animation.mouth.lip_contours import box_around
 from engine.imaging.filling.nearest import nearest_values
 from engine.imaging.warping.mesh_warp import inverse_map
-from engine.perception.face_tessellation import face_triangles, opening_triangles
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, eye_distance
+from engine.perception.face.face_tessellation import face_triangles, opening_triangles
+from engine.perception.face.landmarks import FACE_OVAL, MESH_SIZE, eye_distance
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.light.directions import LIGHT_DIRECTIONS, RATIO_OFFSET_LEVELS, DirectedLight, directed_light
 from engine.persona.light.low_frequencies import low_frequencies

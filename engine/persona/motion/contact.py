@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
 from engine.geometry.mesh.adjacency import neighbours
-from engine.perception.face_tessellation import face_triangles
-from engine.perception.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE
+from engine.perception.face.face_tessellation import face_triangles
+from engine.perception.face.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE
 
 MESH_VERTICES = 478
 REST_GAP_EYE_DISTANCES = 0.01

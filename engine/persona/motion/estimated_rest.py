@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
 from engine.perception.expression.features import frontalise
-from engine.perception.head_pose import canonical_face
+from engine.perception.face.head_pose import canonical_face
 from engine.persona.motion.mesh_units import load_mesh_units
 
 REST_SPREAD_EYE_DISTANCES = 0.06

@@ -22,8 +22,8 @@ from engine.body.face.face_points import PICTURE_TO_TEMPLATE, lay_canonical_face
 from engine.body.template import Template, load_template
 from engine.geometry.mesh.surface import triangulate
 from engine.geometry.registration.rigid import fit_similarity
-from engine.perception.head_pose import canonical_face, mirror_vertices
-from engine.perception.landmarks import (
+from engine.perception.face.head_pose import canonical_face, mirror_vertices
+from engine.perception.face.landmarks import (
     EYE_CORNER_VERTICES,
     FACE_OVAL,
     LEFT_EYE,
@@ -33,7 +33,7 @@ from engine.perception.landmarks import (
     RIGID_VERTICES,
     eye_distance,
 )
-from engine.render.rasteriser import Raster, rasterise
+from engine.render.rasterisation.rasteriser import Raster, rasterise
 
 PIXELS_PER_METRE = 5000.0
 """Of the picture in which the template is looked at."""

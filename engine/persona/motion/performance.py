@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.expression.features import frontalise
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import RIGID_VERTICES, eye_distance
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import RIGID_VERTICES, eye_distance
 from engine.persona.motion.deformation_transfer import DeformationTransfer
 from engine.persona.persona import Persona
 from engine.persona.texture.expression_weights import SMOOTHING_FRAMES

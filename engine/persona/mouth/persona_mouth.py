@@ -11,7 +11,7 @@ from engine.face_animation.mouth.modelled.resting_mouth import RestingMouth, res
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth, teeth_gain
 from engine.face_animation.mouth.pictured.teeth_strip import teeth_strip
-from engine.perception.landmarks import eye_distance
+from engine.perception.face.landmarks import eye_distance
 from engine.persona.persona import Persona
 
 

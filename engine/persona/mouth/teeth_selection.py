@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.mouth.lip_contours import LOWER_INNER_LIP, UPPER_INNER_LIP
 from engine.face_animation.skin_colour import is_grey
-from engine.perception.landmarks import eye_distance, mouth_opening
+from engine.perception.face.landmarks import eye_distance, mouth_opening
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.collection.photo_face import PhotoFace
 

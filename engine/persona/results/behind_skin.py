@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.persona.puppet import Puppet
 from engine.persona.results.face_units import FaceUnits
-from engine.render.rasteriser import depth_map
+from engine.render.rasterisation.rasteriser import depth_map
 
 PIXELS_PER_EYE_DISTANCE = 64
 """Of an eye distance, in the pictures in which it is looked at."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.mouth.lip_contours import soft_polygon
-from engine.perception.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance
+from engine.perception.face.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.light.relighting import over_photo, regenerated, relit
 from engine.persona.persona import Persona

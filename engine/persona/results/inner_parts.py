@@ -20,7 +20,7 @@ from engine.face_animation.mouth.modelled.mouth_parts import (
     tongue_put_out,
 )
 from engine.face_animation.skin_colour import skin_colour
-from engine.perception.landmarks import LIPS_INNER
+from engine.perception.face.landmarks import LIPS_INNER
 from engine.persona.eyes.eye_texture import eye_textures
 from engine.persona.eyes.eyeball import EYE_AND_IRIS_VERTICES, eyeball, lid_rim
 from engine.persona.mouth.persona_mouth import puppet_mouth

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from engine.body.face.face_points import PICTURE_TO_TEMPLATE
 from engine.body.template import FACE_UNITS
-from engine.export.glb import CharacterModel, write_glb
-from engine.export.gltf_materials import Material
+from engine.export.gltf.glb import CharacterModel, write_glb
+from engine.export.gltf.materials import Material
 from engine.geometry.rigging.morph_target import morph_target
 from engine.geometry.rigging.skeleton import Skeleton
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh

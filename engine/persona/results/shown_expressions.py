@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import RBFInterpolator
 from scipy.optimize import nnls
 
-from engine.perception.landmarks import FACE_OVAL
+from engine.perception.face.landmarks import FACE_OVAL
 from engine.persona.collection.coverage import MIN_PHOTOS_OF_EXPRESSION
 from engine.persona.persona import Persona
 from engine.persona.results.face_units import EXPRESSION_UNITS, FaceUnits

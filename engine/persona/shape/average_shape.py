@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.filling.nearest import nearest_values
-from engine.perception.landmarks import LEFT_BROW, LEFT_EYE, LIPS_OUTER, RIGHT_BROW, RIGHT_EYE
+from engine.perception.face.landmarks import LEFT_BROW, LEFT_EYE, LIPS_OUTER, RIGHT_BROW, RIGHT_EYE
 from engine.persona.shape.photometric_stereo import photometric_stereo
 from engine.persona.shape.screened_poisson import screened_poisson
 from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS, Appearance

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from engine.geometry.registration.rigid import fit_similarity
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
-from engine.perception.head_pose import mirror_vertices
-from engine.perception.landmarks import FACE_OVAL, RIGID_VERTICES
+from engine.perception.face.head_pose import mirror_vertices
+from engine.perception.face.landmarks import FACE_OVAL, RIGID_VERTICES
 from engine.persona.texture.texture_frame import TextureFrame, sampled
 
 MIRRORED_WEIGHT = 0.5

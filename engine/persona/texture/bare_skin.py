@@ -27,7 +27,7 @@ from engine.imaging.masks.colour_segmentation import (
     colour_costs,
 )
 from engine.imaging.masks.mask_pieces import pieces_touching
-from engine.perception.landmarks import BROW_POINTS, LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, fiducials
+from engine.perception.face.landmarks import BROW_POINTS, LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, fiducials
 from engine.persona.texture.aligned_photos import AlignedPhotos
 from engine.persona.texture.texture_frame import TextureFrame
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
-from engine.perception.landmarks import fiducials
+from engine.perception.face.landmarks import fiducials
 
 SIGMA_PIXELS = 10.0
 """Of distances of all fiducials together, in a frame 194 wide (section 6)."""

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.expression.features import frontalise
-from engine.perception.landmarks import mouth_opening
+from engine.perception.face.landmarks import mouth_opening
 
 TEMPLATE_MOUTH_OPENING = 0.35
-"""Of the frame's mouth, as `engine.perception.landmarks.mouth_opening` has it."""
+"""Of the frame's mouth, as `engine.perception.face.landmarks.mouth_opening` has it."""
 MOUTH_OPENING_SIGMA = 0.03
 """By which openings are uncertain: where all mouths are as good as closed, nothing is learnt of how this one opens."""
 

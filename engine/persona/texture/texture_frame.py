@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from engine.geometry.mesh.surface import vertex_normals
 from engine.imaging.resample import resized
-from engine.perception.face_tessellation import face_triangles, opening_triangles
-from engine.perception.landmarks import FACE_OVAL
-from engine.render.attributes import interpolate
-from engine.render.rasteriser import Raster, rasterise
+from engine.perception.face.face_tessellation import face_triangles, opening_triangles
+from engine.perception.face.landmarks import FACE_OVAL
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.rasterisation.rasteriser import Raster, rasterise
 
 RIM_SCALE = 1.22
 """Of the oval, about its middle: as far around the face hair and neck are shown."""

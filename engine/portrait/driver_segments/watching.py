@@ -13,7 +13,7 @@ from engine.errors import InputError
 from engine.media.limits import Limits
 from engine.media.video import probe_video, read_video
 from engine.perception.expression.measures import MEASURES, measure
-from engine.perception.one_face import OneFace
+from engine.perception.face.one_face import OneFace
 
 WATCHED_FPS = 12.0
 """Frames a second that are looked at: a wink has three of them, a syllable two."""

@@ -9,12 +9,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.perception.face.landmarks import eye_distance
+from engine.perception.face.one_face import OneFace
 from engine.perception.face_track.covered_face import CoveredFace
 from engine.perception.face_track.face_crop import FaceCrop, crop_face
 from engine.perception.face_track.held_face import HeldFace
-from engine.perception.landmarks import eye_distance
 from engine.perception.one_euro import OneEuroFilter
-from engine.perception.one_face import OneFace
 
 TRACKED_SIDE_PIXELS = 640
 """Pixels: larger frames are looked at in this size. The tracker's network sees the face in 192."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.target_face import TargetFace
 from engine.geometry.registration.rigid import fit_similarities
-from engine.perception.landmarks import FACE_OVAL, RIGID_VERTICES, eye_distance
+from engine.perception.face.landmarks import FACE_OVAL, RIGID_VERTICES, eye_distance
 
 MIN_REACH_EYE_DISTANCES, MAX_REACH_EYE_DISTANCES = 0.35, 0.9
 """Eye distances by which the head may go aside, or up and down: at least, and where the frame has room; beyond, shoulders would be

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.expression.measures import LID_MEASURES, MEASURES, measure
+from engine.perception.face.landmarks import RIGID_VERTICES, eye_distance
 from engine.perception.face_track.face_crop import FaceCrop
-from engine.perception.landmarks import RIGID_VERTICES, eye_distance
 
 REST_SECONDS = 1.0
 """Seconds of calm frames that make a rest."""

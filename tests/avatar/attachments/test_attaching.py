@@ -21,7 +21,7 @@ from engine.geometry.point_clouds.point_cloud import PointCloud
 from engine.geometry.rigging.skinning import skin
 from engine.geometry.texture_charts.atlas_room import cells_of
 from engine.motion.kinematics import pose_transforms
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 BRIM_WIDTH, BRIM_THICKNESS = 0.06, 0.005
 """Metres from the head to the brim's rim, and from its upper side to its lower."""

@@ -4,7 +4,7 @@ import numpy as np
 
 from engine.avatar.capture.foot_masks import Foot, FootFrame
 from engine.geometry.camera import Camera
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 BOX = np.array([[x, y, z] for x in (-0.045, 0.045) for y in (0.0, 0.08) for z in (-0.13, 0.13)])
 FACES = np.array(

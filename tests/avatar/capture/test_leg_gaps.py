@@ -9,7 +9,7 @@ from engine.avatar.capture.foot_masks import FootFrame
 from engine.avatar.capture.leg_gaps import without_gaps
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.geometry.camera import Camera
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 from tests.avatar.capture.standing_scene import BOX, FACES, LEG, floor_colours
 
 LEGS = SpatialLandmarks(

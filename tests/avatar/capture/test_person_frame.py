@@ -15,7 +15,7 @@ from engine.geometry.multiview.bundle import Bundle, Observations
 from engine.geometry.multiview.structure_from_motion.mapping import Reconstruction
 from engine.geometry.multiview.structure_from_motion.tracks import Tracks
 from engine.geometry.registration.rigid import Similarity
-from engine.perception.body import BODY_LANDMARKS, Body
+from engine.perception.pose.body import BODY_LANDMARKS, Body
 
 HEIGHT = 1.8
 

@@ -10,8 +10,8 @@ from engine.avatar.landmarks.in_frames import FrameLandmarks
 from engine.avatar.landmarks.landmark_views import chosen_views, frontality, most_frontal
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.geometry.camera import Camera
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import fiducials
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import fiducials
 
 FACE = fiducials(canonical_face().astype(np.float64) @ np.diag([1.0, -1.0, -1.0])) * 0.06 + [0, 1.6, 0.1]
 PLACES = {

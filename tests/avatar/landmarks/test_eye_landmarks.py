@@ -7,8 +7,8 @@ import numpy as np
 from engine.avatar.landmarks.detection import eye_opening, spatial_landmarks
 from engine.avatar.landmarks.in_frames import EYE_MESH_VERTICES, FrameLandmarks
 from engine.geometry.camera import Camera
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import fiducials
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import fiducials
 
 FACE = canonical_face().astype(np.float64) @ np.diag([1.0, -1.0, -1.0]) * 0.06 + [0, 1.6, 0]
 

@@ -9,7 +9,7 @@ from engine.avatar.landmarks.detection import spatial_landmarks
 from engine.avatar.landmarks.in_frames import FrameLandmarks, reliable
 from engine.avatar.landmarks.robust_triangulation import triangulate_robustly
 from engine.geometry.camera import Camera
-from engine.perception.body import BODY_LANDMARKS, Body
+from engine.perception.pose.body import BODY_LANDMARKS, Body
 
 
 def _ring(count: int) -> list[Camera]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from engine.avatar.landmarks.in_frames import FrameLandmarks
 from engine.avatar.landmarks.worn_on_face import worn_on_face
-from engine.perception.face_wear import FaceWear
+from engine.perception.face.face_wear import FaceWear
 
 
 def _codes(*worn: FaceWear) -> list[str]:

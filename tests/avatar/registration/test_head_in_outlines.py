@@ -14,7 +14,7 @@ from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.part_outlines import Silhouette
 from engine.avatar.registration.template_skin.skin import grown
 from engine.geometry.camera import Camera
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 SHIFT, SIZE = np.array([0.01, -0.07, 0.04]), 1.1
 """Metres, and times as large: where the head is and how large, against the coarse fit."""

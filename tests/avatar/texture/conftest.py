@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.geometry.camera import Camera
 from engine.geometry.texture_charts.texture_atlas import unwrap
-from engine.render.attributes import interpolate
-from engine.render.rasteriser import rasterise
-from engine.render.texture_bake import texel_raster
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.rasterisation.rasteriser import rasterise
+from engine.render.textures.texture_bake import texel_raster
 
 Colours = Callable[[NDArray], NDArray]
 

@@ -15,9 +15,9 @@ from engine.body.template import load_rig, load_template
 from engine.geometry.camera import Camera
 from engine.imaging.histogram_matching import to_lab
 from engine.performances.modelling.eyes import IRIS_RADIUS, PUPIL_RADIUS
-from engine.render.attributes import interpolate
-from engine.render.rasteriser import rasterise
-from engine.render.texture_bake import texel_raster
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.rasterisation.rasteriser import rasterise
+from engine.render.textures.texture_bake import texel_raster
 
 SIZE = 1024
 SKIN, SHIRT, IRIS, WHITE = (205, 160, 140), (60, 90, 150), (90, 120, 160), (200, 195, 190)

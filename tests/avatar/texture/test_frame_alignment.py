@@ -14,7 +14,7 @@ from engine.avatar.texture.alignment import MAX_SHIFT_SIDES, aligned
 from engine.avatar.texture.view_samples import sample_views
 from engine.avatar.texture.views import FrameView
 from engine.geometry.camera import Camera
-from engine.render.visibility import view_cosines
+from engine.render.rasterisation.visibility import view_cosines
 from tests.avatar.texture.conftest import Ball, ring, waves
 
 SIDE = 200

@@ -10,7 +10,7 @@ from engine.avatar.texture.template_texture.hand_colours import face_skin, hand_
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig, load_template
 from engine.imaging.histogram_matching import to_lab
-from engine.render.texture_bake import texel_raster
+from engine.render.textures.texture_bake import texel_raster
 
 PALE, BROWN, TANNED = (215, 175, 155), (95, 62, 48), (195, 152, 128)
 BLUE, BLACK, WHITE = (60, 90, 160), (25, 25, 28), (225, 222, 215)

@@ -15,7 +15,7 @@ from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig, load_template
 from engine.imaging.histogram_matching import to_lab
-from engine.render.texture_bake import texel_raster
+from engine.render.textures.texture_bake import texel_raster
 
 SKIN, BLUE, GREEN = np.array([205.0, 160, 135]), np.array([60.0, 90, 160]), np.array([90.0, 150, 70])
 TONE = to_lab(SKIN)[0]

@@ -10,8 +10,8 @@ from engine.avatar.texture.levelling import level_seams
 from engine.avatar.texture.painting import PaintedTexture, paint
 from engine.avatar.texture.views import FrameView
 from engine.geometry.camera import Camera
-from engine.render.rasteriser import Raster
-from engine.render.texture_bake import texel_raster
+from engine.render.rasterisation.rasteriser import Raster
+from engine.render.textures.texture_bake import texel_raster
 from tests.avatar.texture.conftest import Ball, ring
 
 SIZE = 256

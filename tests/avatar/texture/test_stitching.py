@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from engine.avatar.texture.stitching import StitchedTexture, stitch_texture
 from engine.avatar.texture.views import FrameView
 from engine.geometry.camera import Camera
-from engine.render.attributes import interpolate
-from engine.render.texture_bake import texel_raster
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.textures.texture_bake import texel_raster
 from tests.avatar.texture.conftest import Ball, known_colours, ring
 
 SIZE = 256

@@ -24,7 +24,7 @@ from engine.avatar.texture.template_texture.placing import place_lids
 from engine.body.rig import HUMAN_RIG, Rig
 from engine.body.template import load_rig, load_template
 from engine.performances.modelling.eyes import EYEBALL_RADIUS_METRES
-from engine.render.texture_bake import texel_raster
+from engine.render.textures.texture_bake import texel_raster
 
 
 @pytest.fixture(scope="module")

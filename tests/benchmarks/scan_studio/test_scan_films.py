@@ -14,9 +14,9 @@ from benchmarks.scan_studio.camera.sensor import Sensor
 from benchmarks.scan_studio.people.subject import Subject
 from benchmarks.scan_studio.studio import Order, film
 from benchmarks.scan_studio.truth import read_truth
-from engine.media.tone_mapping import hlg_scene_light
+from engine.media.colour_conversion.tone_mapping import hlg_scene_light
 from engine.media.video import probe_video, read_video
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 SIZE = (96, 160)
 

@@ -16,7 +16,7 @@ from engine.body.face.face_capture import (
 )
 from engine.body.face.face_mesh_points import LOWER_LIP_VERTICES, UPPER_LIP_VERTICES, face_mesh_points
 from engine.body.template import Template, load_template
-from engine.perception.head_pose import canonical_face
+from engine.perception.face.head_pose import canonical_face
 
 EYE_DISTANCE = 100.0
 REST = canonical_face().astype(np.float64) * EYE_DISTANCE + 300

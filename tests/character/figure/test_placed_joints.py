@@ -21,7 +21,7 @@ from engine.character.sample import sample_picture
 from engine.errors import InputError
 from engine.media.image import write_image
 from engine.media.limits import Limits
-from engine.perception.body import BODY_LANDMARKS
+from engine.perception.pose.body import BODY_LANDMARKS
 
 DRAWN = JOINTS_PLACED_BY_HAND["drawing_child_boy"]
 

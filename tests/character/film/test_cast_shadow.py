@@ -13,7 +13,7 @@ from engine.character.film.cast_shadow import find_cast_shadow, ground_shadow
 from engine.character.rig.measures import picture_camera, pose
 from engine.character.sample import sample_picture
 from engine.media.image import write_image
-from engine.render.ground_shadow import GroundShadow, cast_on_ground
+from engine.render.lighting.ground_shadow import GroundShadow, cast_on_ground
 
 GROUND = (140, 130, 118)
 

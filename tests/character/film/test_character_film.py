@@ -15,8 +15,8 @@ from engine.character.rig.measures import pose
 from engine.character.rig.rigging import Character
 from engine.geometry.camera import Camera
 from engine.motion.edit import repeat_loop
-from engine.render.camera_moves import ORBIT_DEGREES, PERIOD_SECONDS, SLIDE_SHARE, Move
-from engine.render.ground_shadow import GroundShadow
+from engine.render.lighting.ground_shadow import GroundShadow
+from engine.render.scene.camera_moves import ORBIT_DEGREES, PERIOD_SECONDS, SLIDE_SHARE, Move
 
 HEIGHT, WIDTH, FOCAL = 240, 200, 360.0
 GREY, GREEN, RED = 150, (20, 220, 20), (230, 20, 20)

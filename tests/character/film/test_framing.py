@@ -22,7 +22,7 @@ from engine.motion.files.source_motion import SourceMotion
 from engine.motion.kinematics import pose_transforms
 from engine.motion.library import built_in
 from engine.motion.rotation import about
-from engine.render.camera_moves import CAMERA_MOVES, Move, camera_at
+from engine.render.scene.camera_moves import CAMERA_MOVES, Move, camera_at
 
 DISTANCE = 4.0
 

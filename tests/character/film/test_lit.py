@@ -10,7 +10,7 @@ from template_character import still, template_character
 
 from engine.character.film.lit import lit_picture
 from engine.geometry.camera import Camera
-from engine.render.character import Actor, film_cast, prepare_character
+from engine.render.scene.character import Actor, film_cast, prepare_character
 
 SIZE = (300, 320)
 CAMERA = Camera((0, 0.9, 4), 420, (160.0, 150.0), SIZE)

@@ -15,8 +15,8 @@ from engine.character.figure.silhouette import (
 )
 from engine.character.fit.template_fit import ARM_FORWARD_METRES, arms_before_the_trunk
 from engine.character.stages import hand_labels
-from engine.perception.body import BODY_LANDMARKS
-from engine.perception.person import DOUBTFUL_BELIEF, LIKELY_BELIEF
+from engine.perception.masks.person import DOUBTFUL_BELIEF, LIKELY_BELIEF
+from engine.perception.pose.body import BODY_LANDMARKS
 
 TRUNK = {"LeftShoulder": (120, 50), "RightShoulder": (80, 50), "RightHip": (85, 120), "LeftHip": (115, 120)}
 

@@ -17,7 +17,7 @@ from engine.character.surface.front_and_back import Layer, stitch_front_and_back
 from engine.character.surface.part_surface import Surface, warp_part
 from engine.geometry.camera import Camera
 from engine.geometry.mesh.welding import is_closed
-from engine.perception.head_pose import mesh_from_fiducials
+from engine.perception.face.head_pose import mesh_from_fiducials
 
 FOCAL, CENTRE, PLACE = 1200.0, (299.5, 399.5), np.array([0, 0.1, -3.0])
 

@@ -21,7 +21,7 @@ from engine.character.fit.template_fit import FOREARM_DEPTH_BIAS, fit_best, fore
 from engine.character.sample import sample_picture
 from engine.media.image import write_image
 from engine.media.limits import Limits
-from engine.perception.body import BODY_LANDMARKS
+from engine.perception.pose.body import BODY_LANDMARKS
 
 Seen = tuple[Figure, Silhouette]
 

@@ -16,7 +16,7 @@ from engine.character.parts.labels import HEAD_LABEL
 from engine.character.shell.piece import Piece
 from engine.character.shell.template_mesh import template_mesh
 from engine.geometry.mesh.welding import is_closed, same_rows
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 from tests.character.shell.test_displacement import SHAPE, arms_down, covered, on_grid
 from tests.character.shell.test_pieces import volume
 

@@ -31,7 +31,7 @@ from engine.character.shell.template_mesh import template_mesh
 from engine.character.stages import build_mesh
 from engine.geometry.mesh.welding import is_closed, same_rows
 from engine.imaging.masks.mask_distance import dilate_mask
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 from tests.character.fit.test_head_and_legs import seen_face
 from tests.character.hybrid.test_hybrid import figure_and_outline
 

@@ -21,7 +21,7 @@ from engine.character.shell.template_mesh import template_mesh
 from engine.character.texture.texture import Tiles
 from engine.geometry.mesh.surface import vertex_normals
 from engine.imaging.masks.mask_distance import dilate_mask
-from engine.render.attributes import interpolate
+from engine.render.rasterisation.attributes import interpolate
 from tests.character.hybrid.test_hybrid import figure_and_outline
 
 Seen = tuple[Figure, FittedBody, Silhouette, Labels]

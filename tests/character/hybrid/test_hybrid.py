@@ -27,7 +27,7 @@ from engine.geometry.mesh.welding import is_closed, weld
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 from engine.motion.kinematics import pose_transforms
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 from tests.character.fit.test_head_and_legs import figure_with
 from tests.character.shell.test_displacement import arms_down
 

@@ -32,7 +32,7 @@ from engine.geometry.mesh.welding import weld
 from engine.media.limits import Limits
 from engine.motion.edit import in_place
 from engine.motion.library import built_in
-from engine.perception.body import BODY_LANDMARKS
+from engine.perception.pose.body import BODY_LANDMARKS
 from engine.run import Run
 
 SHAPE = (160, 120)

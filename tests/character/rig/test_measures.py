@@ -14,7 +14,7 @@ from engine.character.rig.rigging import Character
 from engine.character.stages import fewer_triangles
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.motion.library import built_in
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 
 def tube(around: int = 6, along: int = 4) -> np.ndarray:

@@ -22,7 +22,7 @@ from engine.character.shell.shell import with_head_at_face
 from engine.character.shell.template_mesh import TemplateMesh, template_mesh
 from engine.character.shell.thickness import thickened
 from engine.geometry.rigging.skinning import skin
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 from tests.character.fit.test_head_and_legs import standing
 
 SHAPE = (460, 420)

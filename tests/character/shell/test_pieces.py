@@ -19,7 +19,7 @@ from engine.character.shell.skirt import skirt_of
 from engine.character.shell.template_mesh import template_mesh
 from engine.geometry.mesh.surface import area_vectors
 from engine.geometry.mesh.welding import is_closed
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 from tests.character.shell.test_displacement import SHAPE, arms_down, covered, labels_of, on_grid
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.creases.corner_seams import CornerSeams
 from engine.face_animation.creases.own_folds import OwnFolds
-from engine.perception.landmarks import LIPS_OUTER, MOUTH_CORNER_VERTICES
+from engine.perception.face.landmarks import LIPS_OUTER, MOUTH_CORNER_VERTICES
 
 SIZE = (500, 520)
 FACE = placed(100.0, (250.0, 220.0))

@@ -28,9 +28,9 @@ from engine.face_animation.creases.fine_details import (
     most_expressive,
     shade,
 )
+from engine.perception.face.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE
 from engine.perception.face_track.face_crop import CROP_SHAPE
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE
 
 FACE = placed(70, (100, 100))
 LEVEL = 120
@@ -226,7 +226,7 @@ def test_the_face_s_region_has_the_forehead_and_no_background(picture: NDArray) 
 
 def test_a_real_face_s_region(media: Callable[[str], Path]) -> None:
     from engine.media.image import read_image
-    from engine.perception.faces import find_faces
+    from engine.perception.face.faces import find_faces
 
     rgb = read_image(media("portraits/photo_woman_white.png")).rgb
     scale = 400 / max(rgb.shape[:2])

@@ -9,7 +9,7 @@ from made_face import placed
 from numpy.typing import NDArray
 
 from engine.face_animation.creases.own_folds import OwnFolds, mouth_width
-from engine.perception.landmarks import FACE_OVAL, LIPS_OUTER
+from engine.perception.face.landmarks import FACE_OVAL, LIPS_OUTER
 
 SIZE = (300, 320)
 FACE = placed(60.0, (150.0, 130.0))

@@ -11,9 +11,9 @@ from made_face import SKIN, driver, opened, placed
 from numpy.typing import NDArray
 
 from engine.face_animation.creases.registration import register_track
+from engine.perception.face.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER, RIGHT_EYE
 from engine.perception.face_track.face_crop import CROP_SHAPE
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER, RIGHT_EYE
 
 FACE = placed(70, (100, 100))
 CHEEKS = [50, 205, 280, 425, 36, 266]

@@ -20,12 +20,12 @@ from engine.face_animation.loop import close_loop
 from engine.media.excerpt import Excerpt
 from engine.media.image import read_image
 from engine.media.video import read_video
+from engine.perception.face.faces import FaceTracker, find_faces
+from engine.perception.face.landmarks import eye_distance, eye_opening, mouth_opening
 from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
 from engine.perception.face_track.held_face import EASE_BACK_FRAMES
 from engine.perception.face_track.periphery import PeripheryTracker
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.faces import FaceTracker, find_faces
-from engine.perception.landmarks import eye_distance, eye_opening, mouth_opening
 from engine.run import Run
 from engine.store import StageStore
 

@@ -25,9 +25,9 @@ from engine.media.image import read_image
 from engine.media.video import read_video
 from engine.perception.expression.features import measure_expression
 from engine.perception.expression.measures import MEASURES, REST_SPREAD, general_rest, measure
+from engine.perception.face.faces import FaceTracker
+from engine.perception.face.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.faces import FaceTracker
-from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
 from engine.performances import video
 from engine.portrait.driver_segments.rest import own_rest
 

@@ -15,8 +15,8 @@ from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.driver_tracking.unseen_blinks import eye_contrast
 from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS, LID_SKIN_VERTEX_PAIRS, lid_ratio
 from engine.media.excerpt import Excerpt
+from engine.perception.face.landmarks import LEFT_EYE, RIGHT_EYE
 from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
-from engine.perception.landmarks import LEFT_EYE, RIGHT_EYE
 
 FACE = placed(70, (100, 100))
 OPEN = painted(in_crop(FACE), CROP_SHAPE[::-1])

@@ -22,7 +22,7 @@ from engine.face_animation.eyes.eyes import (
     held_looks,
 )
 from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS
-from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
+from engine.perception.face.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
 SIZE = (360, 320)
 REST = np.zeros(2)
@@ -246,7 +246,7 @@ def test_eyes_at_or_beyond_the_border_do_no_harm(picture: NDArray, mesh: NDArray
 
 def test_a_real_portrait_at_rest_stays(media: Callable[[str], Path]) -> None:
     from engine.media.image import read_image
-    from engine.perception.faces import find_faces
+    from engine.perception.face.faces import find_faces
 
     picture = np.ascontiguousarray(read_image(media("portraits/photo_woman_outdoor.jpg")).rgb)
     mesh = find_faces(picture)[0]

@@ -8,7 +8,7 @@ from made_face import painted, placed, turn
 from numpy.typing import NDArray
 
 from engine.face_animation.eyes.lower_lids import fit_lower_lids
-from engine.perception.landmarks import LEFT_EYE, RIGHT_EYE
+from engine.perception.face.landmarks import LEFT_EYE, RIGHT_EYE
 
 SIZE = (500, 500)
 

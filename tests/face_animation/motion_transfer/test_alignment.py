@@ -9,7 +9,7 @@ from made_face import placed
 from engine.face_animation.motion_transfer.alignment import align
 from engine.face_animation.motion_transfer.control_points import carry_fiducials
 from engine.geometry.registration.rigid import Similarity
-from engine.perception.landmarks import EYES_AND_NOSE_TIP
+from engine.perception.face.landmarks import EYES_AND_NOSE_TIP
 
 
 def test_phi_looks_at_eyes_and_nose_tip_alone() -> None:

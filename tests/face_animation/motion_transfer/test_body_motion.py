@@ -17,7 +17,7 @@ from engine.face_animation.motion_transfer.body_motion import (
 )
 from engine.face_animation.motion_transfer.head_motion import split_motion
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy, move_head
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
+from engine.perception.face.landmarks import FACE_OVAL, MESH_SIZE
 
 FACE = placed(40.0, (150.0, 120.0))
 

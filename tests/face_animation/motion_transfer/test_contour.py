@@ -18,7 +18,7 @@ from engine.face_animation.motion_transfer.contour import (
     keep_inside,
     rim_distance,
 )
-from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, MESH_SIZE, RIGHT_EYE
+from engine.perception.face.landmarks import FACE_OVAL, LEFT_EYE, MESH_SIZE, RIGHT_EYE
 
 UNIT = 50.0
 SEEN = np.ones(MESH_SIZE, bool)

@@ -14,7 +14,7 @@ from engine.face_animation.acting_options import ActingOptions, Part
 from engine.face_animation.motion_transfer.control_motion import PLANE_SHARE, ControlMotion, carry_motion, plane_share
 from engine.face_animation.motion_transfer.control_points import place_control_points
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
-from engine.perception.landmarks import (
+from engine.perception.face.landmarks import (
     FACE_OVAL,
     LEFT_BROW,
     LEFT_EYE,

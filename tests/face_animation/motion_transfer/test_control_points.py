@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.control_points import ControlPoints, carry_periphery, place_control_points
 from engine.geometry.registration.rigid import Similarity
+from engine.perception.face.landmarks import FACE_OVAL, MESH_SIZE
 from engine.perception.face_track.periphery import tracked_weights
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
 
 SHAPE = (240, 200)
 IDENTITY = Similarity(np.eye(2), np.zeros(2))

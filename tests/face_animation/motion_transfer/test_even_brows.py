@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from engine.face_animation.motion_transfer.even_brows import brow_share, even_brows
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import LEFT_BROW, RIGHT_BROW
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import LEFT_BROW, RIGHT_BROW
 
 FACE = canonical_face()[:, :2].astype(float)
 BELOW = brow_share() == 0

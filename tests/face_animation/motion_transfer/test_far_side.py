@@ -11,7 +11,7 @@ from engine.face_animation.motion_transfer.far_side import FarSide
 from engine.face_animation.motion_transfer.head_motion import split_motion
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy, move_head, roll_head
 from engine.face_animation.motion_transfer.head_room import skull_centre
-from engine.perception.landmarks import MESH_SIZE
+from engine.perception.face.landmarks import MESH_SIZE
 
 UNIT, CENTRE, DEGREES = 50.0, (150.0, 120.0), 20.0
 

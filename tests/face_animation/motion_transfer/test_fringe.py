@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.control_points import place_control_points
 from engine.face_animation.motion_transfer.fringe import fringe_share
-from engine.perception.landmarks import FACE_OVAL, LEFT_BROW, RIGHT_BROW
+from engine.perception.face.landmarks import FACE_OVAL, LEFT_BROW, RIGHT_BROW
 
 SIZE = (240, 280)
 FACE = placed(60.0, (120.0, 130.0))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.control_motion import scale_motion
 from engine.face_animation.motion_transfer.head_motion import split_motion
-from engine.perception.landmarks import MESH_SIZE
+from engine.perception.face.landmarks import MESH_SIZE
 
 MOTIONS = [
     (1.0, turn(), (0.0, 0.0, 0.0)),

@@ -24,8 +24,8 @@ from engine.face_animation.motion_transfer.head_room import (
     skull_centre,
     turned_in_picture,
 )
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import MESH_SIZE, RIGID_VERTICES
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import MESH_SIZE, RIGID_VERTICES
 
 UNIT, CENTRE = 50.0, (150.0, 120.0)
 

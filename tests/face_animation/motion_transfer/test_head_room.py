@@ -25,7 +25,7 @@ from engine.face_animation.motion_transfer.head_room import (
     skull_shift,
     soft_limit,
 )
-from engine.perception.landmarks import FACE_OVAL
+from engine.perception.face.landmarks import FACE_OVAL
 
 UNIT, CENTRE = 40.0, (150.0, 150.0)
 

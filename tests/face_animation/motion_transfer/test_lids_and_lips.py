@@ -21,8 +21,8 @@ from engine.face_animation.motion_transfer.lids_and_lips import (
     hold_lids,
     lid_ratio,
 )
-from engine.perception.head_pose import canonical_face, mirror_vertices
-from engine.perception.landmarks import eye_opening
+from engine.perception.face.head_pose import canonical_face, mirror_vertices
+from engine.perception.face.landmarks import eye_opening
 
 UPPER, LOWER = np.array(LID_EDGE_VERTEX_PAIRS).T
 LEFT_LIDS = [*UPPER[7:], *LOWER[7:]]

@@ -12,7 +12,7 @@ from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_
 from engine.face_animation.motion_transfer.head_proxy import HeadProxy, build_head_proxy, move_head
 from engine.face_animation.motion_transfer.head_room import skull_centre
 from engine.face_animation.motion_transfer.pose_refinement import refine_pose
-from engine.perception.landmarks import MESH_SIZE
+from engine.perception.face.landmarks import MESH_SIZE
 
 FACE = placed(40.0, (150.0, 120.0))
 

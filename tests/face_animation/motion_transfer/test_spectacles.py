@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from engine.face_animation.motion_transfer.control_points import place_control_points
 from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS, LID_SKIN_VERTEX_PAIRS
 from engine.face_animation.motion_transfer.spectacles import spectacles_share
-from engine.perception.landmarks import LIPS_OUTER
+from engine.perception.face.landmarks import LIPS_OUTER
 
 SIZE = (420, 420)
 FACE = placed(90.0, (210.0, 180.0))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.head_motion import HeadMotion
 from engine.face_animation.motion_transfer.turned_expression import even_out_turned
-from engine.perception.head_pose import mirror_vertices
+from engine.perception.face.head_pose import mirror_vertices
 
 FACE = placed(40.0, (150.0, 120.0)).astype(float)
 SMIRK = np.zeros((478, 3), np.float32)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from engine.face_animation.motion_transfer.lids_and_lips import INNER_LIP_PAIRS
 from engine.face_animation.mouth.closing import MAX_LIP_GAIN, ClosingLips, lip_influence
 from engine.face_animation.mouth.lips_and_skin import SKIN_ABOVE_COLUMNS, SKIN_BELOW_COLUMNS
-from engine.perception.landmarks import FACE_OVAL, MOUTH_CORNER_VERTICES, mouth_opening
+from engine.perception.face.landmarks import FACE_OVAL, MOUTH_CORNER_VERTICES, mouth_opening
 
 UPPER_BORDER, LOWER_BORDER = ([column[0] for column in skin] for skin in (SKIN_ABOVE_COLUMNS, SKIN_BELOW_COLUMNS))
 TOP, BOTTOM = np.array(INNER_LIP_PAIRS).T

@@ -14,7 +14,7 @@ from engine.face_animation.mouth.lip_contours import (
     UPPER_INNER_LIP,
     inner_lip_outline,
 )
-from engine.perception.landmarks import LEFT_EYE, RIGHT_EYE, eye_distance
+from engine.perception.face.landmarks import LEFT_EYE, RIGHT_EYE, eye_distance
 
 EDGES = len(UPPER_INNER_LIP) - 1
 

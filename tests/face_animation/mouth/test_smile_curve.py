@@ -15,7 +15,7 @@ from engine.face_animation.mouth.smile_curve import (
     corner_influence,
     smile_share,
 )
-from engine.perception.landmarks import FACE_OVAL, MOUTH_CORNER_VERTICES
+from engine.perception.face.landmarks import FACE_OVAL, MOUTH_CORNER_VERTICES
 
 
 def hanging(face: NDArray, share: float) -> NDArray:

@@ -13,7 +13,7 @@ from engine.face_animation.mouth.modelled.modelled_mouth import ModelledMouth
 from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth
 from engine.face_animation.mouth.target_mouth import target_mouth
 from engine.face_animation.target_face import TargetFace
-from engine.perception.landmarks import LIPS_INNER
+from engine.perception.face.landmarks import LIPS_INNER
 
 SIZE = (320, 340)
 SMILE = 0.14

@@ -15,7 +15,7 @@ from engine.face_animation.warping.layers import separate_layers
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.media.video import read_video
-from engine.perception.faces import find_faces
+from engine.perception.face.faces import find_faces
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import find_target_face
 from galatea import animate

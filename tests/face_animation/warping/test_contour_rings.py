@@ -9,7 +9,7 @@ from engine.face_animation.motion_transfer.contour import contour_spots, rim_dis
 from engine.face_animation.motion_transfer.head_motion import split_motion
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy, move_head
 from engine.face_animation.warping.contour_rings import CURVE_STEPS, RING_EYE_DISTANCES, contour_rings, rings_end
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
+from engine.perception.face.landmarks import FACE_OVAL, MESH_SIZE
 
 UNIT, SHAPE = 40.0, (300, 260)
 FACE = placed(UNIT, (130.0, 130.0))

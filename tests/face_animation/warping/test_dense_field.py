@@ -27,7 +27,7 @@ from engine.face_animation.warping.warp_mesh import WarpMesh
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.warping.fold_edges import folded_box
 from engine.imaging.warping.mesh_warp import inverse_map
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
+from engine.perception.face.landmarks import FACE_OVAL, MESH_SIZE
 
 SHAPE = (260, 220)
 UNIT, CENTRE = 40.0, (110.0, 100.0)

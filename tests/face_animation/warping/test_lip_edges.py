@@ -16,7 +16,7 @@ from engine.face_animation.warping.lip_edges import (
 )
 from engine.face_animation.warping.unfold import MIN_AREA_SHARE, unfold
 from engine.geometry.mesh.adjacency import edges
-from engine.perception.landmarks import CHIN_VERTEX, LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, eye_distance
+from engine.perception.face.landmarks import CHIN_VERTEX, LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, eye_distance
 
 FACE = placed(90, (300, 300)).astype(np.float64)
 TOP, BOTTOM = np.array(INNER_LIP_PAIRS).T

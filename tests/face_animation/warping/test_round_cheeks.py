@@ -7,7 +7,7 @@ import pytest
 from made_face import placed
 
 from engine.face_animation.warping.round_cheeks import points_between
-from engine.perception.landmarks import LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, eye_distance
+from engine.perception.face.landmarks import LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, eye_distance
 
 FACE = placed(90, (300, 300)).astype(np.float64)
 ALL = np.arange(len(FACE))

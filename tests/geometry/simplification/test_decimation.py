@@ -12,7 +12,7 @@ from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.geometry.rigging.skinning import skin
 from engine.geometry.simplification.decimation import decimate, joint_importance
 from engine.motion.kinematics import pose_transforms
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 TWO = Skeleton(("Hips", "Spine"), np.array([-1, 0], np.int32), np.array([[0, 0, 0], [0, 0.5, 0]], np.float32))
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from engine.body import load_template
 from engine.geometry.mesh.surface import triangulate
 from engine.geometry.texture_charts.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
-from engine.render.texture_bake import chart_gap, texel_raster
+from engine.render.textures.texture_bake import chart_gap, texel_raster
 
 SIZE = 512
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from template_character import template_character
 
-from engine.export.glb import CharacterModel, write_glb
+from engine.export.gltf.glb import CharacterModel, write_glb
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.files.gltf_motion import read_gltf_motion

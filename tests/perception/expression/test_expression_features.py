@@ -14,7 +14,7 @@ from engine.perception.expression.features import (
     lip_asymmetry,
     measure_expression,
 )
-from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
+from engine.perception.face.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
 
 
 @pytest.fixture

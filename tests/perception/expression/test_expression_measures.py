@@ -14,7 +14,7 @@ from engine.perception.expression.measures import (
     lid_lowering,
     measure,
 )
-from engine.perception.head_pose import canonical_face
+from engine.perception.face.head_pose import canonical_face
 
 
 def turn(yaw: float, pitch: float) -> np.ndarray:

@@ -11,7 +11,7 @@ import pytest
 from engine.media.image import read_image
 from engine.perception.expression.measures import MEASURES, general_rest, measure
 from engine.perception.expression.prototypes import CLEAR_MOVEMENTS, PROTOTYPES, show
-from engine.perception.faces import find_faces
+from engine.perception.face.faces import find_faces
 
 
 def shown(**moved: float) -> dict[str, float]:

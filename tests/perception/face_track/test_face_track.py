@@ -10,8 +10,8 @@ from made_clip import write_frames
 
 from engine.media.excerpt import Excerpt
 from engine.media.video import read_video
+from engine.perception.face.one_face import OneFace
 from engine.perception.face_track.track import NoFaceSeen, NoSuchFace, track_face
-from engine.perception.one_face import OneFace
 from engine.performances import video
 
 

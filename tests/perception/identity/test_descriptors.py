@@ -14,7 +14,7 @@ from tiny_onnx import brightness_model
 
 from engine.media.image import read_image
 from engine.package_data import IncompleteInstallation, package_folder
-from engine.perception.faces import FaceTracker, find_faces
+from engine.perception.face.faces import FaceTracker, find_faces
 from engine.perception.identity import dlib_descriptor
 from engine.perception.identity.backend import face_descriptor
 from engine.perception.models import DESCRIPTOR_SETTING, ModelError

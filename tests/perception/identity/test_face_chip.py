@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from engine.perception.head_pose import canonical_face
+from engine.perception.face.head_pose import canonical_face
 from engine.perception.identity.face_chip import ARCFACE_LAYOUT, DLIB_LAYOUT, ChipLayout, face_chip
 
 

@@ -13,7 +13,7 @@ from engine.performances.modelling.eyes import (
     profile,
 )
 from engine.performances.modelling.figure import Figure, Pose, build_figure, pose_figure, rigid_motion
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 SMILE = {f"{unit}{side}": 0.8 for unit in ("mouthSmile", "cheekSquint") for side in ("Left", "Right")}
 WIDE = {"eyeWideLeft": 0.85, "eyeWideRight": 0.85, "browInnerUp": 1.0}

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from engine.perception.head_pose import canonical_face
+from engine.perception.face.head_pose import canonical_face
 from engine.persona.collection.coverage import COVERED_EXPRESSIONS, rare, shown_expressions, shown_sides
 
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from engine.media.video import read_video
-from engine.perception.faces import find_faces
-from engine.perception.head_pose import canonical_face
-from engine.perception.segmentation import people_confidence
+from engine.perception.face.faces import find_faces
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.masks.segmentation import people_confidence
 from engine.performances import video
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.composite.framing import framed, head_box

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from engine.perception.landmarks import eye_distance, mouth_opening
+from engine.perception.face.landmarks import eye_distance, mouth_opening
 from engine.persona.collection.photo_face import PhotoFace
 from engine.persona.composite.portrait_selection import head_share, portrait_photo
 from engine.persona.mouth.teeth_selection import teeth_photo

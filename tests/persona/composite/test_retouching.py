@@ -6,8 +6,8 @@ import cv2
 import numpy as np
 import pytest
 
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_EYE
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_EYE
 from engine.persona.composite.regions import retouched_skin
 from engine.persona.composite.retouching import Retouching
 from engine.persona.light.low_frequencies import low_frequencies

@@ -9,7 +9,7 @@ import pytest
 from engine.body.face.face_capture import MAX_GAZE_TRAVEL_EYE_WIDTHS
 from engine.face_animation.eyes.eyeball import prepare_eyes
 from engine.perception.expression.features import frontalise
-from engine.perception.head_pose import canonical_face
+from engine.perception.face.head_pose import canonical_face
 from engine.persona.eyes.eye_texture import EYE_TEXTURE_SIZE_TEXELS, texture_of
 from engine.persona.eyes.eyeball import CAP_RADIANS, EYE_AND_IRIS_VERTICES, eyeball, lid_rim
 

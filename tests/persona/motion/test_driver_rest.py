@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.perception.expression.features import frontalise
-from engine.perception.head_pose import canonical_face
+from engine.perception.face.head_pose import canonical_face
 from engine.persona.motion.driver_rest import rest_of_frames
 from engine.persona.motion.mesh_units import load_mesh_units
 from engine.persona.texture.expression_weights import expression_points

@@ -6,8 +6,8 @@ import numpy as np
 
 from engine.media.video import read_video
 from engine.perception.expression.features import frontalise
-from engine.perception.faces import FaceTracker
-from engine.perception.head_pose import canonical_face
+from engine.perception.face.faces import FaceTracker
+from engine.perception.face.head_pose import canonical_face
 from engine.performances import video
 from engine.persona.motion.estimated_rest import estimated_rest
 from engine.persona.motion.mesh_units import load_mesh_units

@@ -7,9 +7,9 @@ import pytest
 
 from engine.body import load_template
 from engine.body.body_space import load_body_space
-from engine.perception.face_tessellation import face_triangles
-from engine.perception.head_pose import canonical_face, mirror_vertices
-from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance
+from engine.perception.face.face_tessellation import face_triangles
+from engine.perception.face.head_pose import canonical_face, mirror_vertices
+from engine.perception.face.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance
 from engine.persona.motion.mesh_units import MeshUnits, mesh_units
 
 FACE_VERTICES = 468

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from engine.perception.expression.features import frontalise
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE
 from engine.persona.motion.contact import corrected
 
 

@@ -8,8 +8,8 @@ import pytest
 
 from engine.media.video import read_video
 from engine.perception.expression.features import frontalise
-from engine.perception.faces import FaceTracker
-from engine.perception.landmarks import FACE_OVAL, mouth_opening
+from engine.perception.face.faces import FaceTracker
+from engine.perception.face.landmarks import FACE_OVAL, mouth_opening
 from engine.performances import video
 from engine.persona.learning import learn_persona
 from engine.persona.motion.performance import Performance, perform

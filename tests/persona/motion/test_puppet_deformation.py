@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import LEFT_EYE, LIPS_INNER, LIPS_OUTER, RIGHT_EYE
 from engine.persona.motion.deformation_transfer import DeformationTransfer
 from engine.persona.texture.texture_frame import texture_frame
 

@@ -10,7 +10,7 @@ import pytest
 from engine.body import load_template
 from engine.body.body_space import load_body_space
 from engine.body.shape import Phenotype, load_shape_space
-from engine.perception.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE
+from engine.perception.face.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE
 from engine.persona.motion.deformation_transfer import DeformationTransfer
 from engine.persona.motion.mesh_units import MeshUnits, mesh_units
 from engine.persona.motion.performance import FRAME_SIZE

@@ -9,8 +9,8 @@ from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
 from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth
 from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
 from engine.perception.expression.features import frontalise
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import LIPS_INNER
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import LIPS_INNER
 from engine.persona.mouth.teeth_sheet import teeth_sheet
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, mouth_opening
+from engine.perception.face.landmarks import FACE_OVAL, LIPS_INNER, mouth_opening
 from engine.persona.collection.face_photo import FacePhoto
 from engine.persona.persona import Persona
 from engine.persona.results.in_average_light import in_average_light

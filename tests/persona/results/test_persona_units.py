@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.body.template import FACE_UNITS
-from engine.perception.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE
+from engine.perception.face.landmarks import LEFT_EYE, LIPS_INNER, RIGHT_EYE
 from engine.persona.persona import Persona
 from engine.persona.results.face_units import EXPRESSION_UNITS, FaceUnits
 from engine.persona.texture.expression_weights import expression_points

@@ -23,7 +23,7 @@ from engine.persona.results.face_units import EXPRESSION_UNITS, FaceUnits
 from engine.persona.results.inner_parts import inner_parts
 from engine.persona.results.inside_atlas import inside_atlas
 from engine.persona.results.puppet_model import EYE_DISTANCE, write_puppet
-from engine.render.attributes import sample_texture
+from engine.render.rasterisation.attributes import sample_texture
 
 
 @pytest.fixture(scope="module")

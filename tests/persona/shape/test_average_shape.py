@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from engine.perception.head_pose import canonical_face
+from engine.perception.face.head_pose import canonical_face
 from engine.persona.shape.average_shape import average_depth
 from engine.persona.shape.photometric_stereo import photometric_stereo
 from engine.persona.shape.screened_poisson import screened_poisson

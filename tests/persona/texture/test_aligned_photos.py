@@ -6,8 +6,8 @@ import cv2
 import numpy as np
 import pytest
 
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import LIPS_INNER, mouth_opening
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import LIPS_INNER, mouth_opening
 from engine.persona.texture.aligned_photos import align_photos
 from engine.persona.texture.template_shape import TEMPLATE_MOUTH_OPENING, template_shape
 from engine.persona.texture.texture_frame import TextureFrame, texture_frame

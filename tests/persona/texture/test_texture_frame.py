@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from engine.perception.head_pose import canonical_face
+from engine.perception.face.head_pose import canonical_face
 from engine.persona.texture.texture_frame import TextureFrame, sampled, texture_frame, with_rim
 
 SIZE = (244, 194)

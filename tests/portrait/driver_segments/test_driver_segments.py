@@ -16,8 +16,8 @@ from engine.errors import InputError
 from engine.export.still import THUMBNAIL_BYTES
 from engine.media.image import read_image
 from engine.perception.expression.measures import MEASURES, measure
-from engine.perception.faces import find_faces
-from engine.perception.head_pose import canonical_face, mirror_vertices
+from engine.perception.face.faces import find_faces
+from engine.perception.face.head_pose import canonical_face, mirror_vertices
 from engine.performances import PERFORMANCE_STATES
 from engine.portrait.driver_segments import find_segments
 from engine.portrait.driver_segments.gestures import swings

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.registration.rigid import fit_similarities
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import RIGID_VERTICES
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import RIGID_VERTICES
 from engine.portrait.live.kept_in_frame import MAX_SCALE, kept_in_frame
 
 UNIT = 60.0

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.face_animation.animation import RiggedTarget
 from engine.media.image import write_image
-from engine.perception.landmarks import LIPS_OUTER
+from engine.perception.face.landmarks import LIPS_OUTER
 from engine.portrait.live.live_portrait import LivePortrait, Watched, prepare_live
 from engine.portrait.live.options import LiveOptions
 from engine.run import Run

@@ -8,8 +8,8 @@ import pytest
 from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS
+from engine.perception.face.head_pose import canonical_face
 from engine.perception.face_track.face_crop import CROP_SHAPE, FaceCrop, crop_place
-from engine.perception.head_pose import canonical_face
 from engine.portrait.live.rest import MAX_WAIT_SECONDS, Calibration, RestCalibration, median_look
 
 EYE_DISTANCE = 60.0

@@ -18,7 +18,7 @@ from pathlib import Path
 sys.path.insert(0, "tests/live_service")
 from engine.avatar.options import AvatarOptions
 from template_avatar import write_template_avatar
-from engine.export.meshopt_compression import compressed
+from engine.export.gltf.meshopt_compression import compressed
 folder = Path(sys.argv[1])
 write_template_avatar(folder, AvatarOptions(vrm=True))
 (folder / "small.glb").write_bytes(compressed((folder / "avatar.glb").read_bytes()))

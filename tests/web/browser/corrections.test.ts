@@ -59,8 +59,8 @@ const xs = (points: Points): number[] => points.map(([x]) => x);
 describe('corrections by hand', () => {
   it('begin with the canonical face of the engine', () => {
     const engine = inPython(
-      'import json, numpy as np; from engine.perception.head_pose import canonical_face as f; ' +
-        'from engine.perception.landmarks import fiducials as g; ' +
+      'import json, numpy as np; from engine.perception.face.head_pose import canonical_face as f; ' +
+        'from engine.perception.face.landmarks import fiducials as g; ' +
         'print(json.dumps(np.round(g(f().astype(float))[:, :2], 3).tolist()))',
     );
     expect(JSON.parse(engine)).toEqual(canonical);

@@ -14,7 +14,7 @@ from engine.geometry.mesh.closest_points import closest_points
 from engine.geometry.mesh.surface import triangulate
 from engine.geometry.mesh.winding_number import winding_numbers
 from engine.geometry.registration.rigid import Similarity, fit_similarity
-from engine.render.rasteriser import depth_map
+from engine.render.rasterisation.rasteriser import depth_map
 
 MOUTH_PARTS = ("upper_teeth", "lower_teeth", "tongue")
 """What lies in the mouth, and is placed as one: teeth meet as they do in the template."""

@@ -22,7 +22,7 @@ from engine.geometry.mesh.closest_points import closest_points
 from engine.geometry.mesh.surface import vertex_areas, vertex_normals
 from engine.geometry.point_clouds.point_cloud import PointCloud
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
-from engine.media.tone_mapping import srgb_light
+from engine.media.colour_conversion.tone_mapping import srgb_light
 
 MAX_HAIR_METRES = 0.025
 """Metres from the skin up to which a point can be of hair that grows there."""

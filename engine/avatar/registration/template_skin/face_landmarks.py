@@ -11,7 +11,7 @@ from engine.body.face.face_points import lay_canonical_face
 from engine.body.template import Template, vertex_mask
 from engine.geometry.mesh.adjacency import neighbours
 from engine.geometry.mesh.surface import vertex_normals
-from engine.perception.landmarks import fiducials
+from engine.perception.face.landmarks import fiducials
 
 FRONT_COSINE = 0.1
 """Of the angle between a normal and straight ahead, beyond which a vertex is seen from the front, as landmarks of faces are."""

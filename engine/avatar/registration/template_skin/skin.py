@@ -23,7 +23,7 @@ from engine.geometry.camera import Camera
 from engine.geometry.mesh.adjacency import edge_table, neighbours
 from engine.geometry.mesh.surface import triangulate
 from engine.geometry.rigging.joint_names import SIDE_NAMES
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 FACE_RADII = np.array([0.085, 0.106, 0.106])
 """Metres about the tip of the nose, x, y and z, within which the head is face."""

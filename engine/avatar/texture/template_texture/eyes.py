@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from engine.avatar.texture.template_texture.iris_in_frame import iris_centre
 from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.imaging.histogram_matching import from_lab, to_lab
-from engine.media.tone_mapping import srgb_code
+from engine.media.colour_conversion.tone_mapping import srgb_code
 from engine.performances.modelling.eyes import EYEBALL_RADIUS_METRES, IRIS_RADIUS, PUPIL_RADIUS, colour_of_eye
-from engine.render.sampling import bilinear
-from engine.render.visibility import depth_buffer, seen_points
+from engine.render.rasterisation.visibility import depth_buffer, seen_points
+from engine.render.textures.sampling import bilinear
 
 LID_THICKNESS_METRES = 5e-4
 """Metres behind the surface at which a point of an eyeball still counts as seen: lids are thin."""

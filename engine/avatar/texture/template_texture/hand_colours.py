@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from engine.avatar.texture.template_surface import TemplateSurface
 from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.imaging.histogram_matching import from_lab, to_lab
-from engine.render.rasteriser import Raster
+from engine.render.rasterisation.rasteriser import Raster
 
 CHEEK_RADIUS_METRES = 0.022
 """Metres about the middles of cheeks and nose within which a face is bare skin: below the lids, above the lips."""

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from engine.body.hands import bending_axes, finger_landmarks
 from engine.body.rig import Rig
 from engine.geometry.rigging.joint_names import FINGER_NAMES, Side
-from engine.media.tone_mapping import srgb_code
-from engine.perception.hands import HAND_JOINTS
+from engine.media.colour_conversion.tone_mapping import srgb_code
+from engine.perception.pose.hands import HAND_JOINTS
 from engine.performances.modelling.skin import BASE_REFLECTANCE, BLOOD_ABSORBANCE, MELANIN_ABSORBANCE
 
 BACK_BLOOD, BACK_MELANIN = 0.30, 0.30

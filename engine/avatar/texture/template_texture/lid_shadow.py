@@ -8,8 +8,8 @@ from scipy.spatial import cKDTree
 
 from engine.avatar.texture.views import ChartedSurface
 from engine.geometry.camera import Camera
-from engine.render.rasteriser import rasterise
-from engine.render.sampling import bilinear
+from engine.render.rasterisation.rasteriser import rasterise
+from engine.render.textures.sampling import bilinear
 
 LIGHT_DIRECTION_COUNT = 24
 """Directions from which light comes, evenly over the half of the sky before the face, more of it from above."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.texture_charts.texture_atlas import TextureAtlas
-from engine.render.rasteriser import Raster, rasterise
+from engine.render.rasterisation.rasteriser import Raster, rasterise
 
 TEXEL_SUPERSAMPLING = 4
 """Places along a side of a texel of which a fine part's colour is the mean."""

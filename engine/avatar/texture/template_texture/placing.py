@@ -24,7 +24,7 @@ from engine.geometry.mesh.surface import vertex_normals
 from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.imaging.histogram_matching import to_lab
 from engine.performances.modelling.eyes import IRIS_RADIUS
-from engine.render.rasteriser import Raster
+from engine.render.rasterisation.rasteriser import Raster
 
 SOCKET_LIGHT_SHARE = 0.35
 """Of the light on an eyeball, what its socket has where it shows between this and the lids."""

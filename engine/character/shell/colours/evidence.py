@@ -22,7 +22,7 @@ from engine.compiled import njit
 from engine.geometry.mesh.surface import vertex_normals
 from engine.imaging.filling.nearest import nearest_colours, nearest_values
 from engine.imaging.masks.mask_distance import distance_inside, distance_to
-from engine.render.rasteriser import depth_map
+from engine.render.rasterisation.rasteriser import depth_map
 
 DEPTH_BUFFER_SCALE = 3
 """Pixels of the depth buffer for each of the grid's."""

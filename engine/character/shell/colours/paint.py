@@ -22,8 +22,8 @@ from engine.character.shell.template_mesh import template_mesh
 from engine.compiled import njit
 from engine.imaging.filling.nearest import nearest_in
 from engine.imaging.masks.mask_distance import dilate_mask
-from engine.render.attributes import interpolate
-from engine.render.rasteriser import Raster, rasterise
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.rasterisation.rasteriser import Raster, rasterise
 
 SHELL_TEXTURE_SIZE_TEXELS = 2048
 """Texels of the texture's sides."""

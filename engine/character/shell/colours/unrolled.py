@@ -17,7 +17,7 @@ from engine.character.fit.template_fit import load_human
 from engine.character.shell.template_mesh import TemplateMesh, template_mesh
 from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.imaging.filling.nearest import nearest_in
-from engine.render.rasteriser import Raster, rasterise
+from engine.render.rasterisation.rasteriser import Raster, rasterise
 
 ROW_METRES = 0.0025
 """Metres of a row, on the mean body."""

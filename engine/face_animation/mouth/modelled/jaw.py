@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import INNER_LOWER_LIP_VERTEX
+from engine.perception.face.landmarks import INNER_LOWER_LIP_VERTEX
 
 CHIN_VERTICES = (152, 148, 377, 176, 400, 175, 199)
 JAW_HINGE_VERTICES = (234, 454)

@@ -26,7 +26,7 @@ from engine.face_animation.mouth.modelled.skull import skull_camera
 from engine.face_animation.smoothstep import smoothstep
 from engine.geometry.mesh.adjacency import edge_table
 from engine.geometry.mesh.surface import vertex_normals
-from engine.perception.landmarks import (
+from engine.perception.face.landmarks import (
     INNER_LOWER_LIP_VERTEX,
     INNER_MOUTH_CORNER_VERTICES,
     INNER_UPPER_LIP_VERTEX,
@@ -34,9 +34,9 @@ from engine.perception.landmarks import (
     eye_distance,
     mouth_opening,
 )
-from engine.render.mipmap import build_mipmap
-from engine.render.scratch import Scratch
-from engine.render.surface import Surface, draw_surface, triangle_spread
+from engine.render.scene.scratch import Scratch
+from engine.render.scene.surface import Surface, draw_surface, triangle_spread
+from engine.render.textures.mipmap import build_mipmap
 
 LIP_SOFTNESS_EYE_DISTANCES, MIN_LIP_SOFTNESS_PIXELS = 0.012, 0.8
 """Eye distances, and pixels, over which the inside passes into the lips: their edges are round, and the mesh's have corners."""

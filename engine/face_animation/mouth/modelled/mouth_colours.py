@@ -12,7 +12,7 @@ from engine.face_animation.skin_colour import face_luminance, is_grey, skin_colo
 from engine.face_animation.smoothstep import smoothstep
 from engine.face_animation.whites import teeth_tint, white_luminance, white_tint
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
-from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
+from engine.perception.face.landmarks import LIPS_INNER, LIPS_OUTER
 
 ENAMEL_COLOUR, DENTINE_COLOUR = np.array([216, 209, 197.0]), np.array([198, 185, 162.0])
 GUM_COLOUR, TONGUE_COLOUR = np.array([176, 96, 95.0]), np.array([196, 110, 108.0])

@@ -16,7 +16,7 @@ from engine.body.subdivision import Subdivision, catmull_clark
 from engine.body.template import Template, load_template
 from engine.face_animation.mouth.modelled.resting_mouth import RestingMouth
 from engine.geometry.mesh.surface import triangulate
-from engine.perception.landmarks import LIPS_INNER
+from engine.perception.face.landmarks import LIPS_INNER
 from engine.performances.modelling.teeth import LOWER_CROWNS, UPPER_CROWNS, Arch, build_dentition
 
 EYE_DISTANCE_METRES = 0.063

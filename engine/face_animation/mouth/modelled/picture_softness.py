@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.edge_blur import edge_blur
-from engine.perception.landmarks import LEFT_EYE, LIPS_OUTER, RIGHT_EYE, eye_distance
+from engine.perception.face.landmarks import LEFT_EYE, LIPS_OUTER, RIGHT_EYE, eye_distance
 
 REACH_EYE_DISTANCES = 0.06
 """Eye distances around eyes and lips that are looked at."""

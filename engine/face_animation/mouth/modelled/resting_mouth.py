@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import INNER_MOUTH_CORNER_VERTICES, mouth_opening
+from engine.perception.face.landmarks import INNER_MOUTH_CORNER_VERTICES, mouth_opening
 
 UPPER_LIP_MIDDLE_VERTICES = (82, 13, 312)
 BEHIND_LIPS_EYE_DISTANCES = 0.03

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import RIGID_VERTICES
+from engine.perception.face.landmarks import RIGID_VERTICES
 
 
 def skull_camera(

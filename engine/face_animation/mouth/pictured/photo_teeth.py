@@ -30,7 +30,7 @@ from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
 from engine.face_animation.mouth.pictured.teeth_strip import ARCH_CURVATURE_PER_EYE_DISTANCE, TeethStrip, teeth_strip
 from engine.face_animation.skin_colour import face_luminance, is_grey, skin_colour
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
-from engine.perception.landmarks import INNER_MOUTH_CORNER_VERTICES, eye_distance, mouth_opening
+from engine.perception.face.landmarks import INNER_MOUTH_CORNER_VERTICES, eye_distance, mouth_opening
 
 APPEARING_OPENING = 0.015
 """Of the mouth, from which on the inside appears."""

@@ -20,7 +20,7 @@ from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.imaging.resample import resized
 from engine.perception.expression.features import frontalise
-from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
+from engine.perception.face.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
 
 ARCH_CURVATURE_PER_EYE_DISTANCE = 1.2
 """Eye distances by which teeth lie further back, for the square of one to the side."""

@@ -20,7 +20,7 @@ from engine.avatar.registration.models import HumanModels
 from engine.geometry.mesh.closest_points import closest_points
 from engine.geometry.mesh.surface import triangulate
 from engine.geometry.mesh.winding_number import winding_numbers
-from engine.render.rasteriser import depth_map
+from engine.render.rasterisation.rasteriser import depth_map
 
 
 @pytest.mark.parametrize("part", ["upper_teeth", "tongue"])

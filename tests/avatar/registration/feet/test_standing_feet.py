@@ -17,7 +17,7 @@ from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.part_outlines import Silhouette
 from engine.geometry.camera import Camera
 from engine.geometry.point_clouds.point_cloud import PointCloud
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import rasterise
 
 NOBODY = SpatialLandmarks({})
 

@@ -18,8 +18,8 @@ from engine.character.shell.colours.evidence import witness
 from engine.character.shell.colours.paint import SHELL_TEXTURE_SIZE_TEXELS, paint_shell, texels
 from engine.character.shell.shell import Shell
 from engine.character.shell.template_mesh import template_mesh
-from engine.render.attributes import interpolate
-from engine.render.rasteriser import rasterise
+from engine.render.rasterisation.attributes import interpolate
+from engine.render.rasterisation.rasteriser import rasterise
 
 HEIGHT, WIDTH = 260, 300
 SKIN, HAIR, CLOTH, WALL = (200, 150, 120), (60, 40, 20), (30, 60, 160), (20, 230, 20)

@@ -32,8 +32,8 @@ from engine.face_animation.mouth.modelled.mouth_parts import (
 from engine.face_animation.mouth.modelled.resting_mouth import resting_mouth
 from engine.face_animation.skin_colour import face_luminance
 from engine.perception.expression.features import frontalise
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import LIPS_INNER, LIPS_OUTER
 
 LOWER = [*LIPS_INNER[11:], *LIPS_OUTER[11:], *CHIN_VERTICES]
 EYES = 80.0

@@ -12,8 +12,8 @@ from engine.face_animation.mouth.pictured.photo_teeth import PhotoTeeth, appeari
 from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
 from engine.face_animation.mouth.pictured.teeth_strip import teeth_strip, without_violet
 from engine.perception.expression.features import frontalise
-from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES
+from engine.perception.face.head_pose import canonical_face
+from engine.perception.face.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES
 
 SKIN = (190, 150, 130)
 CAVITY = np.array([50.0, 20.0, 20.0])

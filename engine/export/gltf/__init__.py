@@ -1,0 +1,1 @@
+"""Characters as glTF: GLB, its parts and its compression, and VRM, which is built on it."""

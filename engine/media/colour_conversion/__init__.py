@@ -1,0 +1,1 @@
+"""Colours of video: between what codecs keep and sRGB, high dynamic range among it."""

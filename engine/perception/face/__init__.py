@@ -1,0 +1,1 @@
+"""Faces: meshes of landmarks, what these mean, the head's pose, and what covers the skin."""

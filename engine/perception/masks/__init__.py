@@ -1,0 +1,1 @@
+"""Masks: where people, what stands out, or a drawn figure are in a picture."""

@@ -1,0 +1,1 @@
+"""Bodies and hands: joints of people, of all the people in a picture, and of drawn figures."""

@@ -1,0 +1,1 @@
+"""Textures of surfaces: looked up at every size, and baked from pictures."""
