@@ -16,8 +16,8 @@ from engine.errors import InputError
 File: TypeAlias = str | os.PathLike[str] | bytes | bytearray | memoryview
 """A file: where it is, or what it holds."""
 Picture: TypeAlias = File | NDArray[Any] | Image.Image
-"""A picture: a file, an array (H, W), (H, W, 3) or (H, W, 4) as Pillow has it, RGB; bool, uint8, or float in [0, 1]; or a
-picture of Pillow's."""
+"""A picture: a file, an array or a picture of Pillow's. Arrays are (H, W), or RGB as (H, W, 3) or (H, W, 4), as Pillow
+has them: bool, uint8, or float in [0, 1]."""
 Photos: TypeAlias = File | Sequence[Picture]
 """Photographs: a folder, an archive, or a sequence of pictures and archives."""
 

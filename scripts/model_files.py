@@ -19,8 +19,8 @@ from engine.perception.masks import salience
 
 @dataclass(frozen=True)
 class CarriedFile:
-    """A file `name` with this SHA-256 (hex), which the engine looks for in its `package`; the package that carries it is pinned in `lock`, comes
-    as pip's option `form` says, and is told of as `what`."""
+    """A file `name` with this SHA-256 (hex), which the engine looks for in its `package`. The package that carries it
+    is pinned in `lock`, comes as pip's option `form` says, and is told of as `what`."""
 
     package: str
     name: str

@@ -2,8 +2,8 @@
 
     python -m benchmarks.character_figures.sheet PICTURE... -o SHEET.png [--options JSON]
 
-From left to right: the picture, its mask, its labels; the character as pictured, from the front, the side and behind; four
-frames of the walk, two of the dance, one of the wave.
+From left to right come the picture, its mask and its labels. Then comes the character as pictured, from the front, the
+side and behind. Four frames of the walk follow, two of the dance, and one of the wave.
 """
 
 from __future__ import annotations

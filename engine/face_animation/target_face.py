@@ -15,8 +15,8 @@ class TargetFace:
     rgb : (H, W, 3) uint8, the picture at that size.
     alpha : (H, W) float32 in [0, 1], the picture's own; None where it has none.
     mesh : (478, 3) float32 pixels of `rgb`.
-    faces : (F, 4) float32, all faces found as x, y, width, height in pixels of the original picture, or of a crop of it that
-        numbers give; the one of `mesh` among them.
+    faces : (F, 4) float32: x, y, width and height of all faces found, that of `mesh` among them. They are pixels of the
+        original picture, or of a crop of it that numbers give.
     original_size : (width, height) of the original picture, pixels.
     place : (2, 3) float64, carries places in what `faces` refers to into `rgb`, both measured from the upper left corner of
         the first pixel: a scale and a shift.

@@ -36,8 +36,8 @@ def white_tint(
 
 
 def teeth_tint(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], shares: tuple[float, float]) -> NDArray[np.float64]:
-    """As `white_tint`, for what stands in the light as eyes, in the shade of lids, do not: with no more of the skin's hue than the lightest of the whole picture has,
-    such as a collar or a veil.
+    """As `white_tint`, for what stands in the light. Eyes do not, in the shade of lids. It has no more of the skin's
+    hue than the lightest of the whole picture, such as a collar or a veil.
 
     Source: E. Land, J. McCann, Lightness and retinex theory, 1971: the lightest patch is white in the light of its
     scene.

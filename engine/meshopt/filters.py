@@ -37,8 +37,8 @@ def decode_exponential(words: NDArray[np.int32]) -> NDArray[np.float32]:
 
 
 def decode_octahedral(rows: NDArray[np.signedinteger]) -> NDArray[np.signedinteger]:
-    """(N, 4) unit vectors as normalised integers, and a fourth number as it is; of `rows` of the same type, 8 or 16 bits, which
-    hold places on an octahedron and what is 1 among them (filter 1)."""
+    """(N, 4) unit vectors as normalised integers, and a fourth number as it is (filter 1). The `rows`, of the same
+    type, 8 or 16 bits, hold places on an octahedron and what is 1 among them."""
     one = np.where(rows[:, 2] == 0, 1, rows[:, 2]).astype(np.float64)
     x, y = rows[:, 0] / one, rows[:, 1] / one
     z = 1 - np.abs(x) - np.abs(y)

@@ -76,8 +76,8 @@ os.register_at_fork(after_in_child=_IDLE.clear)  # their threads are not in the 
 def load_solution(name: str) -> ModuleType:
     """The module `mediapipe.python.solutions.NAME`.
 
-    MediaPipe imports matplotlib for drawings that nobody here asks for, most of a second in every process, and more of its
-    own: their places are held while MediaPipe is imported, and they are loaded when somebody does use them.
+    MediaPipe imports matplotlib for drawings that nobody here asks for, most of a second in every process, and more of
+    its own. Their places are held while MediaPipe is imported, and they are loaded when somebody does use them.
     """
     with _ONE_AT_A_TIME:
         return _imported(f"mediapipe.python.solutions.{name}")

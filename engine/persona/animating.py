@@ -1,5 +1,5 @@
-"""A persona plays a driver: a video, which becomes a film of the puppet, alone or beside it, or of the person as a photograph shows them;
-or a picture."""
+"""A persona plays a driver, which is a video or a picture. A video becomes a film of the puppet, alone or beside it, or
+of the person as a photograph shows them."""
 
 from __future__ import annotations
 

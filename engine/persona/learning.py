@@ -26,8 +26,8 @@ from engine.persona.texture.white_balance import balanced
 MOUTH_OPENING = 0.25
 """From which on what a photograph shows between the lips counts in full: of a mouth that is shut it is the lips' own rim, drawn wide."""
 MIN_BELIEVED = 0.45
-"""Of what a photograph shows from the brows down, the share that can be believed: of less, hands, beards and spectacles cover it, or a
-light of its own, or it is painted. Caps leave more."""
+"""The least share of what a photograph shows from the brows down that can be believed. Where it is less, hands, beards,
+spectacles or a light of its own cover the face, or it is painted. Caps leave more."""
 BROW_TOP_VERTICES = (105, 334)
 """Vertices at the tops of the brows' arches."""
 

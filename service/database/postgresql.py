@@ -23,8 +23,8 @@ SOCKET_SECONDS = 10
 """How long an answer of the server may take."""
 
 SERVER_SECONDS = 8
-"""How long a statement, a wait for a lock, or a pause within a transaction may take: less than the socket's, so that
-the server is the first to give up and nothing is left undecided there."""
+"""How long a statement, a wait for a lock, or a pause within a transaction may take. It is less than the socket's: the
+server is the first to give up, and nothing is left undecided there."""
 
 UPGRADE_LOCK = 0x67616C61746561
 """The advisory lock under which tables are changed ("galatea")."""

@@ -40,9 +40,9 @@ def film_colour_error(
 ) -> ColourError:
     """Compare a film's frames (H, W, 3) with a mesh whose vertices (V, 3) stand before each frame's camera as `stands` has it.
 
-    `gains` (F, 3), where they are known: by what the phone multiplied red, green and blue light; the drawn colours are
-    multiplied by them, too, so that the drift of the exposure is nobody's fault. "fitted": by the median of what each frame
-    shows brighter than drawn. Raises ValueError where no frame shows any.
+    `gains` (F, 3), where they are known, are by what the phone multiplied red, green and blue light. The drawn colours
+    are multiplied by them, too, so that the drift of the exposure is nobody's fault. "fitted": by the median of what
+    each frame shows brighter than drawn. Raises ValueError where no frame shows any.
     """
     squares, counts = [], []
     fits = isinstance(gains, str)

@@ -1,7 +1,8 @@
 """Fitting a hand of the template, its turn at the wrist and its fingers, to 21 landmarks of a hand that is seen.
 
-Landmarks in the picture say where fingers are, and the directions of their bones in space, as perception believes them,
-which way they lean: robust least squares as in `engine.body.fitting.body_fitting`, with what joints of fingers can do as priors.
+Landmarks in the picture say where fingers are. The directions of their bones in space, as perception believes them, say
+which way they lean. It is robust least squares, as in `engine.body.fitting.body_fitting`, with what joints of fingers
+can do as priors.
 """
 
 from __future__ import annotations

@@ -65,8 +65,8 @@ def fit_hand_in_space(
     landmarks: NDArray[np.floating],
     skin: HandSkin | None = None,
 ) -> HandInSpace | None:
-    """Fit a hand to `landmarks` (21, 3), metres in the world, NaN where unknown, and by its `skin`, if given, to a cloud; None where too
-    few landmarks are known or agree.
+    """Fit a hand to `landmarks` (21, 3), metres in the world, NaN where unknown. With a `skin` it is fitted to a cloud,
+    too. None where too few landmarks are known or agree.
 
     `forearm_axes` (3, 3) are the forearm's axes as columns in the world, `wrist` (3,) where the body's fit has the wrist.
     """

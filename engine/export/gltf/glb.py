@@ -81,8 +81,9 @@ class CharacterModel:
     material_of: NDArray[np.integer] | None = None
     """(T,) which of the materials each triangle has, where there are several."""
     mixamo: bool = False
-    """Built as Mixamo's and Ready Player Me's characters are: joints with their axes (`engine.geometry.rigging.joint_axes`), so that
-    motions and poses made for those fit; the meshes within `Armature`, where players of avatars look for them."""
+    """Built as Mixamo's and Ready Player Me's characters are. Joints have their axes
+    (`engine.geometry.rigging.joint_axes`), so that motions and poses made for those fit. The meshes are within
+    `Armature`, where players of avatars look for them."""
 
 
 def write_glb(

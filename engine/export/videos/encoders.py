@@ -125,9 +125,9 @@ ENTRIES_OPTIONS = {
     # No frame is coded out of order: the first after a jump is shown without waiting for others.
     "x264-params": "keyint=infinite:scenecut=0:bframes=0:mbtree=0:qcomp=1:ipratio=1:aq-mode=0",
 }
-"""H.264 for a video with entries. All of it is coded equally fine, whole pictures and what changes, flat and textured
-parts: the grain of one video goes on in the next, and no frame is sharper than the one before. At a jump to a frame that
-shows nearly the same (0.95 grey levels in the mean) 0.98 were seen, with the usual settings 1.8."""
+"""H.264 for a video with entries. Whole pictures and what changes, flat and textured parts are all coded equally fine.
+The grain of one video goes on in the next, and no frame is sharper than the one before. At a jump to a frame that shows
+nearly the same (0.95 grey levels in the mean) 0.98 were seen, with the usual settings 1.8."""
 
 
 _SEAM_QUANTISER = 6

@@ -22,7 +22,8 @@ CORNER_REACH_EYE_DISTANCES = (0.06, 0.16)
 SOFTNESS_EYE_DISTANCES = 0.015
 """Sigma of what takes its place."""
 ROUND_OPENINGS, GAPING_OPENINGS = (0.15, 0.45), (0.45, 0.7)
-"""Openings of a mouth, its gap over its width, from which on it is eased where the mouth is narrower than the picture's, and wholly; and where it is as wide."""
+"""Openings of a mouth, its gap over its width, from which on it is eased and is eased wholly. First those of a mouth
+that is narrower than the picture's, then of one that is as wide."""
 
 
 class CornerSeams:

@@ -69,8 +69,8 @@ FLATNESS_EYE_DISTANCE_PIXELS = 60.0
 FLAT_GREY_LEVELS, FLAT_WINDOW_PIXELS = 1.0, 5
 """Standard deviation within so many pixels, below which a place is of flat colour."""
 FLAT_SHARES = (0.08, 0.2)
-"""Shares of the face that are flat, up to which it takes all of a ratio, and from which on none: photographs, paintings and rendered
-figures have up to 0.06, a drawing in flat colours 0.22."""
+"""Flat shares of a face: up to the first it takes all of a ratio, from the second on none. Photographs, paintings and
+rendered figures have up to 0.06, a drawing in flat colours 0.22."""
 
 
 @dataclass(frozen=True)

@@ -73,8 +73,8 @@ Reason = Literal["chosen", "at_rest", "like_the_target", "nearest_to_rest"]
 
 @dataclass(frozen=True)
 class NeutralFrame:
-    """A frame of the driver and why it was taken. It was `chosen` by the user, it is `at_rest` as the target is, it is
-    `like_the_target`, whose expression it shares, or it is `nearest_to_rest`, of a driver that never rests."""
+    """A frame of the driver and why it was taken. It was `chosen` by the user, or is `at_rest` as the target is. It is
+    `like_the_target` where it shares the target's expression, and `nearest_to_rest` where a driver never rests."""
 
     frame: int
     reason: Reason

@@ -1,8 +1,9 @@
 """The eyeball as a layer of its own: a white in the target's tone, the iris completed to its disk, the catch-light in it.
 
-What a picture shows of the white is a few pixels between lashes, shadow and iris: continued behind the lids they become a
-white of lash colour with the smear of the old iris. So the white is modelled: of the tint that whites have in the picture
-(`whites`), as light as this eye's are beside the skin below it, and as shaded by its lid as the picture shows.
+What a picture shows of the white is a few pixels between lashes, shadow and iris: continued behind the lids they become
+a white of lash colour with the smear of the old iris. So the white is modelled. It has the tint that whites have in the
+picture (`whites`), is as light as this eye's are beside the skin below it, and as shaded by its lid as the picture
+shows.
 """
 
 from __future__ import annotations

@@ -147,8 +147,8 @@ def lid_closing_share(eye: Eyeball, mesh: NDArray[np.floating], side: int) -> fl
 
 
 def _lash_line(opening: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
-    """The upper lid's edge, as wide as lashes are in its middle and tapered to both corners, (h, w) in [0, 1]: the smooth curve through most of its points, each
-    of which is tracked by itself."""
+    """The upper lid's edge, (h, w) in [0, 1], as wide as lashes are in its middle and tapered to both corners. It is
+    the smooth curve through most of its points, since each is tracked by itself."""
     across = (opening[8] - opening[0]).astype(float)
     width = max(float(np.linalg.norm(across)), 1.0)
     axes = np.array([across, (-across[1], across[0])]) / width

@@ -1,9 +1,10 @@
 """The colours of lids that shut: of the skin above them at their crease, and at their edge of the skin below the eye, beside which they then lie.
 
-Lashes, brows and strands of hair stand there too: each is a smooth curve from corner to corner through what most of the skin is. Its lightness alone is
-believed wholly. Its hue is that of the cheeks where they are as light, in which shadows are redder by as much as the picture's own skin
-(`shading_colour`). What lids differ from that by is one for both, small, and not red: a socket's shadow that is made lighter as it is makes a red patch, and
-the hue of cheeks in the light a grey one.
+Lashes, brows and strands of hair stand there too: each is a smooth curve from corner to corner through what most of the
+skin is. Its lightness alone is believed wholly. Its hue is that of the cheeks where they are as light, in which shadows
+are redder by as much as the picture's own skin (`shading_colour`). What lids differ from that by is one for both,
+small, and not red. A socket's shadow that is made lighter as it is makes a red patch, and the hue of cheeks in the
+light a grey one.
 """
 
 from __future__ import annotations
@@ -80,8 +81,9 @@ def lid_colours(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> list[LidC
 def of_one_hue(
     colours: list[NDArray[np.float32]], cheek: NDArray[np.floating], slopes: NDArray[np.floating]
 ) -> list[NDArray[np.float32]]:
-    """Colours (1, w, 3) of both lids, as light as they are, in the hue that a `cheek` (3,) has where it is as light, whose channels fall by `slopes` (3,) with the
-    logarithm of luminance; and beside that in what both have of their own."""
+    """Colours (1, w, 3) of both lids, as light as they are, in the hue that a `cheek` (3,) has where it is as light.
+    Its channels fall by `slopes` (3,) with the logarithm of luminance. What both lids have of their own stays beside
+    that."""
     shown = np.maximum(np.concatenate(colours, axis=1)[0].astype(np.float64), 1.0)
     light = shown @ LUMINANCE_WEIGHTS
     usual = cheek * (light / float(cheek @ LUMINANCE_WEIGHTS))[:, None] ** slopes

@@ -42,10 +42,10 @@ _COLUMNS = (
 class ClosingLips:
     """A target's lips, which close where its driver's do.
 
-    Where the `target` (478, 3) has parted lips and the driver's `rest` (478, 3), which stands for it, has closed ones, the target's are closed
-    at rest, too, and everything it acts begins there. Where both are parted they close with one another. A smile draws lips thin, and what a
-    tracker sees of a lower lip that closes is thinner still: lips that meet keep their thickness, and have more where the mouth is narrower,
-    as what does not change its volume.
+    Where the `target` (478, 3) has parted lips and the driver's `rest` (478, 3), which stands for it, closed ones, the
+    target's are closed at rest, too. Everything it acts begins there. Where both are parted they close with one
+    another. A smile draws lips thin, and what a tracker sees of a lower lip that closes is thinner still. So lips that
+    meet keep their thickness. They have more where the mouth is narrower, as their volume does not change.
     """
 
     def __init__(self, rest: NDArray[np.floating], target: NDArray[np.floating]):

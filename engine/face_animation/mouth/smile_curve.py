@@ -26,8 +26,8 @@ LIPS_MIDDLE_VERTICES, INNER_UPPER_LIP_VERTICES = (0, 13, 14, 17), (13,)
 """Vertices of the middle of both lips, and of the upper one's inner edge: a smile that shows teeth bends that up,
 whatever the lower lip does."""
 WIDENING_SHARES, RISE_SHARES = (0.03, 0.12), (0.02, 0.07)
-"""By how much of its width at rest a mouth gets wider and its corners higher, from which on it smiles, and fully: both together, for lips that
-are drawn wide alone say e, or are afraid."""
+"""By how much of its width at rest a mouth gets wider and its corners higher, where it begins to smile and where it
+does so fully. Both count together: lips that are drawn wide alone say e, or are afraid."""
 MAX_LIFT_SHARE = 0.16
 """Of the mouth's width, by which its corners are raised beside what the driver's are, at most."""
 

@@ -18,8 +18,8 @@ CURVE_STEPS = 4
 
 
 def contour_rings(mesh: NDArray[np.floating], shape: tuple[int, int]) -> NDArray[np.float64]:
-    """(R, 2) points around the face of a mesh (478, 2 or 3), pixels, within a picture of `shape` (height, width): three on its contour, which is
-    round, between each two of its vertices, and rings around it."""
+    """(R, 2) points around the face of a mesh (478, 2 or 3), pixels, within a picture of `shape` (height, width). Three
+    lie on its contour, which is round, between each two of its vertices. The others are rings around it."""
     curve = round_contour(mesh[list(FACE_OVAL), :2].astype(float))
     between = curve[np.arange(len(curve)) % CURVE_STEPS > 0]
     forward = np.roll(curve, -1, axis=0) - np.roll(curve, 1, axis=0)

@@ -1,8 +1,8 @@
 """A sheet that cannot tear: where a warp would fold it, its vertices give way.
 
-Where head, neck and body meet, and where a jaw opens onto a neck, neighbours may be carried past each other: the
-picture then shows the edge of a fold, which looks torn. So no triangle beside or outside the face keeps less than a
-share of its area. Each that would is brought back to it by the smallest move of its free vertices, round after round
+Neighbours may be carried past each other where head, neck and body meet, and where a jaw opens onto a neck. The picture
+then shows the edge of a fold, which looks torn. So no triangle beside or outside the face keeps less than a share of
+its area. Each that would is brought back to it by the smallest move of its free vertices, round after round
 (position-based dynamics: M. Mueller and others, 2007, "Position Based Dynamics", section 3.3, with the area as the
 constraint). What is within bounds stays, and the moves grow with the violation, so frame follows frame evenly. Where an
 edge that cannot give way has become short, as between lips that close, the area beside it may go with it. To be kept it

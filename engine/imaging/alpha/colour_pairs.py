@@ -1,8 +1,8 @@
 """Alpha from pairs of colours: a mixed pixel lies on the line between a front and a back colour.
 
-After Gastal and Oliveira, "Shared sampling for real-time alpha matting", Eurographics 2010: from each
-unknown pixel rays run in all directions; the first known pixels they meet, a little inside of either
-side, are the candidates. The pair that explains the colour best, and is near, gives alpha.
+After Gastal and Oliveira, "Shared sampling for real-time alpha matting", Eurographics 2010: from each unknown pixel
+rays run in all directions. The first known pixels they meet, a little inside of either side, are the candidates. The
+pair that explains the colour best, and is near, gives alpha.
 """
 
 from __future__ import annotations

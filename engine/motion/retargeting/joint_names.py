@@ -1,9 +1,9 @@
 """What the names of joints say, in the habits of the programs that write them.
 
-Known habits: Mixamo (`mixamorig:LeftUpLeg`), MotionBuilder (`Character1_LeftUpLeg`), CMU in two spellings
-(`LeftUpLeg`, `LeftHip`), Bandai (`UpperLeg_L`), MakeHuman (`UpLeg_L`), Blender (`thigh.L`), Unreal (`thigh_l`), 3ds Max
-(`Bip01 L Thigh`), VRM (`J_Bip_L_UpperLeg`), Poser (`lThigh`). What most names of a skeleton have in common before or behind
-the word that tells them apart, such as a program's name, a character's, or a number, says nothing of a joint.
+Known habits: Mixamo (`mixamorig:LeftUpLeg`), MotionBuilder (`Character1_LeftUpLeg`), CMU in two spellings (`LeftUpLeg`,
+`LeftHip`), Bandai (`UpperLeg_L`), MakeHuman (`UpLeg_L`), Blender (`thigh.L`), Unreal (`thigh_l`), 3ds Max (`Bip01 L
+Thigh`), VRM (`J_Bip_L_UpperLeg`), Poser (`lThigh`). What most names of a skeleton have in common before or behind the
+word that tells them apart says nothing of a joint. It is a program's name, a character's, or a number.
 """
 
 from __future__ import annotations

@@ -179,8 +179,8 @@ def _detector(confidence: float, far: bool) -> AbstractContextManager[Any]:
 
 
 def _detected(detector: Any, rgb: NDArray[np.uint8], part: tuple[int, int, int, int]) -> list[NDArray[np.float64]]:
-    """Boxes (4,) of the faces in a part of a picture, both as x0, y0, x1, y1 in pixels of the picture; without those that the
-    part cuts: other parts hold the whole of them."""
+    """Boxes (4,) of the faces in a part of a picture, both as x0, y0, x1, y1 in pixels of the picture. Those that the
+    part cuts are left out: other parts hold the whole of them."""
     x0, y0, x1, y1 = part
     size, whole = np.array([x1 - x0, y1 - y0]), np.array(rgb.shape[1::-1])
     boxes = []

@@ -28,8 +28,8 @@ class HeldFace:
         self._since = 0
 
     def __call__(self, seen: FaceCrop | None) -> list[FaceCrop]:
-        """How it looks in this frame, in which it is `seen` so; the first that is seen comes as often as there were frames
-        up to here, and nothing before."""
+        """How it looks in this frame, in which it is `seen` so. Nothing comes before the first that is seen, which then
+        comes as often as there were frames up to here."""
         if seen is None:
             self._lost = self._last
             self._since = 0

@@ -50,8 +50,8 @@ def figure_on_plain_ground(
 
 
 def figure_on_paper(rgb: NDArray[np.uint8]) -> NDArray[np.bool_] | None:
-    """The largest thing (H, W) that lines enclose on plain paper, whoever or whatever it is; None without paper or lines, or where it is
-    no drawing of lines: not of the paper's colour inside."""
+    """The largest thing (H, W) that lines enclose on plain paper, whoever or whatever it is. None without paper or
+    lines, or where it is no drawing of lines, which has the paper's colour inside."""
     small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, STROKES_SIZE_PIXELS)).astype(np.float32)
     figure = _on_paper(small)
     if figure is None or _strokes(small)[figure].mean() > MAX_FILLED_SHARE:

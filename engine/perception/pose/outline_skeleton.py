@@ -106,8 +106,8 @@ class _Ends:
 
 @dataclass(frozen=True)
 class _Five:
-    """Head, left and right hand, left and right foot, by their numbers among the ends; where arms leave the trunk and legs part, how far from
-    the head on its way to the left foot."""
+    """Head, left and right hand, left and right foot, by their numbers among the ends. With them how far from the head,
+    on its way to the left foot, arms leave the trunk and legs part."""
 
     head: int
     hands: tuple[int, int]

@@ -25,8 +25,9 @@ EYE_GAIN_RANGE = (0.6, 1.6)
 
 
 def eye_textures(persona: Persona, radii: dict[str, float]) -> dict[str, NDArray[np.uint8]]:
-    """(S, S, 3) of both sides, in the light of the average face: of the persona's portrait, or of the photograph that lends its teeth, if
-    eyes are large and open in it; else of the average itself. `radii` : of the eyeballs, in widths of their eyes."""
+    """(S, S, 3) of both sides, in the light of the average face. It is that of the persona's portrait, or of the
+    photograph that lends its teeth, if eyes are large and open in it. Else it is that of the average itself. `radii` :
+    of the eyeballs, in widths of their eyes."""
     average, mesh = persona.average, persona.frame.places[:478].astype(np.float32)
     skin = skin_colour(average, mesh)
     for photo in (persona.portrait, persona.teeth):

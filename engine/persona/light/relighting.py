@@ -37,7 +37,7 @@ def regenerated(persona: Persona, number: int) -> NDArray[np.uint8]:
 
 def in_light(persona: Persona, light: str) -> tuple[Persona, float]:
     """The persona in the `average` light of its photographs, or in that from one of `LIGHT_DIRECTIONS`, and how strong
-    that is; the photograph that acts is brought into it, too."""
+    that is. The photograph that acts is brought into it, too."""
     even = np.ones((*persona.frame.size, 3), np.float32)
     directed = directed_light(persona, light) if light in LIGHT_DIRECTIONS else DirectedLight(even, 1.0)
     portrait = persona.portrait

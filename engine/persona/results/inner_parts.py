@@ -137,8 +137,8 @@ def _set_back(
 
 
 def _evenly(needed: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(V,) at least as much as the vertices of a sheet of teeth need, and the same along each of its columns: more the farther they are from the
-    middle, and smoothly, as an arch is bent."""
+    """(V,) at least as much as the vertices of a sheet of teeth need, and the same along each of its columns. It grows
+    smoothly with their distance from the middle, as an arch is bent."""
     columns = needed.reshape(-1, SHEET_MESH_COLUMNS + 1).max(axis=0)
     half = np.maximum(columns, columns[::-1])[SHEET_MESH_COLUMNS // 2 :]
     outward = np.maximum.accumulate(half)

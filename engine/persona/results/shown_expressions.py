@@ -83,9 +83,9 @@ def shown_expressions(persona: Persona, units: FaceUnits) -> list[ShownExpressio
 def _done(
     persona: Persona, units: FaceUnits, points: NDArray[np.floating]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """How faces with `points` (N, 51, 2) do each of `EXPRESSION_UNITS`. Returns how much of it they do in that of its
-    regions in which they do least, (E, N); the cosine between what their points do and what it does, (E, N); and the
-    cosine between expressions, (E, E)."""
+    """How faces with `points` (N, 51, 2) do each of `EXPRESSION_UNITS`. Returns three arrays. (E, N) is how much of it
+    they do in that of its regions in which they do least. (E, N) is the cosine between what their points do and what it
+    does. (E, E) is the cosine between expressions."""
     rest = expression_points(persona.neutral[None])[0]
     faces = np.array([persona.neutral + units.doing(mixture) for mixture in EXPRESSION_UNITS.values()])
     wanted = expression_points(faces) - rest

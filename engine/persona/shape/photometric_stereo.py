@@ -1,8 +1,8 @@
 """Normals of a face that many photographs show, each in a light that nobody knows.
 
-Source: section 4, "3D Average Model Estimation", which follows I. Kemelmacher-Shlizerman, S. M. Seitz, Face reconstruction in the wild,
-ICCV 2011: of Lambertian faces under distant lights, first-order harmonics, all photographs are mixtures of four pictures, albedo and
-albedo times normal; which four is told by a template of another face.
+Source: section 4, "3D Average Model Estimation", which follows I. Kemelmacher-Shlizerman, S. M. Seitz, Face
+reconstruction in the wild, ICCV 2011: of Lambertian faces under distant lights (first-order harmonics) all photographs
+are mixtures of four pictures, albedo and albedo times normal. Which four is told by a template of another face.
 """
 
 from __future__ import annotations

@@ -4,8 +4,9 @@ from engine.portrait.driver_segments import find_segments
 for segment in find_segments("me.mp4").segments:
     print(segment.name, segment.start, segment.end)
 
-In public a segment is called a moment, and there alone: in the name of the kind and its options, in `moments.json`, in
-the addresses, schemas and codes of the API (`service/drivers`), in its client, on the page and in the guide.
+In public a segment is called a moment, and there alone. The word stands in the name of the kind and its options, in
+`moments.json`, and in the addresses, schemas and codes of the API (`service/drivers`). Its client, the page and the
+guide have it, too.
 
 Reading order: `watching` (a face measured frame by frame), `rest` (against itself at rest),
 `perception.expression.prototypes` and `gestures` (what shows), `segments` (from where to where), `pipeline` (names,

@@ -92,8 +92,8 @@ def shadow_map(
 def _laid(
     posed: NDArray[np.float32], shadow: GroundShadow
 ) -> tuple[NDArray[np.float32], NDArray[np.float64], tuple[int, int]]:
-    """The vertices as the light lays them on the ground, (V, 3): z and x in cells, and the height in metres; the (x, z)
-    of the map's first corner; the map's rows and columns."""
+    """The vertices as the light lays them on the ground, (V, 3): z and x in cells, and the height in metres. With them
+    the (x, z) of the map's first corner, and the map's rows and columns."""
     lx, ly, lz = shadow.light
     if not ly > 0:
         raise ValueError("the light of a ground shadow must come from above")

@@ -23,8 +23,8 @@ SKIN_LIGHT_RANGE = (0.35, 1.25)
 LIP_HUE_SHARE = 0.5
 """Of the person's lips in what is flesh."""
 TONGUE_LIT_SHARE, TONGUE_DARK_SHARE, TONGUE_SIDES_SHARE = 0.12, 0.7, 0.45
-"""Of the tongue's length from its tip, that is in the light, and from which on it is not; and of its half width, from which on it turns to the
-cheeks."""
+"""Shares of the tongue's length from its tip up to which it is in the light, and from which on it is not. The last is
+the share of its half width from which on it turns to the cheeks."""
 TONGUE_BACK_DARKNESS, TONGUE_SIDES_DARKNESS = 1.0, 0.9
 """Of the way from the lining's colour to the throat's, that of the tongue's back, and of its sides: as what is behind them, since an outline would
 make it a block."""
@@ -36,8 +36,9 @@ MIN_TEETH_TO_SKIN_RATIO, MIN_TEETH_TO_FACE_RATIO, MAX_TEETH_TO_SKIN_RATIO = 1.3,
 """Of the luminance of the skin around the mouth, and of a light place of the face, that the lightest of the upper teeth has at least; the second no further than
 so many times the first. In sixteen photographs of people who smile it has 1.07 to 1.47 times that of a light place (median 1.2); a mouth may lie in the shade of its face."""
 FACE_HIGHLIGHT_PERCENTILE, MAX_TEETH_TO_HIGHLIGHT_RATIO = 97, 1.05
-"""Of the luminance within the face's oval, that of its highlights; and of theirs, or of the eyes' whites where these are lighter, that teeth have at most: they have
-1.0, 1.0 and 1.07 times the highlights' in three portraits that show them."""
+"""The percentile of the luminance within the face's oval that is its highlights, and the share of theirs that teeth have
+at most. Where the eyes' whites are lighter than highlights, it is a share of theirs. In three portraits that show teeth
+these have 1.0, 1.0 and 1.07 times the highlights' luminance."""
 ALBEDO_LUMINANCE, MAX_CHANNEL_ALBEDO = 0.55, 0.8
 """Of what throws light back in a mouth, of the hue of the person's skin: flesh and teeth; and of any channel of it."""
 MIN_WHITES_TO_FACE_RATIO = 1.05

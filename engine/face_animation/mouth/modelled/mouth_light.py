@@ -40,8 +40,9 @@ def mouth_light(
 
 @njit(fastmath=True, nogil=True)
 def _light(height, width, start, step, axis, edges, fit):  # type: ignore[no-untyped-def]
-    """From `start` (2,) on, a pixel is a `step`, in widths of the mouth; `edges` (2, 11, 2) the lips along and across the mouth, the upper one
-    first; `fit` (3, 3) the coefficients of the light by way of flesh, cubic one first, for each channel."""
+    """From `start` (2,) on, a pixel is a `step`, in widths of the mouth. `edges` (2, 11, 2) are the lips along and
+    across the mouth, the upper one first. `fit` (3, 3) has for each channel the coefficients of the light by way of
+    flesh, the cubic one first."""
     out = np.empty((height, width, 3), np.float32)
     slot, side = np.float32(BEHIND_SLOT_MOUTH_WIDTHS), np.float32(BEHIND_CORNERS_MOUTH_WIDTHS)
     half, one, none = np.float32(0.5), np.float32(1), np.float32(0)

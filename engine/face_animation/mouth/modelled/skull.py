@@ -11,8 +11,8 @@ from engine.perception.face.landmarks import RIGID_VERTICES
 def skull_camera(
     front: NDArray[np.floating], places: NDArray[np.floating]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """A matrix (2, 3), rows of one length at right angles, and a shift (2,), that carry a face `front` (478, 3) to its `places` (478, 2),
-    as the skull has it: by vertices that expressions hardly move."""
+    """A matrix (2, 3), rows of one length at right angles, and a shift (2,) that carry a face `front` (478, 3) to its
+    `places` (478, 2). They are those of the skull: of vertices that expressions hardly move."""
     chosen = list(RIGID_VERTICES)
     model, seen = np.asarray(front, np.float64)[chosen], np.asarray(places, np.float64)[chosen, :2]
     middle, at = model.mean(axis=0), seen.mean(axis=0)

@@ -161,7 +161,8 @@ def teeth_strip(photo: PicturedFace, wanted: float) -> TeethStrip:
 
 
 def without_violet(colours: NDArray[np.floating]) -> NDArray[np.float32]:
-    """Colours (..., 3) as light as they are, none of them bluer than it is green: teeth, gums and tongues are not, but a lens leaves violet seams between them."""
+    """Colours (..., 3) as light as they are, none of them bluer than it is green. Teeth, gums and tongues are not, but
+    a lens leaves violet seams between them."""
     found = np.asarray(colours, np.float32).copy()
     weights = LUMINANCE_WEIGHTS.astype(np.float32)
     light = found @ weights
