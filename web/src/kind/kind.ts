@@ -51,7 +51,7 @@ export interface CorrectionsProps {
 
 export interface SharedProps {
   shared: Shared;
-  /** The same with links that have only now been signed. */
+  /** Reads what is shared once more, with links that have only now been signed. */
   renew: (signal: AbortSignal) => Promise<Shared>;
   /** The animation, where it has a format that browsers show. */
   film: VNode | undefined;
@@ -98,7 +98,7 @@ export interface Kind<Wanted extends Order = Order> {
   pictureName(job: Job): string | null;
   /** What the picture acts out or does; null where the client did not say. */
   performance(job: Job): string | null;
-  /** The same as a sentence of its own. */
+  /** A sentence that says what the picture acts out or does. */
   performed(performance: string): string;
 
   namesOf(order: Wanted): OrderNames;

@@ -1,4 +1,4 @@
-/** The same face in another performance, at one click. */
+/** One click has the face of a job act out another performance. */
 
 import { useRef } from 'preact/hooks';
 import { createJob, type Driver, type JobRequest, listDrivers } from '../api';

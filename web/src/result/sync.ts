@@ -3,7 +3,7 @@
 /** How far apart, in seconds, the two may be while they play before the follower is set right: about two frames. */
 export const TOLERANCE = 0.08;
 
-/** And while they rest: less than a frame of any video. */
+/** How far apart, in seconds, the two may be while they rest: less than a frame of any video. */
 export const AT_REST = 0.004;
 
 /**

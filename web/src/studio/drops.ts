@@ -10,7 +10,7 @@ export function useDropsAnywhere(onFile: (file: File) => Promise<boolean>, onNon
   });
 }
 
-/** The same with all that is given at once, as the browser has it: folders among it. */
+/** `onData` is given all that is dropped or pasted at once, as the browser has it: folders among it. */
 export function useDataAnywhere(onData: (data: DataTransfer) => Promise<void>): void {
   const latest = useRef(onData);
   latest.current = onData;

@@ -27,7 +27,7 @@ type Mode = 'wall' | 'look' | 'pose' | 'film';
 
 export interface ViewerProps {
   job: HasArtifacts;
-  /** The same with links that have only now been signed. */
+  /** Reads the job once more, with links that have only now been signed. */
   renew: (signal: AbortSignal) => Promise<HasArtifacts>;
   /** What is seen first, where the job has what it takes and the browser shows 3D. */
   first: 'wall' | 'look' | 'film';

@@ -1,4 +1,4 @@
-/** The same portrait in another mood, at one click. */
+/** One click shows the portrait of a job in another mood. */
 
 import type { Job } from '../../api';
 import { useKind } from '../../kind/kinds';

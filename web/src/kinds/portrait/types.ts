@@ -28,7 +28,7 @@ export type PortraitReport = Report<{
   driver_chosen?: string | null;
   /** The faces found in the picture, the largest first. */
   faces: Frame[];
-  /** Likewise those of the performance; earlier versions did not say it. */
+  /** The faces found in the performance, the largest first; earlier versions did not say it. */
   driver_faces?: Frame[];
 }>;
 

@@ -17,7 +17,7 @@ const said = { loading: words.loading, ready: words.spaceHint, flat: words.space
 
 interface Props {
   job: HasArtifacts;
-  /** The same with links that have only now been signed. */
+  /** Reads the job once more, with links that have only now been signed. */
   renew: (signal: AbortSignal) => Promise<HasArtifacts>;
   /** Who is shown first, of those who were woken. */
   who: number;

@@ -58,7 +58,7 @@ const colours = Object.values<string>(partColours satisfies Record<BodyPart, str
   (colour) => (colour.match(/\d+/g) ?? []).map(Number) as [number, number, number],
 );
 
-/** Likewise: the nearest of the parts' colours; nothing where black is nearer. */
+/** Red, green, blue, alpha for each pixel, in place: the nearest of the parts' colours; nothing where black is nearer. */
 export function readParts(pixels: Uint8ClampedArray): void {
   for (let i = 0; i < pixels.length; i += 4) {
     const [r, g, b] = [pixels[i]!, pixels[i + 1]!, pixels[i + 2]!];
