@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 class Clip:
     """A motion for one `Skeleton`.
 
-    rotations : (F, J, 4) float32, unit quaternions (x, y, z, w), each joint's turn from the T-pose in its parent's
+    rotations : (F, J, 4) float32, unit quaternions (x, y, z, w), each joint's rotation from the T-pose in its parent's
         axes.
     root : (F, 3) float32, the root joint's place, metres.
     fps : frames a second. A clip that loops does not repeat its first frame at the end: frame F would be frame 0 again

@@ -54,13 +54,13 @@ def confine_clip(skeleton: Skeleton, clip: Clip, room: MovementRoom, leap: float
     feet, moved = [], float(np.abs(root - places[:, 0]).max())
     for sole in soles(skeleton):
         ankle, toe = sole.joints[2:]
-        turns, toes = world[:, ankle], world[:, toe if toe >= 0 else ankle]
-        joint = places[:, ankle] + rotation.rotate(turns, sole.toe)
+        rotations, toes = world[:, ankle], world[:, toe if toe >= 0 else ankle]
+        joint = places[:, ankle] + rotation.rotate(rotations, sole.toe)
         there = begin + _drawn(joint - begin, room)
         own = np.linalg.norm((joint - joint[0])[:, [0, 2]], axis=1)
         there = there + (joint[0] - there[0]) * _fading(own / STANCE_METRES)[:, None]
         moved = max(moved, float(np.abs(there - joint).max()))
-        held = HeldFoot(turns, toes, there - rotation.rotate(turns, sole.toe) - sunk, np.ones(len(root)))
+        held = HeldFoot(rotations, toes, there - rotation.rotate(rotations, sole.toe) - sunk, np.ones(len(root)))
         feet.append((sole, held))
     if moved < 1e-4 and not sunk.any():
         return clip

@@ -10,12 +10,12 @@ from engine.motion import rotation
 Array = NDArray[np.float64]
 
 
-def turns_at(turns: Array, times: Array) -> Array:
+def rotations_at(rotations: Array, times: Array) -> Array:
     """Turns (F, ..., 4) at fractional frames `times` (N,)."""
-    first = np.clip(np.floor(times).astype(int), 0, max(len(turns) - 2, 0))
-    second = np.minimum(first + 1, len(turns) - 1)
-    share = (times - first).reshape(-1, *[1] * (turns.ndim - 2))
-    return rotation.slerp(turns[first], turns[second], share)
+    first = np.clip(np.floor(times).astype(int), 0, max(len(rotations) - 2, 0))
+    second = np.minimum(first + 1, len(rotations) - 1)
+    share = (times - first).reshape(-1, *[1] * (rotations.ndim - 2))
+    return rotation.slerp(rotations[first], rotations[second], share)
 
 
 def places_at(places: Array, times: Array) -> Array:

@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 
 
 def world_rotations(parents: NDArray[np.integer], rotations: ArrayLike) -> Array:
-    """(..., J, 4) turns of joints in the world, from their turns in their parents' axes."""
+    """(..., J, 4) rotations of joints in the world, from their rotations in their parents' axes."""
     local = np.asarray(rotations, np.float64)
     world = local.copy()
     for joint, parent in enumerate(parents):
@@ -23,24 +23,24 @@ def world_rotations(parents: NDArray[np.integer], rotations: ArrayLike) -> Array
 
 
 def local_rotations(parents: NDArray[np.integer], world: ArrayLike) -> Array:
-    """(..., J, 4) turns of joints in their parents' axes, from their turns in the world."""
-    turns = np.asarray(world, np.float64)
-    own = rotation.multiply(rotation.inverse(turns[..., np.maximum(parents, 0), :]), turns)
-    own[..., parents < 0, :] = turns[..., parents < 0, :]
+    """(..., J, 4) rotations of joints in their parents' axes, from their rotations in the world."""
+    rotations = np.asarray(world, np.float64)
+    own = rotation.multiply(rotation.inverse(rotations[..., np.maximum(parents, 0), :]), rotations)
+    own[..., parents < 0, :] = rotations[..., parents < 0, :]
     return rotation.normalize(own)
 
 
 def place_joints(parents: NDArray[np.integer], offsets: ArrayLike, world: ArrayLike, root: ArrayLike) -> Array:
-    """(..., J, 3) places of joints, from world turns (..., J, 4), offsets in parents' axes (..., J, 3) and the root's
-    place (..., 3)."""
-    turns, steps = np.asarray(world, np.float64), np.asarray(offsets, np.float64)
-    places = np.empty((*turns.shape[:-1], 3))
+    """(..., J, 3) places of joints, from world rotations (..., J, 4), offsets in parents' axes (..., J, 3) and the
+    root's place (..., 3)."""
+    rotations, steps = np.asarray(world, np.float64), np.asarray(offsets, np.float64)
+    places = np.empty((*rotations.shape[:-1], 3))
     for joint, parent in enumerate(parents):
         if parent < 0:
             places[..., joint, :] = root
         else:
             places[..., joint, :] = places[..., parent, :] + rotation.rotate(
-                turns[..., parent, :], steps[..., joint, :]
+                rotations[..., parent, :], steps[..., joint, :]
             )
     return places
 
@@ -71,15 +71,15 @@ def pose_transforms(
 
     Parameters
     ----------
-    rotations : (F, J, 4) unit quaternions (x, y, z, w): each joint's turn from the T-pose in its parent's axes, as in
-        `engine.motion.clip.Clip`.
+    rotations : (F, J, 4) unit quaternions (x, y, z, w): each joint's rotation from the T-pose in its parent's axes, as
+        in `engine.motion.clip.Clip`.
     root : (F, 3) the root joint's places, metres.
     """
     world = world_rotations(skeleton.parents, rotations)
     places = place_joints(skeleton.parents, skeleton.offsets(), world, root)
-    turns = rotation.to_matrix(world)
-    transforms = np.zeros((*turns.shape[:2], 4, 4), np.float32)
-    transforms[..., :3, :3] = turns
-    transforms[..., :3, 3] = places - np.einsum("fjik,jk->fji", turns, skeleton.heads.astype(np.float64))
+    matrices = rotation.to_matrix(world)
+    transforms = np.zeros((*matrices.shape[:2], 4, 4), np.float32)
+    transforms[..., :3, :3] = matrices
+    transforms[..., :3, 3] = places - np.einsum("fjik,jk->fji", matrices, skeleton.heads.astype(np.float64))
     transforms[..., 3, 3] = 1
     return transforms

@@ -16,7 +16,7 @@ AXIS_VECTORS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)
 
 
 def identity(*shape: int) -> Array:
-    """(*shape, 4): no turn."""
+    """(*shape, 4): no rotation."""
     return np.broadcast_to(np.array(IDENTITY_QUATERNION), (*shape, 4)).copy()
 
 
@@ -28,7 +28,7 @@ def normalize(vectors: ArrayLike) -> Array:
 
 
 def multiply(first: ArrayLike, second: ArrayLike) -> Array:
-    """The turn `first` after the turn `second`, as with matrices."""
+    """The rotation `first` after the rotation `second`, as with matrices."""
     a, b = np.asarray(first, np.float64), np.asarray(second, np.float64)
     ax, ay, az, aw = np.moveaxis(a, -1, 0)
     bx, by, bz, bw = np.moveaxis(b, -1, 0)
@@ -43,22 +43,22 @@ def multiply(first: ArrayLike, second: ArrayLike) -> Array:
     )
 
 
-def chain(*turns: ArrayLike) -> Array:
-    """The product of turns, the last applied first."""
-    product = np.asarray(turns[0], np.float64)
-    for turn in turns[1:]:
+def chain(*rotations: ArrayLike) -> Array:
+    """The product of rotations, the last applied first."""
+    product = np.asarray(rotations[0], np.float64)
+    for turn in rotations[1:]:
         product = multiply(product, turn)
     return product
 
 
-def inverse(turns: ArrayLike) -> Array:
-    """The opposite turns."""
-    return np.asarray(turns, np.float64) * np.array([-1.0, -1.0, -1.0, 1.0])
+def inverse(rotations: ArrayLike) -> Array:
+    """The opposite rotations."""
+    return np.asarray(rotations, np.float64) * np.array([-1.0, -1.0, -1.0, 1.0])
 
 
-def rotate(turns: ArrayLike, vectors: ArrayLike) -> Array:
+def rotate(rotations: ArrayLike, vectors: ArrayLike) -> Array:
     """Vectors (..., 3), turned."""
-    q, v = np.asarray(turns, np.float64), np.asarray(vectors, np.float64)
+    q, v = np.asarray(rotations, np.float64), np.asarray(vectors, np.float64)
     x, y, z, w = np.moveaxis(q, -1, 0)
     vx, vy, vz = np.moveaxis(v, -1, 0)
     # Twice the cross product of axis and vector. (`np.cross` takes three times as long for as few as a skeleton has.)
@@ -69,36 +69,36 @@ def rotate(turns: ArrayLike, vectors: ArrayLike) -> Array:
 
 
 def about(axis: str | ArrayLike, radians: ArrayLike) -> Array:
-    """Turns by `radians` (...) about an axis: "x", "y", "z" or vectors (..., 3)."""
+    """Rotations by `radians` (...) about an axis: "x", "y", "z" or vectors (..., 3)."""
     direction = normalize(AXIS_VECTORS[axis] if isinstance(axis, str) else axis)
     half = np.asarray(radians, np.float64)[..., None] / 2
     return np.concatenate(np.broadcast_arrays(direction * np.sin(half), np.cos(half)), -1)[..., [0, 1, 2, -1]]
 
 
 def from_vector(vectors: ArrayLike) -> Array:
-    """Turns from rotation vectors (..., 3): axis times radians."""
+    """Rotations from rotation vectors (..., 3): axis times radians."""
     v = np.asarray(vectors, np.float64)
     angle = np.linalg.norm(v, axis=-1, keepdims=True)
     return np.concatenate([v * 0.5 * np.sinc(angle / (2 * np.pi)), np.cos(angle / 2)], -1)
 
 
-def to_vector(turns: ArrayLike) -> Array:
+def to_vector(rotations: ArrayLike) -> Array:
     """Rotation vectors (..., 3), of length at most pi."""
-    q = np.asarray(turns, np.float64)
+    q = np.asarray(rotations, np.float64)
     q = np.where(q[..., 3:] < 0, -q, q)
     sine = np.linalg.norm(q[..., :3], axis=-1, keepdims=True)
     angle = 2 * np.arctan2(sine, q[..., 3:])
     return q[..., :3] * np.where(sine > 1e-9, angle / np.where(sine > 1e-9, sine, 1), 2.0)
 
 
-def angle(turns: ArrayLike) -> Array:
-    """How far each turn turns, radians in [0, pi]."""
-    q = np.asarray(turns, np.float64)
+def angle(rotations: ArrayLike) -> Array:
+    """How far each turns, radians in [0, pi]."""
+    q = np.asarray(rotations, np.float64)
     return np.asarray(2 * np.arctan2(np.linalg.norm(q[..., :3], axis=-1), np.abs(q[..., 3])))
 
 
 def from_matrix(matrices: ArrayLike) -> Array:
-    """Turns from rotation matrices (..., 3, 3), by Shepperd's method: the largest component first."""
+    """Rotations from rotation matrices (..., 3, 3), by Shepperd's method: the largest component first."""
     m = np.asarray(matrices, np.float64)
     xx, yy, zz = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
     a, b, c = (m[..., 2, 1], m[..., 1, 2]), (m[..., 0, 2], m[..., 2, 0]), (m[..., 1, 0], m[..., 0, 1])
@@ -116,14 +116,14 @@ def from_matrix(matrices: ArrayLike) -> Array:
     return normalize(np.take_along_axis(candidates, largest[..., None, None], -2)[..., 0, :])
 
 
-def to_matrix(turns: ArrayLike) -> Array:
+def to_matrix(rotations: ArrayLike) -> Array:
     """Rotation matrices (..., 3, 3)."""
-    q = np.asarray(turns, np.float64)
+    q = np.asarray(rotations, np.float64)
     return np.stack([rotate(q, axis) for axis in AXIS_VECTORS.values()], -1)
 
 
 def between(start: ArrayLike, end: ArrayLike) -> Array:
-    """The shortest turns that bring directions `start` (..., 3) to `end`; half turns choose some axis across."""
+    """The shortest rotations that bring directions `start` (..., 3) to `end`; half turns choose some axis across."""
     a, b = np.broadcast_arrays(normalize(start), normalize(end))
     dot = np.sum(a * b, -1, keepdims=True)
     turn = np.concatenate([np.cross(a, b), 1 + dot], -1)
@@ -139,19 +139,19 @@ def slerp(start: ArrayLike, end: ArrayLike, share: ArrayLike) -> Array:
     return normalize(multiply(a, from_vector(to_vector(turn) * np.asarray(share, np.float64)[..., None])))
 
 
-def mean(turns: ArrayLike, axis: int = 0) -> Array:
-    """The turn nearest to all: Markley et al., "Averaging quaternions" (2007), equations 12 and 13."""
-    q = np.moveaxis(np.asarray(turns, np.float64), axis, -2)
+def mean(rotations: ArrayLike, axis: int = 0) -> Array:
+    """The rotation nearest to all: Markley et al., "Averaging quaternions" (2007), equations 12 and 13."""
+    q = np.moveaxis(np.asarray(rotations, np.float64), axis, -2)
     return np.asarray(np.linalg.eigh(np.swapaxes(q, -1, -2) @ q)[1][..., -1])
 
 
-def same_signs(turns: ArrayLike) -> Array:
-    """Turns over time (F, ..., 4), each with the sign nearer to the one before: fit for interpolation."""
-    q = np.asarray(turns, np.float64)
+def same_signs(rotations: ArrayLike) -> Array:
+    """Rotations over time (F, ..., 4), each with the sign nearer to the one before: fit for interpolation."""
+    q = np.asarray(rotations, np.float64)
     flips = np.where(np.sum(q[1:] * q[:-1], -1, keepdims=True) < 0, -1.0, 1.0)
     return np.concatenate([q[:1], q[1:] * np.cumprod(flips, 0)])
 
 
-def mirrored(turns: ArrayLike) -> Array:
-    """Turns seen in a mirror across the plane x = 0: a left limb's become the right one's."""
-    return np.asarray(turns, np.float64) * np.array([1.0, -1.0, -1.0, 1.0])
+def mirrored(rotations: ArrayLike) -> Array:
+    """Rotations seen in a mirror across the plane x = 0: a left limb's become the right one's."""
+    return np.asarray(rotations, np.float64) * np.array([1.0, -1.0, -1.0, 1.0])

@@ -20,7 +20,7 @@ from engine.motion.edit import repeat_loop
 from engine.motion.feet.foot_contact import find_contacts, sole_places, true_runs
 from engine.motion.feet.legs import HeldFoot, hip_lowering, set_legs
 from engine.motion.feet.sole import Sole, leg_length, soles
-from engine.motion.interpolation import places_at, turns_at
+from engine.motion.interpolation import places_at, rotations_at
 from engine.motion.kinematics import local_rotations, place_joints, world_rotations
 
 Array = NDArray[np.float64]
@@ -72,7 +72,7 @@ def step_out(
     source = repeat_loop(clip, int(np.ceil(own_frames[-1])) + 2)
     played = replace(
         clip,
-        rotations=turns_at(np.asarray(source.rotations, np.float64), own_frames).astype(np.float32),
+        rotations=rotations_at(np.asarray(source.rotations, np.float64), own_frames).astype(np.float32),
         root=places_at(np.asarray(source.root, np.float64), own_frames).astype(np.float32),
         loops=False,
     )

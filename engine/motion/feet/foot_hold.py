@@ -120,11 +120,11 @@ def _level_feet(skeleton: Skeleton, clip: Clip, leg: float) -> Clip:
     return replace(clip, rotations=local_rotations(skeleton.parents, world).astype(np.float32))
 
 
-def _yaw_and_tilt(turns: Array, sole: Sole) -> tuple[Array, Array]:
+def _yaw_and_tilt(rotations: Array, sole: Sole) -> tuple[Array, Array]:
     """How far feet (F, 4) are turned about the vertical, radians (F,), and the rest as rotation vectors (F, 3)."""
-    forward = rotation.rotate(turns, sole.forward)
+    forward = rotation.rotate(rotations, sole.forward)
     yaw = np.arctan2(forward[..., 0], forward[..., 2]) - np.arctan2(sole.forward[0], sole.forward[2])
-    return yaw, rotation.to_vector(rotation.multiply(rotation.about("y", -yaw), turns))
+    return yaw, rotation.to_vector(rotation.multiply(rotation.about("y", -yaw), rotations))
 
 
 def _hold(skeleton: Skeleton, clip: Clip, contacts: Contacts) -> Clip:
@@ -134,8 +134,8 @@ def _hold(skeleton: Skeleton, clip: Clip, contacts: Contacts) -> Clip:
     feet = []
     for side, sole in enumerate(soles(skeleton)):
         ankle, toe = sole.joints[2:]
-        turns = world[:, ankle]
-        own = HeldFoot(turns, world[:, toe] if toe >= 0 else turns, places[:, ankle], np.zeros(len(root)))
+        rotations = world[:, ankle]
+        own = HeldFoot(rotations, world[:, toe] if toe >= 0 else rotations, places[:, ankle], np.zeros(len(root)))
         foot = _plant(sole, own, contacts[:, side], clip.fps)
         depth = -sole.points(foot.ankle, foot.rotations, foot.toes)[..., 1].min(-1)
         foot.ankle = foot.ankle + np.maximum(depth, 0)[:, None] * [0, 1, 0]

@@ -18,11 +18,11 @@ STRAIGHT_SINE = 0.12
 
 def two_bones(
     places: tuple[ArrayLike, ArrayLike, ArrayLike],
-    turns: tuple[ArrayLike, ArrayLike],
+    rotations: tuple[ArrayLike, ArrayLike],
     target: ArrayLike,
     hinge: ArrayLike,
 ) -> tuple[Array, Array, Array]:
-    """World turns of the two bones that bring the limb's end to `target`, and where the end then is.
+    """World rotations of the two bones that bring the limb's end to `target`, and where the end then is.
 
     The law of cosines gives the bend; the bones stay in the plane in which they were bent, carried along with the
     limb's direction, so that knees and elbows keep pointing where they did. A target out of reach is approached.
@@ -30,13 +30,13 @@ def two_bones(
     Parameters
     ----------
     places : (..., 3) each: hip, knee and ankle, or shoulder, elbow and wrist.
-    turns : (..., 4) each: the world turns of the upper and the lower bone.
+    rotations : (..., 4) each: the world rotations of the upper and the lower bone.
     target : (..., 3) where the end is wanted.
     hinge : (3,) or (..., 3) the axis in the upper bone's coordinates about which the limb bends: for limbs that are
         straight, and so that none bends the wrong way.
     """
     a, b, c = (np.asarray(place, np.float64) for place in places)
-    upper, lower = (np.asarray(turn, np.float64) for turn in turns)
+    upper, lower = (np.asarray(one, np.float64) for one in rotations)
     first, second = b - a, c - b
     long_first, long_second = _length(first), _length(second)
     wanted = np.asarray(target, np.float64) - a
@@ -68,7 +68,7 @@ def _normal(first: Array, second: Array, hinge: Array) -> Array:
 
 
 def _turn(old: Array, old_normal: Array, new: Array, new_normal: Array) -> Array:
-    """The turn that brings a bone and the axis beside it to a new bone and axis."""
+    """The rotation that brings a bone and the axis beside it to a new bone and axis."""
     return rotation.multiply(_frame(new, new_normal), rotation.inverse(_frame(old, old_normal)))
 
 

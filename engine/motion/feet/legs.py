@@ -51,11 +51,11 @@ def set_legs(world: Array, places: Array, feet: Sequence[tuple[Sole, HeldFoot]])
             world[:, toe] = foot.toes
 
 
-def ankle_over_ball(sole: Sole, turns: Array, level: Array, pitch: Array) -> Array:
-    """(F, 3) from where the ball lies, when the foot is flat, to the ankle of the rolling foot. `turns` (F, 4) are the
-    foot's in the world, `level` is its turn if it lay flat, and `pitch` (F,) radians are between them."""
-    over_ball = -sole.ball - rotation.rotate(turns, sole.toe)
-    over_heel = rotation.rotate(level, sole.heel - sole.toe - sole.ball) - rotation.rotate(turns, sole.heel)
+def ankle_over_ball(sole: Sole, rotations: Array, level: Array, pitch: Array) -> Array:
+    """(F, 3) from where the ball lies, when the foot is flat, to the ankle of the rolling foot. `rotations` (F, 4) are
+    the foot's in the world, `level` is its rotation if it lay flat, and `pitch` (F,) radians are between them."""
+    over_ball = -sole.ball - rotation.rotate(rotations, sole.toe)
+    over_heel = rotation.rotate(level, sole.heel - sole.toe - sole.ball) - rotation.rotate(rotations, sole.heel)
     return np.where(pitch[:, None] > 0, over_ball, over_heel)
 
 

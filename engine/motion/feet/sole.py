@@ -48,7 +48,7 @@ class Sole:
         return np.cross([0.0, 1.0, 0.0], self.forward)
 
     def points(self, ankle: Array, foot: Array, toes: Array) -> Array:
-        """(..., 3, 3) heel, ball and tip, of feet at places (..., 3) and world turns (..., 4) of foot and toes."""
+        """(..., 3, 3) heel, ball and tip, of feet at places (..., 3) and world rotations (..., 4) of foot and toes."""
         toe = ankle + rotation.rotate(foot, self.toe)
         heel = ankle + rotation.rotate(foot, self.heel)
         return np.stack([heel, toe + rotation.rotate(toes, self.ball), toe + rotation.rotate(toes, self.tip)], -2)

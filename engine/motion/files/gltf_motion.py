@@ -86,23 +86,23 @@ def read_gltf_motion(source: Path | bytes, clip: str | None = None, name: str = 
     nodes = skeleton_nodes(tree, skeletons[own])
     index = {node: joint for joint, node in enumerate(nodes)}
     own_parents = np.array([index.get(tree.parents[node], -1) for node in nodes], np.int32)
-    turns, offsets, scales = at_rest(file.parts, nodes, own_parents)
+    held, offsets, scales = at_rest(file.parts, nodes, own_parents)
     tracks = _tracks(file, accessors, chosen, index)
     fps, times = _sampling(tracks, len(nodes))
-    rotations = np.tile(turns, (len(times), 1, 1))
+    rotations = np.tile(held, (len(times), 1, 1))
     translations = np.tile(offsets, (len(times), 1, 1))
     for joint, track in tracks:
         if track.path == "rotation":
             rotations[:, joint] = _sampled(track, times)
         else:
             translations[:, joint] = _sampled(track, times) * scales[joint]
-    rest_turns, rest_offsets = bind_pose(file, accessors, nodes, own_parents, turns, offsets)
+    rest_rotations, rest_offsets = bind_pose(file, accessors, nodes, own_parents, held, offsets)
     return SourceMotion(
         name=name or names[number],
         fps=fps,
         names=unique_names(_name(file.parts.nodes[node], f"node {node}") for node in nodes),
         parents=own_parents,
-        rest_rotations=rest_turns,
+        rest_rotations=rest_rotations,
         rest_offsets=rest_offsets,
         ends=np.full((len(nodes), 3), np.nan),
         rotations=rotations,

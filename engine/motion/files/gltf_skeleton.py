@@ -131,24 +131,24 @@ def at_rest(parts: Any, nodes: list[int], parents: NDArray[np.int32]) -> tuple[A
     ------
     InputError : `motion_unreadable`, `motion_not_finite`.
     """
-    turns, offsets, scales = rotation.identity(len(nodes)), np.zeros((len(nodes), 3)), np.ones(len(nodes))
+    rotations, offsets, scales = rotation.identity(len(nodes)), np.zeros((len(nodes), 3)), np.ones(len(nodes))
     own = np.ones(len(nodes))
     for joint, node in enumerate(parts.nodes[index] for index in nodes):
         if node.matrix is not None:
             matrix = _numbers(node.matrix, 16).reshape(4, 4).T
-            turns[joint], own[joint] = _turn_and_scale(matrix[:3, :3])
+            rotations[joint], own[joint] = _rotation_and_scale(matrix[:3, :3])
             offsets[joint] = matrix[:3, 3]
         else:
             turn = _numbers(node.rotation, 4, rotation.IDENTITY_QUATERNION)
-            turns[joint] = rotation.normalize(turn if turn.any() else rotation.IDENTITY_QUATERNION)
+            rotations[joint] = rotation.normalize(turn if turn.any() else rotation.IDENTITY_QUATERNION)
             offsets[joint] = _numbers(node.translation, 3, (0, 0, 0))
             own[joint] = np.mean(_numbers(node.scale, 3, (1, 1, 1)))
         if parents[joint] >= 0:
             scales[joint] = scales[parents[joint]] * own[parents[joint]]
     offsets = offsets * scales[:, None]
-    if not (np.isfinite(turns).all() and np.isfinite(offsets).all()):
+    if not (np.isfinite(rotations).all() and np.isfinite(offsets).all()):
         raise InputError("motion_not_finite", "The glTF file holds numbers that are not finite: export it again.")
-    return turns, offsets, scales
+    return rotations, offsets, scales
 
 
 def _numbers(value: Any, count: int, default: Any = None) -> Array:
@@ -162,8 +162,8 @@ def _numbers(value: Any, count: int, default: Any = None) -> Array:
         raise unreadable("a node is broken") from error
 
 
-def _turn_and_scale(matrix: Array) -> tuple[Array, float]:
-    """The turn nearest to a matrix (3, 3), and its mean scale."""
+def _rotation_and_scale(matrix: Array) -> tuple[Array, float]:
+    """The rotation nearest to a matrix (3, 3), and its mean scale."""
     if not np.isfinite(matrix).all():
         raise InputError("motion_not_finite", "The glTF file holds numbers that are not finite: export it again.")
     u, sizes, v = np.linalg.svd(matrix)
@@ -172,7 +172,7 @@ def _turn_and_scale(matrix: Array) -> tuple[Array, float]:
 
 
 def bind_pose(
-    file: GltfFile, accessors: Accessors, nodes: list[int], parents: NDArray[np.int32], turns: Array, offsets: Array
+    file: GltfFile, accessors: Accessors, nodes: list[int], parents: NDArray[np.int32], rotations: Array, offsets: Array
 ) -> tuple[Array, Array]:
     """Turns and offsets in parents' axes of the pose in which the skin was bound; joints outside of it stay at rest.
 
@@ -180,7 +180,7 @@ def bind_pose(
     ------
     InputError : what reading numbers may raise.
     """
-    world, places = place(parents, turns, offsets)
+    world, places = place(parents, rotations, offsets)
     bound = np.zeros(len(nodes), bool)
     index = {node: joint for joint, node in enumerate(nodes)}
     for skin in file.parts.skins or []:
@@ -196,14 +196,14 @@ def bind_pose(
             joint = index.get(node, -1)
             if joint >= 0 and invertible and not bound[joint]:
                 bind = np.asarray(np.linalg.inv(matrix), np.float64)
-                world[joint], places[joint], bound[joint] = _turn_and_scale(bind[:3, :3])[0], bind[:3, 3], True
-    own_turns, own_offsets = turns.copy(), offsets.copy()
+                world[joint], places[joint], bound[joint] = _rotation_and_scale(bind[:3, :3])[0], bind[:3, 3], True
+    own_rotations, own_offsets = rotations.copy(), offsets.copy()
     for joint, parent in enumerate(parents):
         if parent >= 0 and bound[joint]:
             back = rotation.inverse(world[parent])
-            own_turns[joint] = rotation.multiply(back, world[joint])
+            own_rotations[joint] = rotation.multiply(back, world[joint])
             own_offsets[joint] = rotation.rotate(back, places[joint] - places[parent])
         elif parent >= 0:
-            world[joint] = rotation.multiply(world[parent], turns[joint])
+            world[joint] = rotation.multiply(world[parent], rotations[joint])
             places[joint] = places[parent] + rotation.rotate(world[parent], offsets[joint])
-    return own_turns, own_offsets
+    return own_rotations, own_offsets

@@ -64,16 +64,16 @@ class SourceMotion:
     skeletons: tuple[str, ...] = ()
 
     def rest(self) -> tuple[Array, Array]:
-        """World turns (J, 4) and places (J, 3) of the rest pose."""
+        """World rotations (J, 4) and places (J, 3) of the rest pose."""
         return place(self.parents, self.rest_rotations, self.rest_offsets)
 
     def world(self) -> tuple[Array, Array]:
-        """World turns (F, J, 4) and places (F, J, 3) of the frames."""
+        """World rotations (F, J, 4) and places (F, J, 3) of the frames."""
         return place(self.parents, self.rotations, self.translations)
 
 
 def place(parents: NDArray[np.int32], rotations: Array, offsets: Array) -> tuple[Array, Array]:
-    """World turns and places of joints, given in parents' axes; every root stands at its own offset."""
+    """World rotations and places of joints, given in parents' axes; every root stands at its own offset."""
     world = kinematics.world_rotations(parents, rotations)
     places = np.array(offsets, np.float64)
     for joint, parent in enumerate(parents):

@@ -188,11 +188,11 @@ def _stand(sole: Sole, foot: Foot, side: str, leg: float, frames: int) -> HeldFo
     sign = 1 if side == "Left" else -1
     level = rotation.about("y", np.broadcast_to(sign * np.radians(foot.yaw), frames))
     pitch = np.broadcast_to(np.radians(foot.pitch), frames)
-    turns = rotation.multiply(level, rotation.about(sole.lateral, pitch))
+    rotations = rotation.multiply(level, rotation.about(sole.lateral, pitch))
     toes = rotation.multiply(level, rotation.about(sole.lateral, np.minimum(pitch, 0)))
     rest = sole.ankle + sole.toe + sole.ball
     ball = rest + leg * _columns((foot.aside, foot.up, foot.ahead), frames)
-    return HeldFoot(turns, toes, ball + ankle_over_ball(sole, turns, level, pitch), np.ones(frames))
+    return HeldFoot(rotations, toes, ball + ankle_over_ball(sole, rotations, level, pitch), np.ones(frames))
 
 
 def _straighten_legs(world: Array, feet: list[tuple[Sole, HeldFoot]]) -> None:
@@ -225,6 +225,6 @@ def _lay_hand(world: Array, skeleton: Skeleton, side: str, arm: Arm, root: Array
     world[:, below] = rotation.multiply(rotation.multiply(turned, rotation.inverse(old))[:, None], world[:, below])
 
 
-def _yaw(turns: Array) -> Array:
-    forward = rotation.rotate(turns, (0.0, 0.0, 1.0))
+def _yaw(rotations: Array) -> Array:
+    forward = rotation.rotate(rotations, (0.0, 0.0, 1.0))
     return np.asarray(np.arctan2(forward[..., 0], forward[..., 2]))

@@ -46,18 +46,18 @@ def without_flips(motion: SourceMotion) -> SourceMotion:
     return replace(motion, rotations=rotations)
 
 
-def _bridges(turns: Array, flips: NDArray[np.intp], fps: float) -> list[tuple[int, int]]:
+def _bridges(rotations: Array, flips: NDArray[np.intp], fps: float) -> list[tuple[int, int]]:
     """Good frames before and after each stretch to be bridged; `flips` are the last frames before each flip."""
     bridges, place = [], 0
     while place < len(flips):
         flip = int(flips[place])
         back = int(flips[place + 1]) + 1 if place + 1 < len(flips) else -1
-        if back > 0 and back - flip <= MAX_FLIP_SECONDS * fps and _apart(turns[flip], turns[back]) < np.pi / 2:
+        if back > 0 and back - flip <= MAX_FLIP_SECONDS * fps and _apart(rotations[flip], rotations[back]) < np.pi / 2:
             bridges.append((flip, back))
             place += 2
         else:
             reach = max(round(SPREAD_SECONDS * fps), 1)
-            bridges.append((max(flip - reach, 0), min(flip + 1 + reach, len(turns) - 1)))
+            bridges.append((max(flip - reach, 0), min(flip + 1 + reach, len(rotations) - 1)))
             place += 1
     return bridges
 

@@ -83,15 +83,15 @@ def _completed(parents: NDArray[np.int32], said: dict[str, int], shape: dict[str
 
 def lost_joints(motion: SourceMotion, mapping: Mapping[str, str]) -> tuple[str, ...]:
     """The joints that turn in the motion and move nothing: they have no counterpart, nor has any joint below them, which would
-    carry on their turns."""
+    carry on their rotations."""
     mapped = set(mapping.values())
     used = {joint for joint, name in enumerate(motion.names) if name in mapped}
     for joint in range(len(motion.parents) - 1, -1, -1):
         if joint in used and motion.parents[joint] >= 0:
             used.add(int(motion.parents[joint]))
     change = rotation.multiply(rotation.inverse(motion.rotations[:1]), motion.rotations)
-    turns = rotation.angle(change).max(0) > MIN_TURN_ANGLE
-    return tuple(name for joint, name in enumerate(motion.names) if turns[joint] and joint not in used)
+    rotating = rotation.angle(change).max(0) > MIN_TURN_ANGLE
+    return tuple(name for joint, name in enumerate(motion.names) if rotating[joint] and joint not in used)
 
 
 def lost_warning(motion: SourceMotion, mapping: Mapping[str, str]) -> str | None:

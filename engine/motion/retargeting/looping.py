@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.motion import rotation
 from engine.motion.files.source_motion import SourceMotion
-from engine.motion.interpolation import places_at, turns_at
+from engine.motion.interpolation import places_at, rotations_at
 
 Array = NDArray[np.float64]
 
@@ -39,10 +39,10 @@ def as_loop(motion: SourceMotion, heights: Array) -> SourceMotion:
     `heights` (F,): of the hips, leg lengths."""
     if motion.loops is not None or len(motion.rotations) < MIN_MOTION_LOOP_FRAMES:
         return motion
-    turns, places = motion.rotations, motion.translations
-    speeds = rotation.angle(_change(turns[:-1], turns[1:])).max(1)
+    rotations, places = motion.rotations, motion.translations
+    speeds = rotation.angle(_change(rotations[:-1], rotations[1:])).max(1)
     usual = float(np.median(speeds))
-    first, last, gap = (rotation.to_vector(_change(turns[a], turns[b])) for a, b in ((0, 1), (-2, -1), (-1, 0)))
+    first, last, gap = (rotation.to_vector(_change(rotations[a], rotations[b])) for a, b in ((0, 1), (-2, -1), (-1, 0)))
     pace, rise = (first + last) / 2, (heights[1] - heights[0] + heights[-1] - heights[-2]) / 2
     frames = float(np.sum(gap * pace) / max(np.sum(pace**2), 1e-12))
     missed = np.linalg.norm(gap - frames * pace, axis=-1).max()
@@ -52,13 +52,13 @@ def as_loop(motion: SourceMotion, heights: Array) -> SourceMotion:
         return motion
     if abs(frames - round(frames)) < WHOLE_FRAME_TOLERANCE_FRAMES:
         frames = round(frames)
-    whole = len(turns) - 1 + frames
-    kept = min(int(np.ceil(whole)), len(turns))
+    whole = len(rotations) - 1 + frames
+    kept = min(int(np.ceil(whole)), len(rotations))
     beside = (places[1] - places[0] + places[-1] - places[-2]) / 2
     at = np.interp(np.linspace(0, whole, round(whole) + 1), [*range(kept), whole], range(kept + 1))
     return replace(
         motion,
-        rotations=turns_at(np.concatenate([turns[:kept], turns[:1]]), at),
+        rotations=rotations_at(np.concatenate([rotations[:kept], rotations[:1]]), at),
         translations=places_at(np.concatenate([places[:kept], places[-1:] + frames * beside]), at),
         loops=True,
     )

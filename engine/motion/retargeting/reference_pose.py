@@ -30,15 +30,15 @@ MAX_SNAP_ANGLE = np.radians(25)
 """A rest pose that stands nearer than this to a world axis is meant to stand along it."""
 
 
-def t_pose_turns(motion: SourceMotion, mapping: Mapping[str, str], skeleton: Skeleton) -> dict[str, Array]:
-    """`{our joint: (4,)}`: the world turn that the motion's joint would have in our T-pose, facing +z, y up."""
+def t_pose_rotations(motion: SourceMotion, mapping: Mapping[str, str], skeleton: Skeleton) -> dict[str, Array]:
+    """`{our joint: (4,)}`: the world rotation that the motion's joint would have in our T-pose, facing +z, y up."""
     joints = {name: motion.names.index(source) for name, source in mapping.items()}
-    turns, places = motion.rest()
+    rotations, places = motion.rest()
     at_rest = is_standing(places, joints)
     if not at_rest:
-        turns, places = _mean_pose(motion, joints)
-    upright = standing_turn(places, joints, snap=at_rest)
-    turns, places = rotation.multiply(upright, turns), rotation.rotate(upright, places)
+        rotations, places = _mean_pose(motion, joints)
+    upright = standing_rotation(places, joints, snap=at_rest)
+    rotations, places = rotation.multiply(upright, rotations), rotation.rotate(upright, places)
     corrections = {name: rotation.identity() for name in joints}
     if not at_rest:
         corrections.update(_upright_trunk(places, joints))
@@ -46,7 +46,7 @@ def t_pose_turns(motion: SourceMotion, mapping: Mapping[str, str], skeleton: Ske
         _correct_limb(("Arm", "ForeArm"), "Hand", side, places, joints, skeleton, corrections)
         _correct_limb(("UpLeg", "Leg"), "Foot", side, places, joints, skeleton, corrections)
         _correct_ends(side, places, joints, skeleton, corrections, pitch=not at_rest)
-    return {name: rotation.multiply(corrections[name], turns[joint]) for name, joint in joints.items()}
+    return {name: rotation.multiply(corrections[name], rotations[joint]) for name, joint in joints.items()}
 
 
 def is_standing(places: Array, joints: Mapping[str, int]) -> bool:
@@ -65,15 +65,15 @@ def is_standing(places: Array, joints: Mapping[str, int]) -> bool:
     return True
 
 
-def standing_turn(places: Array, joints: Mapping[str, int], snap: bool) -> Array:
-    """(4,) the turn that brings a standing person to y up, left to +x; with `snap`, one of the 24 that keep the axes,
-    if one is near."""
+def standing_rotation(places: Array, joints: Mapping[str, int], snap: bool) -> Array:
+    """(4,) the rotation that brings a standing person to y up, left to +x; with `snap`, one of the 24 that keep the
+    axes, if one is near."""
     up, left = _trunk_axes(places, joints)
     left = rotation.normalize(left - (left @ up) * up)
     turn = rotation.from_matrix(np.stack([left, up, np.cross(left, up)]))
     if snap:
         nearest = min(
-            _axis_turns(), key=lambda other: float(rotation.angle(rotation.multiply(other, rotation.inverse(turn))))
+            _axis_rotations(), key=lambda other: float(rotation.angle(rotation.multiply(other, rotation.inverse(turn))))
         )
         if rotation.angle(rotation.multiply(nearest, rotation.inverse(turn))) < MAX_SNAP_ANGLE:
             return nearest
@@ -89,19 +89,19 @@ def _trunk_axes(places: Array, joints: Mapping[str, int]) -> tuple[Array, Array]
     return rotation.normalize(shoulders - hips), rotation.normalize(left)
 
 
-def _axis_turns() -> list[Array]:
-    turns = []
+def _axis_rotations() -> list[Array]:
+    rotations = []
     for order in permutations(range(3)):
         for signs in product((1.0, -1.0), repeat=3):
             matrix = np.zeros((3, 3))
             matrix[range(3), order] = signs
             if np.linalg.det(matrix) > 0:
-                turns.append(rotation.from_matrix(matrix))
-    return turns
+                rotations.append(rotation.from_matrix(matrix))
+    return rotations
 
 
 def _mean_pose(motion: SourceMotion, joints: Mapping[str, int]) -> tuple[Array, Array]:
-    """World turns (J, 4) and places (J, 3) of the mean pose: each joint's mean turn as seen from the hips."""
+    """World rotations (J, 4) and places (J, 3) of the mean pose: each joint's mean rotation as seen from the hips."""
     world = world_rotations(motion.parents, motion.rotations)
     hips = world[:, joints["Hips"], None]
     seen = rotation.mean(rotation.multiply(rotation.inverse(hips), world))

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.motion.files.source_motion import SourceMotion
-from engine.motion.interpolation import places_at, turns_at
+from engine.motion.interpolation import places_at, rotations_at
 
 Array = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ def resample_source(motion: SourceMotion, fps: float) -> SourceMotion:
     return replace(
         motion,
         fps=float(fps),
-        rotations=turns_at(motion.rotations, times),
+        rotations=rotations_at(motion.rotations, times),
         translations=places_at(motion.translations, times),
     )
 

@@ -1,8 +1,8 @@
 """Motions of other skeletons, carried over to ours.
 
-World turns are carried over, measured from where both skeletons stand in the same T-pose (`reference_pose`); the hips'
-way is scaled by the length of the legs. What leads into itself becomes a loop (`looping`), and what walks in place
-walks on (`treadmill`). What differs in proportion is then mended where it shows: at the feet (`foot_contact`).
+World rotations are carried over, measured from where both skeletons stand in the same T-pose (`reference_pose`); the
+hips' way is scaled by the length of the legs. What leads into itself becomes a loop (`looping`), and what walks in
+place walks on (`treadmill`). What differs in proportion is then mended where it shows: at the feet (`foot_contact`).
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from engine.motion.kinematics import local_rotations
 from engine.motion.retargeting.glitches import without_flips
 from engine.motion.retargeting.joint_map import map_joints, not_humanoid
 from engine.motion.retargeting.looping import as_loop
-from engine.motion.retargeting.reference_pose import t_pose_turns
+from engine.motion.retargeting.reference_pose import t_pose_rotations
 from engine.motion.retargeting.resampling import resample_source
 from engine.motion.retargeting.treadmill import travel_as_walked
 
@@ -74,11 +74,11 @@ def retarget(
     joints = map_joints(motion, mapping)
     motion, upright = clean_motion(motion, joints)
     source = resample_source(motion, fps)
-    turns, places = source.world()
-    turns, places = rotation.multiply(upright, turns), rotation.rotate(upright, places)
-    world = _carry_turns(turns, t_pose_turns(source, joints, skeleton), source.names, joints, skeleton)
+    rotations, places = source.world()
+    rotations, places = rotation.multiply(upright, rotations), rotation.rotate(upright, places)
+    world = _carry_rotations(rotations, t_pose_rotations(source, joints, skeleton), source.names, joints, skeleton)
     root = _carry_root(places, source.names, joints, skeleton, world)
-    turn = _facing_turn(world[:, skeleton.index("Hips")], facing, fps)
+    turn = _facing_rotation(world[:, skeleton.index("Hips")], facing, fps)
     world, root = rotation.multiply(turn, world), rotation.rotate(turn, root)
     start = skeleton.heads[skeleton.index("Hips")] - root[0]
     root = root + start * [1, 0, 1]
@@ -111,8 +111,8 @@ def clean_motion(motion: SourceMotion, joints: Mapping[str, str]) -> tuple[Sourc
 
 
 def world_upright(motion: SourceMotion, joints: Mapping[str, str], places: Array) -> Array:
-    """(4,) the turn of the motion's world that brings its vertical to y. The vertical is where heads are, seen from the
-    feet, over all frames; it is y where that is in doubt, or where the format says so."""
+    """(4,) the rotation of the motion's world that brings its vertical to y. The vertical is where heads are, seen from
+    the feet, over all frames; it is y where that is in doubt, or where the format says so."""
     if motion.up is not None:
         return rotation.between(motion.up, (0.0, 1.0, 0.0))
     at = {
@@ -127,15 +127,15 @@ def world_upright(motion: SourceMotion, joints: Mapping[str, str], places: Array
     return rotation.between(axis, (0.0, 1.0, 0.0)) if np.abs(tall).max() > 0.6 else rotation.identity()
 
 
-def _carry_turns(
-    turns: Array, standing: dict[str, Array], names: tuple[str, ...], joints: Mapping[str, str], skeleton: Skeleton
+def _carry_rotations(
+    rotations: Array, standing: dict[str, Array], names: tuple[str, ...], joints: Mapping[str, str], skeleton: Skeleton
 ) -> Array:
-    """(F, J, 4) world turns of our joints; joints without a counterpart stand halfway between those that have one
+    """(F, J, 4) world rotations of our joints; joints without a counterpart stand halfway between those that have one
     (within the spine) or go with their parents."""
-    world = rotation.identity(len(turns), len(skeleton.names))
+    world = rotation.identity(len(rotations), len(skeleton.names))
     for joint, (name, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
         if name in joints:
-            moved = turns[:, names.index(joints[name])]
+            moved = rotations[:, names.index(joints[name])]
             world[:, joint] = rotation.multiply(moved, rotation.inverse(standing[name]))
         elif parent >= 0:
             world[:, joint] = world[:, parent]
@@ -182,9 +182,9 @@ def _require_legs(motion: SourceMotion, joints: Mapping[str, str], places: Array
         )
 
 
-def _facing_turn(hips: Array, facing: Facing, fps: float) -> Array:
-    """(4,) the turn about the vertical that makes the hips look along +z; hips swing while one walks, so that how one
-    starts is what the first second says."""
+def _facing_rotation(hips: Array, facing: Facing, fps: float) -> Array:
+    """(4,) the rotation about the vertical that makes the hips look along +z; hips swing while one walks, so that how
+    one starts is what the first second says."""
     forward = rotation.normalize(rotation.rotate(hips, (0.0, 0.0, 1.0)) * [1, 0, 1])
     look = np.mean(forward[: max(round(fps), 1)] if facing == "start" else forward, axis=0)
     if facing == "keep" or np.linalg.norm(look) < 1e-3:
