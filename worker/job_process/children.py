@@ -174,7 +174,7 @@ class Child:
 class WarmChildren:
     """Keeps as many processes ready as jobs of these kinds may run at once: importing the engine takes seconds.
 
-    One thread starts them all and lives as long as the worker, because a tethered process ends with the thread
+    One thread starts them all and lives as long as the worker, because a process that `parent_death` binds ends with the thread
     that started it.
     """
 
@@ -260,7 +260,7 @@ class WarmChildren:
                     break
                 self._idle.append(child)
                 self._changed.notify_all()
-        threading.Event().wait()  # the processes that are still busy are tethered to this thread
+        threading.Event().wait()  # the processes that are still busy end with this thread
 
 
 def _state(process: int) -> str | None:
