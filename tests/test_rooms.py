@@ -13,6 +13,9 @@ ROOT = TESTS.parent
 HOUSES = {"engine": TESTS, "service": TESTS / "service", "worker": TESTS / "worker"}
 """Where the tests of each package's rooms stand."""
 
+MAX_FILES_IN_A_ROOM = 20
+"""A room with more is cut into several."""
+
 
 def rooms(package: str) -> list[Path]:
     """The package's folders, by their paths in it."""
@@ -33,6 +36,12 @@ def test_every_room_has_a_folder_of_tests_or_a_file_of_its_name(package: str) ->
         if not files_of_tests(place / room) and not (place / room.parent / f"test_{room.name}.py").is_file()
     ]
     assert bare == [], f"no tests of {package} in {[str((place / room).relative_to(ROOT)) for room in bare]}"
+
+
+@pytest.mark.parametrize(("house", "ending"), [*((house, "*.py") for house in HOUSES), ("web/src", "*.ts*")])
+def test_no_room_holds_more_files_than_are_looked_through(house: str, ending: str) -> None:
+    files = Counter(file.parent for file in (ROOT / house).rglob(ending) if file.name != "__init__.py")
+    assert {str(room.relative_to(ROOT)): count for room, count in files.items() if count > MAX_FILES_IN_A_ROOM} == {}
 
 
 @pytest.mark.parametrize("package", HOUSES)

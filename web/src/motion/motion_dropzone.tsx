@@ -1,7 +1,7 @@
 /** The place for a motion's file. */
 
 import { Dropzone } from '../widgets/dropzone';
-import { isMotion, motionTypes } from '../studio/media_types';
+import { isMotion, motionTypes } from '../studio/given_files/media_types';
 import { words } from './words';
 
 interface Props {

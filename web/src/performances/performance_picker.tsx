@@ -3,12 +3,12 @@
 import type { ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';
 import { deleteDriver, type Driver, renameDriver } from '../api';
-import { isPicture, isVideo, pictureTypes, videoTypes } from '../studio/media_types';
+import { isPicture, isVideo, pictureTypes, videoTypes } from '../studio/given_files/media_types';
 import { ofDriver } from './drivers';
 import { isStill, type Performance } from './performance';
 import { words } from './words';
 import { plain } from '../language/strings';
-import { Capture } from '../studio/capture';
+import { Capture } from '../studio/given_files/capture';
 import { Card, shownOf } from './performance_card';
 import { Dropzone } from '../widgets/dropzone';
 import { KeepDriver } from './keep_driver';

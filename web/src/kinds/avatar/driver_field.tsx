@@ -1,7 +1,7 @@
 /** Whose face the avatar's follows: a video of one, or a recording. */
 
-import { Capture } from '../../studio/capture';
-import { isVideo, videoTypes } from '../../studio/media_types';
+import { Capture } from '../../studio/given_files/capture';
+import { isVideo, videoTypes } from '../../studio/given_files/media_types';
 import { Dropzone } from '../../widgets/dropzone';
 import { words as avatarWords } from './words';
 

@@ -1,7 +1,7 @@
 /** Further clips of the person: of what the body's clip shows too little of. */
 
-import { FileList } from '../../studio/file_list';
-import { isVideo, videoTypes } from '../../studio/media_types';
+import { FileList } from '../../studio/given_files/file_list';
+import { isVideo, videoTypes } from '../../studio/given_files/media_types';
 import { Dropzone } from '../../widgets/dropzone';
 import { words as avatarWords } from './words';
 

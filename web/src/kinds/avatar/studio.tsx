@@ -2,9 +2,9 @@
 
 import { Consent } from '../../studio/consent';
 import { useDraft } from '../../studio/draft';
-import { useDropsAnywhere } from '../../studio/drops';
+import { useDropsAnywhere } from '../../studio/given_files/drops';
 import { StudioForm, useStudioTitle } from '../../studio/form';
-import { isMotion, isVideo } from '../../studio/media_types';
+import { isMotion, isVideo } from '../../studio/given_files/media_types';
 import { useRefusals } from '../../studio/refusals';
 import type { StudioProps } from '../../kind/kind';
 import { strings } from '../../language/strings';

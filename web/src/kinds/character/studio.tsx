@@ -3,14 +3,14 @@
 import type { CharacterOptions } from './types';
 import { CharacterFields, type Choices, KeepField, optionsOf, defaults, VideoFields } from './choices';
 import { MotionPicker } from '../../motion/motion_picker';
-import { useDropsAnywhere } from '../../studio/drops';
-import { Demo } from '../../studio/demo';
+import { useDropsAnywhere } from '../../studio/given_files/drops';
+import { Demo } from '../../studio/samples/demo';
 import { StudioForm, useStudioTitle } from '../../studio/form';
-import { PicturePanel } from '../../studio/picture_panel';
+import { PicturePanel } from '../../studio/given_files/picture_panel';
 import { RecentWorks } from '../../works/recent_works';
 import { useDraft } from '../../studio/draft';
 import { useRefusals } from '../../studio/refusals';
-import { isMotion, isPicture } from '../../studio/media_types';
+import { isMotion, isPicture } from '../../studio/given_files/media_types';
 import type { StudioProps } from '../../kind/kind';
 import { DEFAULT_MOTION } from '../../motion/motion_names';
 import type { Motion, MotionJoints } from '../../motion/types';

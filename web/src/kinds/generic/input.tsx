@@ -2,9 +2,9 @@
 
 import { type InputDescription, listDrivers, listMotions } from '../../api';
 import { useLoaded } from '../../api/loading';
-import { isMotion, isPicture, isVideo, motionTypes, pictureTypes, videoTypes } from '../../studio/media_types';
+import { isMotion, isPicture, isVideo, motionTypes, pictureTypes, videoTypes } from '../../studio/given_files/media_types';
 import { plain, strings } from '../../language/strings';
-import { FileList } from '../../studio/file_list';
+import { FileList } from '../../studio/given_files/file_list';
 import { Dropzone } from '../../widgets/dropzone';
 import { SelectField } from '../../widgets/select';
 import type { Given } from './order';

@@ -1,7 +1,7 @@
 /** What is being chosen in the studio of personas. */
 
 import type { Performance } from '../../performances/performance';
-import type { Collected } from '../../studio/collection';
+import type { Collected } from '../../studio/given_files/collection';
 import { useDraft } from '../../studio/draft';
 import type { Options } from '../generic/fields';
 import type { Earlier } from './order';

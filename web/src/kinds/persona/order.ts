@@ -6,7 +6,7 @@ import type { Order, OrderNames, Upload } from '../../kind/kind';
 import { stem } from '../../language/format';
 import { plain } from '../../language/strings';
 import { type Performance, performanceTitle } from '../../performances/performance';
-import { type Collected, commonFolder } from '../../studio/collection';
+import { type Collected, commonFolder } from '../../studio/given_files/collection';
 import { words as personaWords } from './words';
 
 /** A persona that was made before. */

@@ -1,6 +1,6 @@
 /** Pictures to try portraits with. */
 
-import type { SamplePicture } from '../../studio/sample_pictures';
+import type { SamplePicture } from '../../studio/samples/sample_pictures';
 import { words } from './words';
 
 const alts = words.samples;

@@ -2,8 +2,8 @@
 
 import { useState } from 'preact/hooks';
 import { type Choices, FoldedChoices, optionsOf, defaults } from './choices';
-import { useDropsAnywhere } from '../../studio/drops';
-import { Demo } from '../../studio/demo';
+import { useDropsAnywhere } from '../../studio/given_files/drops';
+import { Demo } from '../../studio/samples/demo';
 import { AUTO } from '../../performances/drivers';
 import { PerformancePanel } from '../../performances/performance_panel';
 import { useDrivers } from '../../performances/use_drivers';
@@ -11,11 +11,11 @@ import { words as performanceWords } from '../../performances/words';
 import { SpecialCards } from './special_cards';
 import { DriveLive } from '../../live/button';
 import { StudioForm, useStudioTitle } from '../../studio/form';
-import { PicturePanel } from '../../studio/picture_panel';
+import { PicturePanel } from '../../studio/given_files/picture_panel';
 import { RecentWorks } from '../../works/recent_works';
 import { useDraft } from '../../studio/draft';
 import { useRefusals } from '../../studio/refusals';
-import { isPicture, isVideo } from '../../studio/media_types';
+import { isPicture, isVideo } from '../../studio/given_files/media_types';
 import type { StudioProps } from '../../kind/kind';
 import { type Performance, portraitOrder } from './order';
 import { words as portraitWords } from './words';

@@ -2,7 +2,7 @@
 
 import type { ComponentType } from 'preact';
 import { useId } from 'preact/hooks';
-import { isVideo, videoTypes } from '../../../studio/media_types';
+import { isVideo, videoTypes } from '../../../studio/given_files/media_types';
 import { Dropzone } from '../../../widgets/dropzone';
 import { words as avatarWords } from '../words';
 import { BodyOrbits, HeadOrbits } from './orbits';

@@ -6,7 +6,7 @@ import { characterOptions } from '../types';
 import type { SizedPicture } from '../../../widgets/boxed_picture';
 import { FileButton } from '../../../widgets/file_button';
 import { later } from '../../../widgets/lazy';
-import { maskTypes } from '../../../studio/media_types';
+import { maskTypes } from '../../../studio/given_files/media_types';
 import type { RevisionDraft } from '../corrections/changes';
 import { type MaskFault, faultOf, type Painted, previewOf, sizeOf } from './mask_file';
 import { MaskOverlay } from './mask_overlay';

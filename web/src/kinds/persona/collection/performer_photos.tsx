@@ -1,6 +1,6 @@
 /** Photos of who performs: they tell what that face is like at rest. */
 
-import type { Collected } from '../../../studio/collection';
+import type { Collected } from '../../../studio/given_files/collection';
 import { MIN_PERFORMER_PHOTOS } from '../types';
 import { words as personaWords } from '../words';
 import { PhotosPanel } from './photos_panel';

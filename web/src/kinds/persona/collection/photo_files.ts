@@ -1,7 +1,7 @@
 /** Which of the files that are given are photos, or archives of photos: told by what is in them. */
 
-import { type Collected } from '../../../studio/collection';
-import { mediaIn } from '../../../studio/media_types';
+import { type Collected } from '../../../studio/given_files/collection';
+import { mediaIn } from '../../../studio/given_files/media_types';
 
 /** Files that are looked into at once: a browser opens no more of them at a time than it has to. */
 const AT_ONCE = 16;

@@ -1,8 +1,8 @@
 /** The files of a collection as small pictures; a click takes one away. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { type Collected, identity } from '../../../studio/collection';
-import { Thumbnail } from '../../../studio/thumbnail';
+import { type Collected, identity } from '../../../studio/given_files/collection';
+import { Thumbnail } from '../../../studio/given_files/thumbnail';
 import { words as personaWords } from '../words';
 import { isArchive } from './photo_files';
 

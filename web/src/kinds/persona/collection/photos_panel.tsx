@@ -2,9 +2,9 @@
 
 import { useId, useState } from 'preact/hooks';
 import { size } from '../../../language/format';
-import { Capture } from '../../../studio/capture';
-import { collected, type Collected, collectedFrom } from '../../../studio/collection';
-import { archiveTypes, pictureTypes } from '../../../studio/media_types';
+import { Capture } from '../../../studio/given_files/capture';
+import { collected, type Collected, collectedFrom } from '../../../studio/given_files/collection';
+import { archiveTypes, pictureTypes } from '../../../studio/given_files/media_types';
 import { DropTarget, Invitation } from '../../../widgets/drop_target';
 import { Refusal } from '../../../widgets/dropzone';
 import { FolderButton } from '../../../widgets/folder_button';

@@ -1,7 +1,7 @@
 /** Files that are given to a collection: looked into, and then told. */
 
 import { useState } from 'preact/hooks';
-import type { Collected } from '../../../studio/collection';
+import type { Collected } from '../../../studio/given_files/collection';
 import { type Given, photosAmong } from './photo_files';
 
 export interface Giving {

@@ -1,13 +1,13 @@
 /** A button that opens the camera; what it takes comes as a file. Not there where browsers give no camera. */
 
 import { useState } from 'preact/hooks';
-import { mayUseCamera } from '../camera/stream';
-import { strings } from '../language/strings';
-import { later } from '../widgets/lazy';
+import { mayUseCamera } from '../../camera/stream';
+import { strings } from '../../language/strings';
+import { later } from '../../widgets/lazy';
 
 const windows = {
-  image: later(() => import('../camera/picture_capture')),
-  video: later(() => import('../camera/recorder')),
+  image: later(() => import('../../camera/picture_capture')),
+  video: later(() => import('../../camera/recorder')),
 };
 const words = { image: strings.camera.openPicture, video: strings.camera.openRecorder };
 const signs = {

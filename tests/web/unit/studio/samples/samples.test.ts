@@ -2,11 +2,11 @@ import { readdirSync, readFileSync, statSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { samples as figures } from '@web/kinds/character/samples';
 import { samples as portraits } from '@web/kinds/portrait/samples';
-import { fileName, sampleUrl, smallUrl } from '@web/studio/sample_pictures';
+import { fileName, sampleUrl, smallUrl } from '@web/studio/samples/sample_pictures';
 import { describe, expect, it } from 'vitest';
 
 const samples = [...portraits, ...figures];
-const root = resolve(import.meta.dirname, '../../../..');
+const root = resolve(import.meta.dirname, '../../../../..');
 const folder = join(root, 'web/public/samples');
 const files = readdirSync(folder);
 const licences = readFileSync(join(root, 'docs/licences.md'), 'utf8');

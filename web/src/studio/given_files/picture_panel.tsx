@@ -1,12 +1,12 @@
 /** Where the picture of an order is given: one to try, a file of one's own, or one that the camera takes. */
 
 import { useId } from 'preact/hooks';
-import { strings } from '../language/strings';
-import { Dropzone } from '../widgets/dropzone';
+import { strings } from '../../language/strings';
+import { Dropzone } from '../../widgets/dropzone';
 import { Capture } from './capture';
 import { isPicture, pictureTypes } from './media_types';
-import type { SamplePicture } from './sample_pictures';
-import { Samples } from './samples';
+import type { SamplePicture } from '../samples/sample_pictures';
+import { Samples } from '../samples/samples';
 
 const words = strings.studio;
 

@@ -1,4 +1,4 @@
-import { collected, commonFolder, joined, within } from '@web/studio/collection';
+import { collected, commonFolder, joined, within } from '@web/studio/given_files/collection';
 import { photosAmong } from '@web/kinds/persona/collection/photo_files';
 import { describe, expect, it } from 'vitest';
 

@@ -1,7 +1,7 @@
 /** What the page is for, at a glance: a picture, and the same picture moving. It stands still for who wants it so. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { strings } from '../language/strings';
+import { strings } from '../../language/strings';
 
 const words = strings.demo;
 

@@ -1,7 +1,7 @@
 /** Pictures to begin with: one click puts one where a file of one's own would be. */
 
 import { useId, useState } from 'preact/hooks';
-import { strings } from '../language/strings';
+import { strings } from '../../language/strings';
 import { isSample, sampleFile, type SamplePicture, smallUrl } from './sample_pictures';
 
 const words = strings.samples;

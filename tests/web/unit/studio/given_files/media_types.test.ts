@@ -1,4 +1,4 @@
-import { isMotion, isPicture, isVideo, mediaIn } from '@web/studio/media_types';
+import { isMotion, isPicture, isVideo, mediaIn } from '@web/studio/given_files/media_types';
 import { describe, expect, it } from 'vitest';
 
 describe('what a file may be', () => {
