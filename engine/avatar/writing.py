@@ -77,8 +77,8 @@ def write_avatar(out: Path, avatar: Avatar, scene: Scene, options: AvatarOptions
 
 
 def write_cameras(path: Path, clips: Sequence[WrittenCameras]) -> None:
-    """Write the cameras as JSON: intrinsics K, rotation R and translation t of each, so that a point p of the avatar's world,
-    metres, is seen at K (R p + t), and the lens's distortion, in OpenCV's order."""
+    """Write the cameras as JSON: intrinsics K, rotation R and translation t of each, and the lens's distortion, in
+    OpenCV's order. A point p of the avatar's world, metres, is seen at K (R p + t)."""
     document: dict[str, Any] = {
         one.clip: [
             {

@@ -1,8 +1,8 @@
 """HTTP/1.1 as h11 reads it, without what a proxy in front may read otherwise (request smuggling, RFC 9112, section 11.2).
 
-h11 itself refuses Content-Lengths that differ, other transfer codings than `chunked`, white space before a colon, a CR
-alone, and what follows a chunk that is longer than it says. It takes what the RFC lets a server take: a line folded into
-the next (as a space), a LF alone at the end of a line of the head.
+h11 itself refuses Content-Lengths that differ, other transfer codings than `chunked`, white space before a colon and a
+CR alone. It also refuses what follows a chunk that is longer than it says. It takes what the RFC lets a server take: a
+line folded into the next (as a space), a LF alone at the end of a line of the head.
 """
 
 from __future__ import annotations

@@ -99,8 +99,9 @@ class FloorMosaic:
     def _off(
         self, colours: NDArray[np.floating], camera: Camera
     ) -> tuple[NDArray[np.bool_], NDArray[np.float64], NDArray[np.float32]]:
-        """Where the floor is known that a camera sees, (h, w); of these K pixels, (K, 3) sigmas by which their `colours` (h, w, 3) lie
-        beyond those of the place and beside it, and (K, 3) levels between the latter."""
+        """Where the floor is known that a camera sees, (h, w), and two arrays of these K pixels. (K, 3) are sigmas by
+        which their `colours` (h, w, 3) lie beyond those of the place and beside it. (K, 3) are levels between the
+        latter."""
         expected = self.seen_by(camera)
         known = np.isfinite(expected[..., 0])
         kernel = np.ones((3, 3), np.uint8)

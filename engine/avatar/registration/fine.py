@@ -113,8 +113,9 @@ def _smooth_sheet(skin: Skin, vertices: NDArray[np.float64], drawn: NDArray[np.b
 
 
 def _elastic(skin: Skin, rest: NDArray[np.float64], stiffness: NDArray[np.float64]) -> ElasticSurface:
-    """The skin (S, 3) at rest, its mouth closed, as what is laid on a cloud. Soles and toes stay where they are,
-    and so do hands: what their joints and size say is all that a cloud of them tells, and no point draws skin off a finger's bone."""
+    """The skin (S, 3) at rest, its mouth closed, as what is laid on a cloud. Soles and toes stay where they are, and so
+    do hands. What their joints and size say is all that a cloud of them tells, and no point draws skin off a finger's
+    bone."""
     return ElasticSurface(
         closed_mouth(rest, skin.triangles, skin.lip_contact, skin.regions["lips"] | skin.regions["inner"]),
         skin.triangles,

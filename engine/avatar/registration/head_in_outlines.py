@@ -24,8 +24,8 @@ from engine.geometry.deformation.laplacian_deformation import LaplacianDeformati
 HEAD_JOINT_NAMES = ("Head", "Jaw", "LeftEye", "RightEye")
 """The joints that go with a head as a whole; the first turns all of it."""
 LOWERED_NECK_RINGS = 6
-"""Rings of vertices about the neck, of shoulders, nape and throat, that go over from the body to the head: a head that stands lower has
-no room for a neck alone, which would be folded."""
+"""Rings of vertices about the neck, of shoulders, nape and throat, that go over from the body to the head. A head that
+stands lower has no room for a neck alone, which would be folded."""
 HEAD_PLACE_SIGMA_METRES = 0.05
 """Metres by which a head is off where the coarse fit has it, usually, along each axis."""
 HEAD_BEND_SIGMA_RADIANS = 0.15

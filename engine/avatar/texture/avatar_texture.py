@@ -45,8 +45,8 @@ def avatar_texture(
     size: int = AVATAR_TEXTURE_SIZE_TEXELS,
     iris: float = IRIS_RADIUS_METRES,
 ) -> AvatarTexture:
-    """The texture, `size` texels a side, of the person whose template vertices are (V, 3), metres, as the cameras of `views`
-    have them, and whose irises have the radius `iris`, metres.
+    """The texture, `size` texels a side, of the person as the cameras of `views` have them. Their template vertices are
+    (V, 3), metres, and their irises have the radius `iris`, metres.
 
     Raises ValueError where no view shows the person.
     """

@@ -22,8 +22,8 @@ MIN_JOINTS_IN_MASK_SHARE = 0.7
 """Share of the joints that are seen which a person's mask has. In nineteen pictures it has all of them, what is not the
 person at most 0.27."""
 MAX_MASK_SIZE_RATIO = 6.0
-"""A mask's size, in sizes of the trunk and of limbs as thick as sticks, from which it is not a person's alone: people in
-long skirts have 3, a child's drawing 4.6, whole pictures 7 to 19."""
+"""A mask's size, in sizes of the trunk and of limbs as thick as sticks, from which it is not a person's alone. People
+in long skirts have 3, a child's drawing 4.6, whole pictures 7 to 19."""
 MIN_LABELLED_SHARE = 0.3
 """Share of the person's pixels in which a label map must say something."""
 MIN_TRUNK_LABEL_SHARE = 0.02

@@ -50,8 +50,8 @@ def write_findings(out: Path, people: Sequence[Person]) -> None:
 
 
 def woken(people: Sequence[Person]) -> list[dict[str, Any]]:
-    """Who each character is, in the order of their files: the file's name, which of the people found, and the place of its
-    origin in the world of the first, metres; one camera took them all. On level ground y is 0; it is not where
+    """Who each character is, in the order of their files: the file's name, which of the people found, and the place of
+    its origin in the world of the first, metres. One camera took them all. On level ground y is 0; it is not where
     somebody stands on something, or is smaller than they seem. And the skeleton of each."""
     eye = people[0].character.eye
     return [

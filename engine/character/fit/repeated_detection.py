@@ -41,9 +41,9 @@ MIRRORED_LANDMARKS = np.array([
 
 
 def detect_again(figure: Figure, alpha: NDArray[np.floating]) -> list[Figure]:
-    """The figure as it was seen, then as it is seen cut out by its mask, `alpha` (H, W): fewer where looks agree, and are one,
-    or where nobody is seen. Joints that were placed by hand stay. Whom the picture's border cuts is not cut out: in grey they
-    would end there, and legs would be found above."""
+    """The figure as it was seen, then as it is seen cut out by its mask, `alpha` (H, W). There are fewer where looks
+    agree, and are one, or where nobody is seen. Joints that were placed by hand stay. Whom the picture's border cuts is
+    not cut out: in grey they would end there, and legs would be found above."""
     mask = alpha > 0.5
     if not figure.spatial or mask[[0, -1]].any() or mask[:, [0, -1]].any():
         return [figure]

@@ -37,8 +37,9 @@ def drawn_to_the_outline(
     soft: NDArray[np.float32],
     held: NDArray[np.int8] | None = None,
 ) -> NDArray[np.float64]:
-    """The shell's vertices (V, 3) as `pictured`, those of its limbs moved in the picture so that limbs, whose `triangles` (T, 3) are shown, and
-    trunk have the outline of the mask `soft` (h, w), from 0 to 1. What is `held` (h, w), -1 where nothing is, draws nothing."""
+    """The shell's vertices (V, 3) as `pictured`, those of its limbs moved in the picture. Afterwards limbs, whose
+    `triangles` (T, 3) are shown, and trunk have the outline of the mask `soft` (h, w), from 0 to 1. What is `held` (h,
+    w), -1 where nothing is, draws nothing."""
     size = (soft.shape[1] * FINE_SCALE, soft.shape[0] * FINE_SCALE)
     mask = cv2.resize(soft, size, interpolation=cv2.INTER_LINEAR) > 0.5
     outline, facing = border_points(mask)

@@ -90,9 +90,9 @@ def limb_in_one_piece(
 ) -> tuple[NDArray[np.bool_], bool]:
     """The pixels (h, w) of a limb in one piece, and whether it passes behind the body.
 
-    They are what is seen of the limb, what it shares with the body around its `joint` (h, w), what of it goes on behind the other arm, and
-    its hidden hand. Where it comes out in two places or does not reach its joint, since the body or another limb that is `apart` passes
-    before it, they are what the template has there, too: its `triangles` (T,) bool.
+    They are what is seen of the limb, what it shares with the body around its `joint` (h, w), what of it goes on behind
+    the other arm, and its hidden hand. The body, or another limb that is `apart`, may pass before it: it comes out in
+    two places, or does not reach its joint. Then they are what the template has there, too: its `triangles` (T,) bool.
     """
     own, person = labels.labels == limb, labels.labels >= 0
     if labels.behind is not None and labels.behind.limb == limb:

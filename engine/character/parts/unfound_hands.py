@@ -18,14 +18,14 @@ from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.perception.pose.body import BODY_LANDMARKS
 
 HIP_DEPTH_TRUNK_SHARE, WRIST_HIP_WIDTH_RATIO, MAX_HIP_DISTANCE_TRUNK_LENGTHS = 0.7, 1.5, 0.5
-"""Where a wrist is at the hip. It is so far down the trunk, at least; so much further from the middle than the hip's
-joint; and so far from that joint, at most, in lengths of the trunk."""
+"""Where a wrist is at the hip. It is at least so far down the trunk, and so much further from the middle than the hip's
+joint. It is at most so far from that joint, all in lengths of the trunk."""
 MIN_HIP_OFFSET_TRUNK_LENGTHS = 0.15
 """How far the hip's joint is from the middle, at least, in lengths of the trunk: seen from the side it is nowhere
 aside."""
 BELLY_DEPTH_TRUNK_SHARE, MIN_WRIST_DISTANCE_TRUNK_LENGTHS = 0.55, 0.35
-"""Where one is before the belly, as in the pocket of a jumper: how far down the trunk, at least; and how far both wrists are from
-each other, at least: else one hand hides the other."""
+"""Where one is before the belly, as in the pocket of a jumper: how far down the trunk, at least, and how far both
+wrists are from each other, at least. Nearer, one hand hides the other."""
 SEEN_FINGER_CONFIDENCE = 0.9
 """Confidence of a finger from which on a hand before the belly is seen."""
 

@@ -27,7 +27,7 @@ EXTREMITY_STIFFNESS_FACTOR, HEAD_STIFFNESS_FACTOR = 25.0, 3.0
 STRETCHED_EXTREMITY_COST = 6.0
 """What a stretched hand or foot costs: without it both are drawn out linearly for nothing."""
 FINAL_STIFFNESS, FINAL_ROUNDS = (1.0, 0.6), 2
-"""By how much more hands and feet, and the head, are stiff in some last rounds, and how many these are: what is left to
+"""By how much more hands and feet, and the head, are stiff in some last rounds, and how many these are. What is left to
 go is the shape of shoes, cuffs and fingers, not where they are."""
 PIXEL_ANCHOR_WEIGHT, EAR_ANCHOR_WEIGHT, HAND_ANCHOR_WEIGHT, FOOT_ANCHOR_WEIGHT = 1e-5, 0.02, 5e-4, 1e-4
 """What a square pixel of surface costs for staying not where it was: everywhere, and of ears, hands and feet."""

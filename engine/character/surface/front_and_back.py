@@ -36,7 +36,7 @@ class Layer:
     cut : (H, W) int8, if it is cut: where a 1 lies beside a 2 the part is not joined (one leg and the other).
     solid : what the part is made of in place of a sheet.
     limb : which that is, an index of `BODY_PARTS`; -1 for the body.
-    hem : (H, W) where more than 0, border is a hem: front and back end there as far apart as they are, and inside they
+    hem : (H, W) where more than 0, border is a hem. Front and back end there as far apart as they are, and inside they
         are joined so many pixels further up.
     """
 

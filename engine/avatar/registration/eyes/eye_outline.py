@@ -80,8 +80,8 @@ def outline_of_rim(rim: NDArray[np.floating], inner: NDArray[np.floating]) -> Ey
 
 
 def within(rim: NDArray[np.floating], own: EyeOutline, other: EyeOutline) -> NDArray[np.float64]:
-    """(R, 2) where a rim (R, 2), whose outline is its `own`, lies in the `other`: scaled with the width, and moved up and down as the
-    lids are apart; corners stay as round as they were."""
+    """(R, 2) where a rim (R, 2), whose outline is its `own`, lies in the `other`. It is scaled with the width, and
+    moved up and down as the lids are apart. Corners stay as round as they were."""
     share = own.share(rim[:, 0])
     scale = other.width / own.width
     low, high = own.lids(share)

@@ -1,8 +1,8 @@
 """Eyes of the fitted face: eyeballs behind the irises that frames show, and lids that lie on them where frames show lids.
 
-What lids leave to be seen of an eye, and where the iris is between them, is what makes a look; so neither is left to the template.
-An eyeball is as large as its lids are wide, as in the template, and stands so deep that these need not move ahead or back; it looks
-straight ahead, wherever the person looked.
+What lids leave to be seen of an eye, and where the iris is between them, is what makes a look; so neither is left to
+the template. An eyeball is as large as its lids are wide, as in the template, and stands so deep that these need not
+move ahead or back. It looks straight ahead, wherever the person looked.
 """
 
 from __future__ import annotations

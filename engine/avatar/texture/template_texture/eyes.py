@@ -107,8 +107,8 @@ def persons_eyes(
 
 
 def _toned(colours: NDArray[np.floating], reference: NDArray[np.floating]) -> NDArray[np.float32]:
-    """Painted colours (N, 3) about the median of the reference (M, 3), lighter and darker than that as much as what frames show is at
-    most, and as its lightness leaves room for: dark eyes are plain."""
+    """Painted colours (N, 3) about the median of the reference (M, 3). They are at most as much lighter and darker than
+    that as what frames show is, and as its lightness leaves room for: dark eyes are plain."""
     own, goal = to_lab(colours), to_lab(reference)
     middle, own_middle = np.median(goal, 0), np.median(own, 0)
     spread = np.subtract(*np.quantile(goal, (0.75, 0.25), axis=0))

@@ -56,8 +56,8 @@ def hand_tone(
 ) -> NDArray[np.float32] | None:
     """The middle colour (3,) CIELAB of a hand; None where it keeps what frames show, a glove.
 
-    `face` (M, 3): skin of the face, if any; `hand` (N, 3): what the stitched texture has at the hand, of which frames have
-    `shown` (N,); `sleeve` (K, 3): what it has just before the wrist.
+    `face` (M, 3) is skin of the face, if any. `hand` (N, 3) is what the stitched texture has at the hand, of which
+    frames have `shown` (N,). `sleeve` (K, 3) is what it has just before the wrist.
     """
     told = to_lab(hand[shown])
     if not len(face):

@@ -123,8 +123,8 @@ def past_wrist(bones: HandBones, places: NDArray[np.floating], length: float) ->
 def _beside_bones(
     bones: HandBones, places: NDArray[np.floating]
 ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
-    """Of each place (N, 3): the number of the nearest phalanx; how far along it, as a part of its length, which may be below 0;
-    and metres across, to either side."""
+    """Of each place (N, 3) the number of the nearest phalanx, how far along it, and metres across, to either side. How
+    far along is a part of its length, and may be below 0."""
     count = len(places)
     best = np.full(count, np.inf)
     nearest = np.zeros(count, np.intp)
