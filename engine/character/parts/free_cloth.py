@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
+from engine.character.parts.hem_between_legs import between_legs
 from engine.imaging.masks.mask_pieces import rows_apart
 
 CLOSE_FIT_WIDTH_RATIO, FREE_HANGING_WIDTH_RATIO = 1.12, 1.5
@@ -110,6 +111,7 @@ def free_cloth(
     furthest: NDArray[np.floating],
     parting: NDArray[np.bool_],
     overlap: NDArray[np.bool_] | None = None,
+    hem: int | None = None,
 ) -> FreeCloth | None:
     """Find it: in each row one piece, round all that the template has there. None where nothing goes round it.
 
@@ -121,16 +123,21 @@ def free_cloth(
     parting : (h, w) where one leg meets the other.
 
     There close cloth is trousers, unless it gets loose further down and ends in a hem. `overlap` (h, w): where one of
-    the template's legs hides the other.
+    the template's legs hides the other. `hem`: the last row of cloth that goes round both legs, if it is known
+    (`engine.character.parts.hem_between_legs`).
     """
     trunk, left, right = (shown == BODY_PARTS.index(name) for name in ("torso", "left_leg", "right_leg"))
     if not (cloth.any() and trunk.any() and left.any() and right.any()):
         return None
     overlap = np.zeros_like(cloth) if overlap is None else overlap
-    rings = _rings(cloth, (trunk, left, right), overlap, nearest, furthest)
     high = rows_apart(cloth)
     far = max(2, round(HEM_SEARCH_SHARE * high))
-    hangs, goes_on = _hem(rings, cloth, trunk | left | right, far)
+    around = (trunk, left, right), overlap, nearest, furthest
+    rings = [] if hem is None else _rings(_filled(cloth, left, right, hem), *around, hem)
+    hangs, goes_on = bool(rings) and rings[-1].row == hem, False
+    if not hangs:
+        rings = _rings(cloth, *around)
+        hangs, goes_on = _hem(rings, cloth, trunk | left | right, far)
     if not hangs:
         parts = np.array(
             [
@@ -144,14 +151,22 @@ def free_cloth(
     if len(rings) < 2:
         return None
     even = CLOTH_SMOOTHING_SHARE * high
-    around = cv2.dilate((left | right).astype(np.uint8), np.ones((1, 2 * round(even) + 1), np.uint8)) > 0
+    beside = cv2.dilate((left | right).astype(np.uint8), np.ones((1, 2 * round(even) + 1), np.uint8)) > 0
     first = rings[-1].row + 1
     lower = np.zeros_like(cloth)
     within = slice(first, round(first + HEM_UNEVENNESS_SHARE * high))
-    lower[within] = np.logical_and.accumulate((cloth & ~around)[within], axis=0)
+    lower[within] = np.logical_and.accumulate((cloth & ~beside)[within], axis=0)
     crotch = np.flatnonzero(trunk.any(1))[-1]
     above = sum(ring.row < crotch for ring in rings)
     return FreeCloth(cloth, tuple(rings), above, hangs, goes_on, lower, even)
+
+
+def _filled(cloth: NDArray[np.bool_], left: NDArray[np.bool_], right: NDArray[np.bool_], hem: int) -> NDArray[np.bool_]:
+    """Cloth (h, w) without cracks between the legs down to its hem: it goes round both."""
+    whole = cloth.copy()
+    for row in np.flatnonzero(left[: hem + 1].any(1) & right[: hem + 1].any(1)):
+        whole[row, between_legs(left[row], right[row])] = True
+    return whole
 
 
 def _hem(rings: Sequence[Ring], cloth: NDArray[np.bool_], template: NDArray[np.bool_], far: int) -> tuple[bool, bool]:
@@ -173,16 +188,18 @@ def _rings(
     overlap: NDArray[np.bool_],
     nearest: NDArray[np.floating],
     furthest: NDArray[np.floating],
+    hem: int | None = None,
 ) -> list[Ring]:
     """From the waist down, row by row as long as one piece goes round all that the `template` has there, its trunk and its left and
-    right leg (h, w) each, which may `overlap` (h, w)."""
+    right leg (h, w) each, which may `overlap` (h, w). Down to the `hem`, if it is known: what narrows above the legs
+    is a jacket's, and a skirt begins there."""
     trunk, left, right = template
     both = np.asarray((left.any(1) & right.any(1)) | overlap.any(1))
     as_one = overlap.sum(1) > OVERLAPPING_LEGS_SHARE * (left | right).sum(1)
     rings: list[Ring] = []
     rows = np.flatnonzero(trunk.any(1))
     widest = 0
-    for row in range(int(rows[0] + WAIST_TRUNK_SHARE * (rows[-1] - rows[0])), len(cloth)):
+    for row in range(int(rows[0] + WAIST_TRUNK_SHARE * (rows[-1] - rows[0])), len(cloth) if hem is None else hem + 1):
         if not (trunk[row].any() or both[row]):
             break
         there = np.flatnonzero((trunk | left | right)[row])
@@ -200,7 +217,10 @@ def _rings(
             and share < MIN_FREE_CLOTH_SHARE
             and width < HEM_NARROWING_RATIO * max(ring.width for ring in rings[-HEM_WINDOW_ROWS:])
         ):
-            break
+            if hem is None:
+                break
+            if row < rows[-1]:
+                rings.clear()
         near, far = float(np.nanmax(nearest[row, there])), float(np.nanmin(furthest[row, there]))
         legs = _middle(left[row]), _middle(right[row])
         rings.append(

@@ -16,6 +16,7 @@ from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.fit.posed_template import PosedTemplate
 from engine.character.parts.free_cloth import FreeCloth, free_cloth
+from engine.character.parts.hem_between_legs import hem_between_legs
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, MIN_LIMB_PIXELS
 from engine.character.parts.overlapping_legs import leg_before
@@ -45,7 +46,7 @@ def with_cloth(labels: Labels, rgb: NDArray[np.uint8], template: PosedTemplate, 
     their grid."""
     unseen = [limb for limb in not_seen(labels) if limb in ARM_LABELS]
     region, _ = find_regions(labels, [int(limb) for limb in labels.apart], template, rig, unseen)
-    cloth = around_legs(region, labels, template, rig)
+    cloth = around_legs(region, labels, rgb, template, rig)
     if cloth is None or not cloth.hangs:
         return replace(labels, cloth=cloth)
     before = leg_before(labels.labels, template, rig)
@@ -63,8 +64,10 @@ def with_cloth(labels: Labels, rgb: NDArray[np.uint8], template: PosedTemplate, 
     return replace(labels, apart=np.setdiff1d(labels.apart, LEG_LABELS), cloth=cloth)
 
 
-def around_legs(body: Region, labels: Labels, template: PosedTemplate, rig: Rig) -> FreeCloth | None:
-    """The cloth that goes round both legs, one that passes before the other included."""
+def around_legs(
+    body: Region, labels: Labels, rgb: NDArray[np.uint8], template: PosedTemplate, rig: Rig
+) -> FreeCloth | None:
+    """The cloth that goes round both legs, one that passes before the other included, in the picture `rgb` (h, w, 3)."""
     part = vertex_parts(rig)[template.triangles]
     crossing = [int(limb) for limb in labels.apart if limb in LEG_LABELS]
     clothed = body.triangles | np.isin(part, crossing).any(1)
@@ -73,7 +76,8 @@ def around_legs(body: Region, labels: Labels, template: PosedTemplate, rig: Rig)
     bare = [arm for arm in ARM_LABELS if arm not in labels.apart]
     cloth = (body.mask | np.isin(labels.labels, crossing)) & ~np.isin(labels.labels, bare)
     legs = [template.covers(clothed & (part == leg).all(1), shown.shape) for leg in LEG_LABELS]
-    return free_cloth(cloth, shown, sides.front.depth, sides.back.depth, labels.parting, legs[0] & legs[1])
+    hem = hem_between_legs(rgb, cloth, *(shown == leg for leg in LEG_LABELS))
+    return free_cloth(cloth, shown, sides.front.depth, sides.back.depth, labels.parting, legs[0] & legs[1], hem)
 
 
 def legs_below(
