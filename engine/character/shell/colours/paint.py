@@ -16,6 +16,7 @@ from engine.character.shell.colours.evidence import witness
 from engine.character.shell.colours.head_round import head_round
 from engine.character.shell.colours.light_of_the_picture import light_of_the_picture
 from engine.character.shell.colours.round import BackTexture, coloured_round, with_the_other
+from engine.character.shell.colours.shoe_bands import level_round
 from engine.character.shell.colours.unrolled import UNROLLED_COLUMNS, unrolled_parts
 from engine.character.shell.shell import Shell
 from engine.character.shell.template_mesh import template_mesh
@@ -103,12 +104,14 @@ def paint_shell(
         own = evidence[part.name]
         if part.name == "head":
             (around, trust), known = head_round(*own), np.ones(len(own[0]), np.float32)
+        elif part.name.endswith("foot"):
+            beside = OPPOSITE_LIMB.get(part.name)
+            pair = next(((one, evidence[one.name]) for one in parts if one.name == beside), None)
+            around, known = level_round(part, own, pair)
         else:
             if (other := OPPOSITE_LIMB.get(part.name)) in evidence:
                 own = with_the_other(own, evidence[other])
-            around, known = coloured_round(
-                *own, back, part.yoke, part.name in OPPOSITE_LIMB, part.name.endswith(("leg", "foot"))
-            )
+            around, known = coloured_round(*own, back, part.yoke, part.name in OPPOSITE_LIMB, part.name.endswith("leg"))
         rows.append(around)
         sure.append(known)
     firsts = np.cumsum([0, *(len(each) for each in rows)])
