@@ -29,6 +29,7 @@ from engine.character.hybrid.hybrid import Hybrid, limbs_alone
 from engine.character.hybrid.limbs import cut_off
 from engine.character.hybrid.seam import with_the_trunks_colours
 from engine.character.hybrid.two_surfaces import together
+from engine.character.hybrid.under_cloth import bare_under_cloth
 from engine.character.options import LabelStroke
 from engine.character.parts.crossed_labels import label_crossed
 from engine.character.parts.hem import with_cloth
@@ -327,7 +328,8 @@ def make_hybrid_character(
     limbs = np.isin(own.labels, own.apart) | held
     around = dilate_mask(trunk.pixels(np.arange(len(trunk.vertices)), limbs.shape), TRUNK_MARGIN_PIXELS)
     below = np.isin(own.labels, LEG_LABELS) & dilate_mask(own.labels == TRUNK_LABEL, TRUNK_MARGIN_PIXELS)
-    hidden = limbs & around & ~below & ~hybrid.at_shoulders()  # at the waist nothing is behind legs
+    below &= own.cloth is None or not own.cloth.hangs  # at the waist nothing is behind legs, at a hem cloth is
+    hidden = limbs & around & ~below & ~hybrid.at_shoulders()
     hidden |= (own.labels == TRUNK_LABEL) & (hybrid.strange | dilate_mask(hidden, MIXED_BORDER_PIXELS))
     arms = np.isin(own.labels, ARM_LABELS) | held
     other = arms | (own.labels < 0)
@@ -339,8 +341,9 @@ def make_hybrid_character(
     shown = limbs_alone(hybrid)
     relief = _made_of(figure, alone, fitted, own, trunk, tiles, _left_for_a_relief(triangles, shown))
     filled: BackTexture = "inpaint" if back == "inpaint" else "mirror"
+    unlike = hybrid.strange | bare_under_cloth(own)
     texture = paint_shell(
-        figure.rgb, silhouette, labels.bare, hybrid.shell, filled, shown.mesh.triangles, hybrid.strange, hybrid.framed
+        figure.rgb, silhouette, labels.bare, hybrid.shell, filled, shown.mesh.triangles, unlike, hybrid.framed
     )
     texture = with_the_trunks_colours(texture, hybrid, tiles, figure, silhouette)
     shell = bind_shell(shown, figure, silhouette, fitted, texture)

@@ -27,6 +27,7 @@ from engine.character.hybrid.head import (
 from engine.character.hybrid.limbs import Limbs, cut_off, joined_in_depth, limbs_of
 from engine.character.hybrid.outline_warp import drawn_to_the_outline
 from engine.character.hybrid.trunk import soft_beside_limbs, trunk_labels, trunk_layer
+from engine.character.hybrid.under_cloth import going_with_the_cloth
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, TRUNK_LABEL
 from engine.character.parts.strange_colours import strange_colours
@@ -36,6 +37,7 @@ from engine.character.shell.shell import (
     Shell,
     as_fitted,
     face_points,
+    posed,
     shaped,
     shell_of,
     with_head_at_face,
@@ -95,13 +97,13 @@ def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
     own = trunk_labels(labels)
     strange = strange_colours(silhouette.rgb, own.labels)
     fallen = hair_beside_the_head(*head) & (own.labels == TRUNK_LABEL)
-    template = pose_template(fitted, camera, human)
+    body = pose_template(fitted, camera, human)
     shape = shaped(figure, silhouette, fitted, labels)
     seen = own
     if with_its_head:
         own = without_head(own)
-    face = None if with_its_head else seen_face(figure, silhouette, template, human.face, own)
-    layer = trunk_layer(own, template, human.rig, face)
+    face = None if with_its_head else seen_face(figure, silhouette, body, human.face, own)
+    layer = trunk_layer(own, body, human.rig, face)
     places = (shape.pictured[:, :2] - silhouette.to_grid[:, 2]) / np.diag(silhouette.to_grid)
     height, width = silhouette.alpha.shape
     within = np.asarray(((places > -1) & (places < [width, height])).all(1), np.bool_)
@@ -122,7 +124,10 @@ def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
         if hair is not None:
             pieces.append(hair.hair)
             pictured, framed = hair.pictured, hair.framed
-    shell = shell_of(mesh, replace(shape, pictured=pictured), silhouette, fitted, pieces)
+    held = going_with_the_cloth(mesh, pictured, limbs, layer, own)
+    moved = camera.to_picture(posed(held, shape.straight, fitted))
+    template = np.where((held.weights != mesh.weights).any(1)[:, None], moved, shape.template)
+    shell = shell_of(held, replace(shape, template=template, pictured=pictured), silhouette, fitted, pieces)
     return Hybrid(shell, limbs, trunk, own, strange, fallen, framed)
 
 

@@ -102,13 +102,13 @@ def limbs_of(
             own = labels.labels == leg
             hem = np.flatnonzero(own.any(1))[0] if own.any() else np.inf
             limb[(limb == leg) & (pictured[:, 1] < hem - up)] = -1
-        overlap |= np.isin(limb, LEG_LABELS) & (pictured[:, 1] < _hem(labels, limb))
+        overlap |= np.isin(limb, LEG_LABELS) & (pictured[:, 1] < first_rows(labels, limb))
     if within is not None:
         limb[~within] = -1
     return Limbs(limb, overlap & (limb >= 0), near.astype(np.float32))
 
 
-def _hem(labels: Labels, limb: NDArray[np.intp]) -> NDArray[np.float64]:
+def first_rows(labels: Labels, limb: NDArray[np.intp]) -> NDArray[np.float64]:
     """The first row (V,) of its leg that is seen, of vertices of a `limb` (V,)."""
     rows = np.full(len(BODY_PARTS) + 1, -np.inf)
     for leg in LEG_LABELS:
@@ -179,13 +179,13 @@ def _beneath_at_the_cut(
                 limit = np.where(own & limb.mask & trunk.mask, np.fmin(limit, limb.front.depth - INSET_PIXELS), limit)
         depth = towards * np.minimum(towards * side.depth, limit)
         share = cv2.GaussianBlur(np.where(there, alike, 0).astype(np.float32), (0, 0), DEPTH_SMOOTHING_PIXELS) * there
-        moves = interpolate(_dense(mesh, side.weights.shape[-1]), joint[towards * facing > 0], raster)
+        moves = interpolate(dense_weights(mesh, side.weights.shape[-1]), joint[towards * facing > 0], raster)
         weights = side.weights + share[..., None] * (moves - side.weights)
         sides.append(Surface(depth.astype(np.float32), np.where(there[..., None], weights, side.weights)))
     return replace(trunk, front=sides[0], back=sides[1])
 
 
-def _dense(mesh: TemplateMesh, joints: int) -> NDArray[np.float32]:
+def dense_weights(mesh: TemplateMesh, joints: int) -> NDArray[np.float32]:
     """What moves each vertex, (V, J)."""
     weights = np.zeros((len(mesh.bones), joints), np.float32)
     np.add.at(weights, (np.arange(len(weights))[:, None], mesh.bones), mesh.weights)

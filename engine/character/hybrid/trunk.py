@@ -92,4 +92,4 @@ def trunk_layer(labels: Labels, template: PosedTemplate, rig: Rig, face: Face | 
     if labels.cloth is None:
         return layer
     draped = drape(layer, labels.cloth)
-    return moved_by_both(draped, labels.cloth, rig) if labels.cloth.hangs else draped
+    return moved_by_both(draped, labels.cloth, rig, layer) if labels.cloth.hangs else draped

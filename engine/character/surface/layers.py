@@ -59,7 +59,7 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
     body = replace(layer_of(region, template, rig, face), cut=cut_along(labels.labels, parting))
     body = each_by_its_own(body, labels.labels, parting, rig)
     if cloth:
-        body = moved_by_both(drape(body, cloth), cloth, rig)
+        body = moved_by_both(drape(body, cloth), cloth, rig, body)
     layers = []
     solid = solid_arms(template, rig)
     for leg in beneath:

@@ -23,13 +23,23 @@ MIN_LEG_BLEND_SHARE = 0.3
 """Share of the width over which cloth goes over from one leg to the other, at least: where legs stand close."""
 MIN_LEG_PIXELS = 0.5
 """Pixels of a row that each leg moves where both begin to move cloth."""
+STRIDE_DEGREES = 35.0
+"""Degrees by which a thigh swings in a long stride."""
+MIN_FOLLOWING_SHARE = 0.3
+"""How far the widest cloth goes with the legs: a bell swings as its wearer walks."""
+MAX_FOLLOWING_RISE = 0.6
+"""By how much more cloth may go with the legs at its hem than further up: a hem that went with legs far apart alone would trail."""
+HIPS_ABOVE_CROTCH_FACTOR = 4.0
+"""How far the hips' joints are above the crotch, in units of the length over which cloth changes."""
+INNER_CLOTH_SHARE = 0.7
+"""Share of a ring's width, about its middle, in which is measured how far it stands off: at its ends front and back meet."""
 LEG_JOINT_NAMES = ("Leg", "Foot", "Toe")
 """What is in the names of the legs' joints."""
 
 
-def moved_by_both(body: Layer, cloth: FreeCloth, rig: Rig) -> Layer:
+def moved_by_both(body: Layer, cloth: FreeCloth, rig: Rig, bare: Layer) -> Layer:
     """The body whose cloth goes with both legs: a skirt from the waist on, what goes on in trousers from the crotch on.
-    Where legs come from under it they begin to."""
+    Where legs come from under it they begin to. `bare`: the body before its cloth was draped."""
     left, right = (
         np.array([name.startswith(side) and any(part in name for part in LEG_JOINT_NAMES) for name in rig.names])
         for side in ("Left", "Right")
@@ -41,14 +51,18 @@ def moved_by_both(body: Layer, cloth: FreeCloth, rig: Rig) -> Layer:
     both = mean[:, left | right].sum(1, keepdims=True)
     by_left, by_right = (both * _share_of(mean, own, rig.index(thigh))
                          for own, thigh in ((left, "LeftUpLeg"), (right, "RightUpLeg")))  # fmt: skip
+    follows = following(body, bare, cloth) if cloth.hangs else np.ones((len(mean), 2))
     mean[:, left | right] = 0
-    towards = _towards(body, cloth, left, right)
+    towards, hips = _towards(body, cloth, left, right), rig.index("Hips")
     middle, steep = _between_legs(cloth, towards)
 
     def span(k: int, row: int, columns: NDArray[np.intp], share: float) -> None:
         across = cloth.rings[k].across(columns) - middle[k]
         to_left = np.clip(0.5 + towards * across * steep[k] / 2, 0, 1)[:, None]
-        whole = mean[k] + to_left * by_left[k] + (1 - to_left) * by_right[k]
+        aside = (cloth.rings[k].across(columns)[:, None] + 1) / 2
+        follow = (1 - aside) * follows[k, 0] + aside * follows[k, 1]
+        whole = mean[k] + follow * (to_left * by_left[k] + (1 - to_left) * by_right[k])
+        whole[:, hips] += (1 - follow[:, 0]) * both[k]
         for one in (front, back):
             one[row, columns] += share * (whole - one[row, columns])
 
@@ -61,6 +75,27 @@ def moved_by_both(body: Layer, cloth: FreeCloth, rig: Rig) -> Layer:
             legs = np.flatnonzero(cloth.worn[row] & ~cloth.lower[row])
             span(len(cloth.rings) - 1, row, legs, 1 - (row - first) / fading)
     return replace(body, front=Surface(body.front.depth, front), back=Surface(body.back.depth, back))
+
+
+def following(body: Layer, bare: Layer, cloth: FreeCloth) -> NDArray[np.float64]:
+    """How far (n, 2), from 0 to 1, each ring goes with the legs at its first and its last column: so far that they stay in it in
+    a stride of `STRIDE_DEGREES`. A leg comes forward by its drop beneath the hips times the stride's sine; what cloth
+    stands off need not go with it, and goes with the hips. `bare`: the body before its cloth was draped."""
+    slack = np.zeros((len(cloth.rings), 2))
+    for k, row, columns in list(cloth.rows())[: len(cloth.rings)]:
+        ring = cloth.rings[k]
+        inner = columns[np.abs(ring.across(columns)) < INNER_CLOTH_SHARE]
+        leg, deep = (
+            float(np.nanmean(one.front.depth[row, inner] - one.back.depth[row, inner])) / 2 for one in (bare, body)
+        )
+        beside = np.array([np.fmin(*ring.legs) - ring.first, ring.last - np.fmax(*ring.legs)]) - leg
+        slack[k] = np.fmin(deep - leg, beside)
+    drop = np.maximum(np.arange(len(slack)) - cloth.above, 0) + HIPS_ABOVE_CROTCH_FACTOR * cloth.even
+    reach = drop * np.sin(np.radians(STRIDE_DEGREES))
+    share = np.clip(1 - np.nan_to_num(slack) / reach[:, None], MIN_FOLLOWING_SHARE, 1)
+    rise = MAX_FOLLOWING_RISE * np.arange(len(share))[:, None] / len(share)
+    share = np.minimum.accumulate(share - rise) + rise
+    return np.asarray(gaussian_filter1d(share, FADE_LENGTH_FACTOR * cloth.even, axis=0, mode="nearest"))
 
 
 def _between_legs(cloth: FreeCloth, towards: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -136,7 +136,7 @@ def test_a_skirt_goes_over_from_leg_to_leg() -> None:
     cloth = found_in(mask)
     assert cloth is not None
     before = worn(mask)
-    moved = moved_by_both(before, cloth, RIG)
+    moved = moved_by_both(before, cloth, RIG, before)
     left = moved.front.weights[..., RIG.index("LeftUpLeg")]
     for surface in (moved.front, moved.back):
         np.testing.assert_allclose(surface.weights[mask].sum(1), 1, atol=1e-5)
@@ -158,7 +158,7 @@ def test_of_somebody_seen_from_behind_the_left_leg_is_at_the_left() -> None:
     before = worn(skirt(shown))
     front, back = (replace(side, weights=side.weights[:, ::-1]) for side in (before.front, before.back))
     turned = replace(before, front=front, back=back)
-    row = moved_by_both(turned, cloth, RIG).front.weights[HEM - 5][cloth.worn[HEM - 5]]
+    row = moved_by_both(turned, cloth, RIG, turned).front.weights[HEM - 5][cloth.worn[HEM - 5]]
     assert row[0, RIG.index("LeftUpLeg")] == 1 and row[-1, RIG.index("RightUpLeg")] == 1
 
 
@@ -169,7 +169,7 @@ def test_a_hem_over_legs_that_have_changed_sides_goes_with_both_alike() -> None:
     crossed[CROTCH + 10 :] = shown[CROTCH + 10 :, ::-1]
     cloth = free_cloth(skirt(shown), crossed, depth, -depth, np.zeros(shown.shape, np.bool_))
     assert cloth is not None
-    left = moved_by_both(worn(skirt(shown)), cloth, RIG).front.weights[..., RIG.index("LeftUpLeg")]
+    left = moved_by_both(worn(skirt(shown)), cloth, RIG, worn(skirt(shown))).front.weights[..., RIG.index("LeftUpLeg")]
     np.testing.assert_allclose(left[HEM - 2][skirt(shown)[HEM - 2]], 0.5, atol=0.06)
     assert np.ptp(left[CROTCH + 2][skirt(shown)[CROTCH + 2]]) > 0.5, "at the hips each moves its side"
 
@@ -181,7 +181,7 @@ def test_a_hem_goes_over_between_the_legs_that_come_out_of_it() -> None:
     mask = skirt(shown) | (aside >= 0)
     cloth = free_cloth(mask, aside, np.roll(depth, -14, 1), -np.roll(depth, -14, 1), np.zeros(shown.shape, np.bool_))
     assert cloth is not None
-    left = moved_by_both(worn(mask), cloth, RIG).front.weights[HEM - 2, :, RIG.index("LeftUpLeg")]
+    left = moved_by_both(worn(mask), cloth, RIG, worn(mask)).front.weights[HEM - 2, :, RIG.index("LeftUpLeg")]
     assert left[MIDDLE - 14] == pytest.approx(0.5, abs=0.1), "between them"
     assert left[MIDDLE - 21] < 0.3 and left[MIDDLE - 7] > 0.7
 
@@ -197,7 +197,7 @@ def test_a_hand_beside_a_hem_stays_a_hand() -> None:
         side.weights[hand] = np.eye(len(RIG.names))[RIG.index("RightHand")]
     cloth = found_in(mask & ~hand)
     assert cloth is not None
-    moved = moved_by_both(before, cloth, RIG)
+    moved = moved_by_both(before, cloth, RIG, before)
     assert (moved.front.weights[hand][:, RIG.index("RightHand")] == 1).all()
 
 
@@ -207,7 +207,7 @@ def test_trousers_are_no_skirt() -> None:
     cloth = found_in(mask, parting)
     before = worn(mask)
     assert cloth is not None and not cloth.hangs and cloth.goes_on
-    after = moved_by_both(drape(before, cloth), cloth, RIG)
+    after = moved_by_both(drape(before, cloth), cloth, RIG, before)
     assert np.nanmax(np.abs(after.front.depth - before.front.depth)) < 1
     assert np.abs(after.front.weights - before.front.weights)[CROTCH + 8 :].max() < 1e-6
 
