@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
-from engine.character.parts.free_cloth import FreeCloth
+from engine.character.parts.free_cloth import CLOSE_FIT_WIDTH_RATIO, FREE_HANGING_WIDTH_RATIO, FreeCloth
 from engine.character.surface.front_and_back import Layer
 from engine.character.surface.part_surface import Surface
 from engine.imaging.masks.mask_distance import dilate_mask
@@ -27,10 +27,14 @@ OPEN_LENGTH_FACTOR = 3.0
 
 
 def drape(body: Layer, cloth: FreeCloth) -> Layer:
-    """The body with its free cloth about as deep as it is wide."""
+    """The body with its free cloth about as deep as it is wide. What hangs no wider than hips or legs falls straight from belly and seat."""
     middle, half, share = (
         np.array([getattr(ring, name) for ring in cloth.rings], np.float64) for name in ("middle", "half", "share")
     )
+    if cloth.hangs:
+        loose, near, far = np.maximum(_flare(cloth), share), *_falling_straight(body, cloth)
+        middle = loose * middle + (1 - loose) * (near + far) / 2
+        half = loose * half + (1 - loose) * (near - far) / 2
     middle, half, share = (
         gaussian_filter1d(one, cloth.even, mode="nearest") for one in (middle, _hanging(half, MAX_DEPTH_SLOPE), share)
     )
@@ -47,6 +51,23 @@ def drape(body: Layer, cloth: FreeCloth) -> Layer:
             depth[row, columns] = own + share[k] * (middle[k] + towards * height - own)
     front, back = (Surface(depth, side.weights) for depth, side in zip(depths, (body.front, body.back), strict=True))
     return replace(body, front=front, back=back, hem=_hem(body.mask, cloth) if cloth.hangs else None)
+
+
+def _flare(cloth: FreeCloth) -> NDArray[np.float64]:
+    """How much wider than the hips each ring (n,) is: 0 as a straight skirt, 1 as a bell."""
+    width = np.array([ring.width for ring in cloth.rings], np.float64)
+    ratio = width / width[: cloth.above + 1].max()
+    return np.asarray(
+        np.clip((ratio - CLOSE_FIT_WIDTH_RATIO) / (FREE_HANGING_WIDTH_RATIO - CLOSE_FIT_WIDTH_RATIO), 0, 1)
+    )
+
+
+def _falling_straight(body: Layer, cloth: FreeCloth) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The depth (n,) of each ring's front and back where cloth falls from what stands out furthest above it."""
+    rows = list(cloth.rows())[: len(cloth.rings)]
+    near = np.array([np.nanmax(body.front.depth[row, columns]) for _, row, columns in rows], np.float64)
+    far = np.array([np.nanmin(body.back.depth[row, columns]) for _, row, columns in rows], np.float64)
+    return np.maximum.accumulate(near), np.minimum.accumulate(far)
 
 
 def _hem(mask: NDArray[np.bool_], cloth: FreeCloth) -> NDArray[np.float32]:
