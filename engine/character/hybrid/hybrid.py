@@ -25,6 +25,7 @@ from engine.character.hybrid.head import (
     without_head,
 )
 from engine.character.hybrid.limbs import Limbs, cut_off, joined_in_depth, limbs_of
+from engine.character.hybrid.neck_cloth import with_neck_cloth
 from engine.character.hybrid.outline_warp import drawn_to_the_outline
 from engine.character.hybrid.trunk import soft_beside_limbs, trunk_labels, trunk_layer
 from engine.character.hybrid.under_cloth import going_with_the_cloth
@@ -88,7 +89,7 @@ def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labe
     not known to be where the template's is remains the relief's."""
     mesh, human = template_mesh(), load_human()
     camera = silhouette.camera(fitted.picture_camera())
-    labels = labels.bare
+    labels = with_neck_cloth(figure, silhouette, labels.bare)
     placed = with_head_at_face(mesh, as_fitted(silhouette, fitted)[1], face_points(figure, silhouette, mesh))
     head = (figure, silhouette, labels, mesh, placed)
     with_its_head = head_is_known(*head)
