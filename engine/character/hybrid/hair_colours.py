@@ -8,15 +8,17 @@ from __future__ import annotations
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter1d
+from scipy.ndimage import gaussian_filter1d, median_filter
 
 from engine.character.shell.colours.hair import strand_noise
 from engine.character.shell.colours.unrolled import ROW_METRES, UNROLLED_COLUMNS
 from engine.imaging.filling.nearest import nearest_colours
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
 
-COLUMNS, MAX_ROWS = 512, 512
-"""Texels around a head, and from its crown to the ends of its hair at most."""
+COLUMNS, INSIDE_COLUMNS, MAX_ROWS = 512, 64, 512
+"""Texels around a head, the same of hair's inside, and from its crown to the ends of its hair at most."""
+ODD_ROWS_SHARE = 0.5
+"""Height, as a share of the head's, over which a row's colour is the median of its neighbours': an ear among hair is lower than half of it."""
 INSIDE_LIGHT_SHARE = 0.6
 """Share of the light on hair that falls on what of it faces the head."""
 HEAD_METRES = 0.23
@@ -47,7 +49,7 @@ def hair_round(
     ring: NDArray[np.float64],
     head: float,
 ) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
-    """What hair is coloured like outside and inside, (A, `COLUMNS`, 3) each, from its first row to its last, at even angles from behind over
+    """What hair is coloured like outside (A, `COLUMNS`, 3) and inside (A, `INSIDE_COLUMNS`, 3), from its first row to its last, at even angles from behind over
     the left, the front and the right to behind.
 
     Parameters
@@ -74,19 +76,22 @@ def hair_round(
     seen, own = rgb[upper:lower, left:right], clean[upper:lower, left:right]
     if not own.any():
         even = np.broadcast_to(np.median(rgb[clean], 0), (height, COLUMNS, 3))
-        return even.astype(np.uint8), (INSIDE_LIGHT_SHARE * even).astype(np.uint8)
+        return even.astype(np.uint8), (INSIDE_LIGHT_SHARE * even[:, :INSIDE_COLUMNS]).astype(np.uint8)
     in_front = clean | (around & (distance_inside(whole) > OUTLINE_INSET_PIXELS * scale))
     x, y = ((pixels[..., k] - start).astype(np.float32) for k, start in enumerate((left, upper)))
     colours = nearest_colours(seen, in_front[upper:lower, left:right])
     pictured = cv2.remap(colours, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE).astype(np.float32)
-    model = _rows(seen, own, y.mean(1), x.mean(), scale, turn)
+    model = _rows(seen, own, y.mean(1), x.mean(), scale, turn, ODD_ROWS_SHARE * head * scale)
     share = np.clip((np.cos(turn) - PICTURED_COSINES[0]) / (PICTURED_COSINES[1] - PICTURED_COSINES[0]), 0, 1)
     of_hair = cv2.remap(nearest_colours(seen, own), x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     model = model + _carried(of_hair - model, share, turn, ROW_SMOOTHING_PIXELS * scale)
     levels = _strand_levels(seen, own, FINE_PIXELS * scale)
     model = model + levels * _strands((height, COLUMNS), len(ring) * HEAD_METRES / head)[..., None]
     outside = model + share[..., None] * (pictured - model)
-    return np.clip(outside + 0.5, 0, 255).astype(np.uint8), np.clip(INSIDE_LIGHT_SHARE * model, 0, 255).astype(np.uint8)
+    inside = cv2.resize(
+        np.clip(INSIDE_LIGHT_SHARE * model, 0, 255), (INSIDE_COLUMNS, height), interpolation=cv2.INTER_AREA
+    )
+    return np.clip(outside + 0.5, 0, 255).astype(np.uint8), np.asarray(inside + 0.5, np.uint8)
 
 
 def _strand_levels(seen: NDArray[np.uint8], own: NDArray[np.bool_], sigma: float) -> float:
@@ -122,9 +127,10 @@ def _rows(
     middle: float,
     scale: float,
     turn: NDArray[np.float64],
+    odd: float,
 ) -> NDArray[np.float32]:
     """What the hair of a row is like (A, `COLUMNS`, 3) at angles (A, `COLUMNS`): the median of what is its own (h, w) on either side,
-    going over from one to the other behind."""
+    going over from one to the other behind. What is seen over fewer than half of so many `odd` rows is no hair, as an ear."""
     found = []
     columns = np.arange(seen.shape[1])
     for aside in (columns >= middle, columns < middle):
@@ -139,7 +145,8 @@ def _rows(
         )
         known = np.flatnonzero(weight[:, 0] > MIN_ROW_WEIGHT)
         smooth = total[known] / weight[known]
-        found.append(np.stack([np.interp(rows, known, smooth[:, k]) for k in range(3)], 1))
+        usual = median_filter(smooth, (min(2 * round(odd / 2) + 1, len(known)), 1), mode="nearest")
+        found.append(np.stack([np.interp(rows, known, usual[:, k]) for k in range(3)], 1))
     right, left = (one[:, None] for one in found)
     share = np.clip((turn - 0.5 * np.pi) / np.pi, 0, 1)[..., None]
     return np.asarray(right + share * (left - right), np.float32)

@@ -29,6 +29,8 @@ FACE_SHARE, SKIN_SHARE = 0.92, 0.7
 """Share of a face's oval in which nothing is hair, and of that from which the colours of skin are learned."""
 BROW_HEIGHT_SHARE = 0.25
 """How far above a face's middle, as a share of half its height, whatever is beside it is hair: there are no ears."""
+FOREHEAD_SHARE = 1.05
+"""How far above a face's middle its forehead ends at the latest, as a share of half its height: beyond is hair or a hat."""
 MAX_SKIN_DISTANCE_LEVELS = 60.0
 """Levels from the face's median up to which a colour may be skin's."""
 MAX_FAIR_SHARE = 0.2
@@ -61,6 +63,7 @@ def hair_beside_the_face(
     above_the_brow = np.arange(len(head))[:, None] < face[1] - BROW_HEIGHT_SHARE * face[3]
     graph, pixels = ContrastGraph.of(colours, head), colours[head]
     surely = (loose & ~like_skin) | (head & (distance_to(covered) > SURELY_HAIR_SHARE * mask_height(covered)))
+    surely |= head & (np.arange(len(head))[:, None] < face[1] - FOREHEAD_SHARE * face[3])
     seeds = np.where((inner & like_skin)[head], SKIN, np.where(surely[head], HAIR, UNSEEDED_MARK))
     fair = like_skin[head & ~covered].mean() > MAX_FAIR_SHARE
     above_the_brow = above_the_brow & ~oval & fair  # hair of the skin's colours is where there is no face

@@ -106,6 +106,7 @@ def hair_rings(
     outermost = np.isfinite(outer) & ((rows > high[1]) | (aside > bare - OUTERMOST_PIXELS))
     ear = np.ones(max(round(MAX_EAR_SHARE * float(high[1] - low[1])), 1), np.bool_)
     outermost = np.stack([binary_closing(np.pad(one, len(ear)), ear)[len(ear) : -len(ear)] for one in outermost])
+    outermost |= rows < head.crown  # above, hair is all around
     within = np.clip(bare - 1, 1, MAX_BARE_SHARE * head.half)
     left, right = (
         gaussian_filter1d(np.where(there, own, head.axis + sign * inner), HAIR_ROW_SMOOTHING)

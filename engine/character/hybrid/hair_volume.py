@@ -106,8 +106,11 @@ def hair_volume(
     )  # the border's inner end has the outer wall's colours
     bones, weights = _carried(mesh, skull, vertices)
     outside, inside = hair_round(rgb, to_grid, hair, np.isfinite(front), outer[..., :2], float(np.ptp(skull[:, 1])))
-    half = places[used] * [0.5, 1]
-    colours = Colours(np.concatenate([half, half + np.array([0.5, 0]), half]), np.concatenate([outside, inside], 1))
+    places, first = places[used], outside.shape[1]
+    width = first + inside.shape[1]
+    outer_half = places * [(first - 1) / (width - 1), 1]
+    inner_half = places * [(width - first - 1) / (width - 1), 1] + np.array([first / (width - 1), 0])
+    colours = Colours(np.concatenate([outer_half, inner_half, outer_half]), np.concatenate([outside, inside], 1))
     hair_piece = Piece("Head", vertices, triangles, bones, weights, colours)
     return HairedHead(hair_piece, pressed, _framed(mesh, pictured, of, angles, extent))
 
@@ -133,6 +136,14 @@ def _at(
     column, row = (np.atleast_2d(each).astype(np.float32) for each in (x, rows - of.rows[0]))
     found = cv2.remap(np.asarray(values, np.float32), column, row, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     return np.asarray(found, np.float64).reshape(angles.shape)
+
+
+def _evenly(of: HairRings, outer: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Values (R, `RING_COLUMNS` + 1) of the vertices of the `outer` wall at even angles about the head's axis from -pi to pi."""
+    angle, _ = _polar(of, outer)
+    even = np.linspace(-np.pi, np.pi, values.shape[1])
+    rows = [np.interp(even, own[:-1], row[:-1], period=2 * np.pi) for own, row in zip(angle, values, strict=True)]
+    return np.stack(rows)
 
 
 def _head_radius(mesh: TemplateMesh, pictured: NDArray[np.float64], of: HairRings) -> NDArray[np.float64]:
@@ -188,7 +199,9 @@ def _inner_wall(
     head = np.where(np.isfinite(front[y, x]), np.minimum(front[y, x] - SKULL_DEPTH_PIXELS, behind), behind)
     straight = np.maximum(head + hangs * (behind - head), of.middle)
     share = np.clip(np.cos(angle) / STRAIGHT_COSINE, 0, 1)[..., None]
-    return inner + share * (np.stack([outer[..., 0], outer[..., 1], np.minimum(straight, outer[..., 2])], 2) - inner)
+    return inner + share * (
+        np.stack([outer[..., 0], outer[..., 1], np.minimum(straight, outer[..., 2] - SKULL_DEPTH_PIXELS)], 2) - inner
+    )
 
 
 def _pressed(
@@ -201,9 +214,10 @@ def _pressed(
     """The vertices `pictured` (V, 3) with what of the head is beneath hair within its `outer` wall (R, N, 3)."""
     own = (mesh.parts[:, HEAD_LABEL] > 0.5) & ~mesh.eye
     angle, radius = _polar(of, pictured)
-    row, wall = np.maximum(pictured[:, 1], of.rows[0] + HAIR_CLEARANCE_PIXELS), _polar(of, outer)[1]
+    row = np.maximum(pictured[:, 1], of.rows[0] + HAIR_CLEARANCE_PIXELS)
     beside = own & (row <= of.rows[-1])
-    covered = np.clip(2 * _at(extent, of, angle, row), 0, 1) * beside
+    there, wall = (_evenly(of, outer, one) for one in (extent, _polar(of, outer)[1]))
+    covered = np.clip(2 * _at(there, of, angle, row), 0, 1) * beside
     most = np.maximum(_at(wall, of, angle, row) - HAIR_CLEARANCE_PIXELS, 0)
     within = radius + covered * np.minimum(most - radius, 0)
     moved = pictured.copy()

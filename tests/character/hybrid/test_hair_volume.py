@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.character.figure.face_region import within_oval
 from engine.character.fit.template_fit import load_human, pose_template
-from engine.character.hybrid.hair_colours import COLUMNS, hair_round
+from engine.character.hybrid.hair_colours import COLUMNS, INSIDE_COLUMNS, hair_round
 from engine.character.hybrid.hair_mask import hair_beside_the_face, hair_on_the_shoulders
 from engine.character.hybrid.hair_volume import HairedHead, hair_volume
 from engine.character.parts.labels import HEAD_LABEL
@@ -205,7 +205,7 @@ def test_the_face_is_left_as_it_was(haired: HairedHead, body: NDArray[np.float64
 def test_around_the_back_it_has_the_colours_of_its_rows(piece: Piece) -> None:
     assert piece.colours is not None
     rgb = piece.colours.rgb.astype(float)
-    assert rgb.shape[1] == 2 * COLUMNS, "outside and inside"
+    assert rgb.shape[1] == COLUMNS + INSIDE_COLUMNS
     behind = np.concatenate([rgb[:, :20], rgb[:, COLUMNS - 20 : COLUMNS]], 1).mean(1)
     height = len(rgb)
     for rows, colour in ((slice(4, height // 8), HAT), (slice(height // 2, height - 4), HAIR)):
@@ -214,7 +214,7 @@ def test_around_the_back_it_has_the_colours_of_its_rows(piece: Piece) -> None:
 
 def test_inside_it_is_darker(piece: Piece) -> None:
     assert piece.colours is not None
-    outside, inside = (one.astype(float).mean((0, 1)) for one in np.split(piece.colours.rgb, 2, 1))
+    outside, inside = (one.astype(float).mean((0, 1)) for one in np.split(piece.colours.rgb, [COLUMNS], 1))
     assert (inside < 0.75 * outside).all()
 
 
