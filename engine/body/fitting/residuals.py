@@ -24,7 +24,7 @@ LANDMARK_CUTOFF_SIGMAS = 4.0
 LIMB_DIRECTION_SIGMA = np.array([[0.25, 0.25, 0.25]] * 4 + [[0.25, 0.25, 1.2]] * 4)
 """How far the directions of `DIRECTED_LIMBS` are off, usually (the difference of unit vectors). Perception has legs lean away from
 the viewer, by half a right angle at times: only where they bend much is it to be believed."""
-TRUNK_LEAN_SIGMA = 0.12
+TRUNK_LEAN_SIGMA = 0.07
 """How much trunks lean towards the viewer or away, usually (the z of unit vectors): cameras look level at people who stand.
 From one picture alone somebody who leans is somebody with shorter legs."""
 LEGS_LEAN_SIGMA = 0.14
