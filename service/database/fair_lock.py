@@ -27,8 +27,8 @@ class FairLock:
 
     @contextmanager
     def turn(self, timeout: float) -> Iterator[bool]:
-        """Wait up to `timeout` seconds for one's turn; it lasts as long as the block. Yields whether it came: where it
-        did not, the block has it not."""
+        """Wait up to `timeout` seconds for one's turn; it lasts as long as the block. Yields False after a timeout: the
+        block then runs without it."""
         mine = self._queue()
         came = mine is None or mine.wait(timeout) or not self._leave(mine)
         try:

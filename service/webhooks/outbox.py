@@ -1,5 +1,5 @@
 """Writing down what is to be delivered, in the same transaction as what it tells of: if that became true, it will be
-told, whatever dies in the meantime."""
+told, whatever dies in the meantime. Nothing is sent here: the worker does that, by what is written."""
 
 from __future__ import annotations
 

@@ -34,8 +34,8 @@ on one winks. Of eyes that close together a tracker sees one a frame behind the 
 BLINK_GAP_SHARES = (0.7, 0.9)
 """Mean share of their usual gaps below which eyes are closing, and above which each is as open as it is seen to be."""
 SHUT_GAP_SHARES = (0.2, 0.35)
-"""Of its usual gap, the share of the narrower eye below which each is as it is seen, so that it can shut alone, and the
-share above which both may be made alike."""
+"""How far the narrower eye is open, as a share of its usual gap. Below the first, each eye is as it is seen, so that one can
+shut alone. Above the second, both may be made alike."""
 MAX_GAP_RATIO = 1.5
 """An eye opens at most to this multiple of its gap in the picture."""
 MAX_GAP_IRIS_DIAMETERS = 1.0

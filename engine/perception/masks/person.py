@@ -35,7 +35,7 @@ LIKELY_BELIEF = 0.99
 """Belief of what joints tell to be a person's: settled, unless it has the colours of a plain background."""
 
 EDGE_NEIGHBOURHOOD = np.ones((9, 9), np.uint8)
-"""The neighbourhood within which the mask that was found may end beside a cut-out's own edge."""
+"""Of a picture that is a cut-out with alpha: the neighbourhood within which the mask that perception finds may end beside the edge of that alpha."""
 
 MAX_LEFT_OUT_SHARE = 0.1
 """Share of what is known to be the person's that a matting model may leave out: fingers are thin, outlines differ."""

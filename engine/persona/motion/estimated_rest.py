@@ -1,4 +1,4 @@
-"""What a face is like at rest of which a single picture shows an expression.
+"""A face at rest, estimated from one picture of it with an expression.
 
 Of all faces at rest and all that face units make of them, the most probable: people at rest differ from the general face by so much,
 and units are as a rule at little. The paper has many pictures of everybody and needs no such thing.
