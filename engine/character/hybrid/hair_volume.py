@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from engine.character.fit.template_fit import load_human
 from engine.character.hybrid.hair_colours import hair_round
-from engine.character.hybrid.hair_extent import BEHIND_THE_EAR_RADIANS, HeadLevels, hair_extent
+from engine.character.hybrid.hair_extent import HeadLevels, hair_extent
 from engine.character.hybrid.hair_rings import HAIR_CLEARANCE_PIXELS, HairRings, hair_rings
 from engine.character.parts.labels import HEAD_LABEL
 from engine.character.shell.colours.head_map import (
@@ -41,6 +41,10 @@ HAIR_THICKNESS_PIXELS, MAX_THICKNESS_SHARE = 4.0, 0.4
 """Pixels between its walls where it hangs, at most, and the same as a share of how far it is from the head's axis."""
 SKULL_DEPTH_PIXELS = 1.0
 """Pixels within the head at which its inner wall is: on the head hair has no thickness that is seen."""
+FRAMED_RADIANS = 1.4
+"""Radians from the front within which hair lies over where ears are: what ends at it is beside no ear."""
+MIN_INNER_SHARE = 0.2
+"""How far its inner wall is from the head's axis at least, as a share of how far the outer one is."""
 STRAIGHT_COSINE = 0.35
 """Cosine to the viewer from which on the inner wall is straight behind the outer one."""
 HEAD_HAIR_SHARE, TRUNK_HAIR_SHARE = 0.35, 0.75
@@ -112,7 +116,7 @@ def hair_volume(
     inner_half = places * [(width - first - 1) / (width - 1), 1] + np.array([first / (width - 1), 0])
     colours = Colours(np.concatenate([outer_half, inner_half, outer_half]), np.concatenate([outside, inside], 1))
     hair_piece = Piece("Head", vertices, triangles, bones, weights, colours)
-    return HairedHead(hair_piece, pressed, _framed(mesh, pictured, of, angles, extent))
+    return HairedHead(hair_piece, pressed, _framed(mesh, pictured, of, _evenly(of, outer, extent)))
 
 
 def _levels(mesh: TemplateMesh, pictured: NDArray[np.float64]) -> HeadLevels:
@@ -172,10 +176,8 @@ def _clear_of_the_head(of: HairRings, places: NDArray[np.float64], beneath: NDAr
     moved = places.copy()
     moved[..., 0] = np.clip(of.axis + clear * np.sin(angle), of.left[:, None], of.right[:, None])
     moved[..., 2] = of.middle + clear * np.cos(angle)
-    rise = np.clip(np.arange(len(of.rows)) / (2 * HAIR_CLEARANCE_PIXELS), 0, 1)[
-        :, None, None
-    ]  # at its top a ring is closed
-    return places + rise * (moved - places)
+    rise = np.clip(np.arange(len(of.rows)) / (2 * HAIR_CLEARANCE_PIXELS), 0, 1)  # at its top a ring is closed
+    return places + rise[:, None, None] * (moved - places)
 
 
 def _inner_wall(
@@ -190,7 +192,7 @@ def _inner_wall(
     angle, radius = _polar(of, outer)
     thin = radius - np.minimum(HAIR_THICKNESS_PIXELS, MAX_THICKNESS_SHARE * radius)
     hangs = np.clip((of.rows - levels.nape) / max(levels.chin - levels.nape, 1), 0, 1)[:, None]
-    head = np.clip(_at(beneath, of, angle, outer[..., 1]) - SKULL_DEPTH_PIXELS, 0.2 * radius, thin)
+    head = np.clip(_at(beneath, of, angle, outer[..., 1]) - SKULL_DEPTH_PIXELS, MIN_INNER_SHARE * radius, thin)
     within = head + hangs * (thin - head)
     inner = outer.copy()
     inner[..., 0], inner[..., 2] = of.axis + within * np.sin(angle), of.middle + within * np.cos(angle)
@@ -231,11 +233,12 @@ def _framed(
     mesh: TemplateMesh,
     pictured: NDArray[np.float64],
     of: HairRings,
-    angles: NDArray[np.float64],
     extent: NDArray[np.float64],
 ) -> NDArray[np.float32]:
-    """From 0 to 1 (V,), what of the head has hair further aside at its height, before where an ear would be."""
-    covered = np.clip(2 * extent, 0, 1) * (np.abs(angles) < BEHIND_THE_EAR_RADIANS)
+    """From 0 to 1 (V,), what of the head has hair further aside at its height, before where an ear is. `extent` (R, `RING_COLUMNS` + 1): where
+    hair is, at even angles from -pi to pi."""
+    angles = np.linspace(-np.pi, np.pi, RING_COLUMNS + 1)
+    covered = np.clip(2 * extent, 0, 1) * (np.abs(angles) < FRAMED_RADIANS)
     half = RING_COLUMNS // 2
     further = np.maximum.accumulate(covered[:, half:][:, ::-1], 1)[:, ::-1]
     nearer = np.maximum.accumulate(covered[:, : half + 1], 1)

@@ -17,7 +17,6 @@ from engine.character.hybrid.hair_mask import (
     BROW_HEIGHT_SHARE,
     FACE_SHARE,
     HAIR_COLOUR_VARIANCE,
-    MAX_ALIKE_SHARE,
     MOUTH_DEPTH_SHARE,
     SEGMENTATION_ROUNDS,
     SKIN_SHARE,
@@ -104,9 +103,6 @@ def neck_cloth(
         cloth = ColourMixture.fit(of_cloth).widened(HAIR_COLOUR_VARIANCE)
         other = np.minimum(cloth.negative_log_likelihood(pixels), STRANGE_COST)
         found = graph.cut(np.concatenate([costs, other[:, None]], 1), found, seeds)
-    for one, own in zip(bare, shown, strict=True):
-        if (cloth.negative_log_likelihood(own) < one.negative_log_likelihood(own)).mean() > MAX_ALIKE_SHARE:
-            return nothing
     at_ears = beside & np.asarray(rows < face[1] + EARS_DEPTH_SHARE * face[3], np.bool_)
     like_cloth = cloth.negative_log_likelihood(colours[at_ears]) < colour_costs(bare, colours[at_ears]).min(1)
     if like_cloth.sum() > MAX_CLOTH_BESIDE_SHARE * at_ears.sum():

@@ -74,3 +74,24 @@ def test_its_outline_is_as_wide_as_it_is_seen(long_hair: HairRings) -> None:
     beside = (long_hair.rows > MIDDLE[1]) & (long_hair.rows < ENDS - 8)
     for aside in (long_hair.axis - long_hair.left, long_hair.right - long_hair.axis):
         np.testing.assert_allclose(aside[beside], HALF[0] + STANDS_OFF, atol=1.0)
+
+
+def test_short_hair_keeps_to_the_head_down_to_the_nape() -> None:
+    """The neck is nearer than the head above it, and hair that ends there lies on it: it does not hang."""
+    y, x = np.mgrid[:HEIGHT, :WIDTH]
+    cap = (((x - MIDDLE[0]) / HALF[0]) ** 2 + ((y - MIDDLE[1]) / HALF[1]) ** 2 < 1) & (y < MIDDLE[1] - 12)
+    front = depths().astype(np.float32)
+    short = hair_rings(cap, skull(), front, -front, MIDDLE[1] + HALF[1] - 1)
+    assert short.far[-1] > -NECK_RADIUS - 8
+    assert short.far.min() < -0.9 * HALF[2]
+
+
+def test_a_flat_top_is_a_dome_in_depth() -> None:
+    """A hat whose outline is as wide from its first row on: seen from the side it is no box."""
+    y, x = np.mgrid[:HEIGHT, :WIDTH]
+    hat = (np.abs(x - MIDDLE[0]) < HALF[0]) & (y > 30) & (y < MIDDLE[1])
+    front = depths().astype(np.float32)
+    rings = hair_rings(hat, skull(), front, -front, MIDDLE[1] + 10)
+    deep = rings.near - rings.far
+    third = int(np.argmax(rings.rows > 33))
+    assert deep[third] < 0.75 * deep[int(np.argmax(rings.rows > 50))]

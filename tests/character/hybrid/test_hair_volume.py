@@ -78,6 +78,18 @@ def test_hair_is_told_from_the_face_and_the_neck(
     assert not hair_beside_the_face(bald, head, head, face).any(), "nothing is loose"
 
 
+def test_what_hangs_free_below_the_mouth_is_no_hair(
+    head: NDArray[np.bool_], hair: NDArray[np.bool_], face: NDArray[np.float64], skull: NDArray[np.float64]
+) -> None:
+    """A dark clasp at the collar, which the head's label takes in."""
+    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
+    clasp = np.hypot(x - face[0] - 1.6 * face[2], y - skull[:, 1].max() - 8) < 6
+    short = hair & (y < face[1])
+    rgb = noisy(np.where((short | clasp)[..., None], HAIR, np.where(head[..., None], SKIN, SHIRT)))
+    found = hair_beside_the_face(rgb, head | short | clasp, head, face)
+    assert not found[clasp].any() and found[short].mean() > 0.9
+
+
 @pytest.mark.parametrize(("shirt", "is_found"), [(SHIRT, True), (HAIR, False)], ids=["on white", "on its own colour"])
 def test_it_is_followed_down_the_shoulders_where_they_have_other_colours(
     body: NDArray[np.float64],
@@ -94,6 +106,27 @@ def test_it_is_followed_down_the_shoulders_where_they_have_other_colours(
     rgb = noisy(np.where((hair | lock)[..., None], HAIR, np.where(head[..., None], SKIN, shirt)))
     found = hair_on_the_shoulders(rgb, hair, trunk, face, 80)
     assert (found & lock).sum() > 0.9 * (found | lock).sum() if is_found else not found.any()
+
+
+def test_temples_are_skin_and_a_crown_is_hair(
+    head: NDArray[np.bool_], hair: NDArray[np.bool_], face: NDArray[np.float64]
+) -> None:
+    """Dark hair with a bare temple beside the oval above the brow; and one whose crown shines in the skin's own colour."""
+    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
+    temple = (
+        hair
+        & head
+        & (y < face[1] - 0.3 * face[3])
+        & (y > face[1] - 0.8 * face[3])
+        & (np.abs(x - face[0]) < 1.15 * face[2])
+    )
+    rgb = noisy(np.where((hair & ~temple)[..., None], HAIR, np.where(head[..., None], SKIN, SHIRT)))
+    found = hair_beside_the_face(rgb, head | hair, head, face)
+    assert temple.sum() > 30 and found[temple].mean() < 0.2
+    crown = hair & (y < face[1] - 1.1 * face[3])
+    rgb = noisy(np.where((hair & ~crown)[..., None], HAIR, np.where((head | crown)[..., None], SKIN, SHIRT)))
+    found = hair_beside_the_face(rgb, head | hair, head, face)
+    assert crown.sum() > 30 and found[crown].mean() > 0.95
 
 
 def test_a_coat_of_its_colour_is_no_hair(
@@ -273,3 +306,80 @@ def test_in_front_it_is_the_picture() -> None:
     assert np.abs(found[:, front & (np.sin(turn) > 0.3)] - 160).max() < 6
     assert np.abs(found[:, front & (np.sin(turn) < -0.3)] - 60).max() < 6
     assert 90 < found[:, 0].mean() < 130, "from one side to the other"
+
+
+def test_an_ear_among_hair_gives_it_no_ring_of_its_colour() -> None:
+    """A cylinder of dark hair, of which four rows are skin's colour all over what is seen."""
+    angles = np.linspace(-np.pi, np.pi, 40)
+    ring = np.stack(np.broadcast_arrays(50 + 20 * np.sin(angles)[None], np.arange(40.0)[:, None] + 10), 2)
+    y, x = np.mgrid[:70, :100]
+    hair = (np.abs(x - 50) < 20) & (y >= 10) & (y < 50)
+    rgb = np.where(hair[..., None] & ((y < 28) | (y > 31))[..., None], HAIR, SKIN).astype(np.uint8)
+    outside, _ = hair_round(rgb, np.eye(2, 3), hair, hair, ring, 40.0)
+    assert np.abs(outside[:, :40].astype(float) - HAIR).max() < 25, "behind"
+
+
+def test_beside_its_border_the_surface_shows_what_the_picture_does() -> None:
+    """Hair on the left, a face on the right: what of the surface lies over the face by less than three pixels is the face's colour."""
+    angles = np.linspace(-np.pi, np.pi, 200)
+    ring = np.stack(np.broadcast_arrays(50 + 20 * np.sin(angles)[None], np.arange(40.0)[:, None] + 10), 2)
+    y, x = np.mgrid[:70, :100]
+    person = (np.abs(x - 50) < 20) & (y >= 10) & (y < 50)
+    hair = person & (x < 50)
+    rgb = np.where(hair[..., None], HAIR, SKIN).astype(np.uint8)
+    outside, _ = hair_round(rgb, np.eye(2, 3), hair, person, ring, 40.0)
+    turn = np.linspace(-np.pi, np.pi, COLUMNS)
+    over = np.abs(20 * np.sin(turn) - 1.5) < 0.4
+    over &= np.cos(turn) > 0.9
+    assert over.any() and np.abs(outside[5:35, over].astype(float) - SKIN).max() < 12
+
+
+def test_a_head_that_is_wider_than_its_hair_is_pressed_in(
+    body: NDArray[np.float64], skull: NDArray[np.float64], face: NDArray[np.float64], picture: NDArray[np.uint8]
+) -> None:
+    """A narrow cap of hair: where it is seen from the front, from behind and from above the ears, nothing of the skull is outside of it."""
+    mesh = template_mesh()
+    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
+    middle, half = float(np.median(skull[:, 0])), np.ptp(skull[:, 0]) / 2 - 3
+    top = skull[:, 1].min() + 4
+    cap = (np.hypot(x - middle, y - top - half) < half) & (y < face[1] - 0.3 * face[3])
+    near = rasterise(body * [1, 1, -1], mesh.triangles, SHAPE)
+    far = rasterise(body, mesh.triangles, SHAPE)
+    front = np.where((near.triangle >= 0) & (cap | (y > face[1] - 0.3 * face[3])), -near.depth, -np.inf)
+    back = np.where(far.triangle >= 0, far.depth, np.inf)
+    made = hair_volume(mesh, body, picture, np.eye(2, 3), cap, front.astype(np.float32), back.astype(np.float32))
+    assert made is not None
+    own = mesh.triangles[((mesh.head > 0.5) & ~mesh.eye)[mesh.triangles].all(1)]
+    high = (y > top + 3) & (y < face[1] - 0.5 * face[3])
+
+    def comes_through(places: NDArray[np.float64]) -> int:
+        found = 0
+        for towards in (1.0, -1.0):
+            skin = rasterise(places * [1, 1, -towards], own, SHAPE)
+            hair = rasterise(made.hair.vertices * [1, 1, -towards], made.hair.triangles, SHAPE)
+            bare = (skin.triangle >= 0) & ((hair.triangle < 0) | (skin.depth < hair.depth - 0.2)) & high
+            found += int(bare.sum())
+        return found
+
+    assert comes_through(made.pictured) < 0.1 * comes_through(body)
+
+
+def test_what_of_a_face_hair_frames(
+    body: NDArray[np.float64], hair: NDArray[np.bool_], face: NDArray[np.float64], picture: NDArray[np.uint8]
+) -> None:
+    """Hair beside one half of a face alone."""
+    x = np.arange(SHAPE[1])[None]
+    above = np.arange(SHAPE[0])[:, None] < face[1] - 0.8 * face[3]
+    deep = np.where(covered(body), body[template_mesh().head > 0.9, 2].mean(), -np.inf).astype(np.float32)
+    made = hair_volume(template_mesh(), body, picture, np.eye(2, 3), hair & ((x > face[0]) | above), deep, deep - 10)
+    assert made is not None
+    eyes = template_mesh().renamed(load_human().face)[[36, 45]]
+    one, other = made.framed[eyes[np.argsort(body[eyes, 0])]]
+    assert one < 0.1 and other > 0.9
+
+
+def test_of_its_border_nothing_is_seen_from_before(piece: Piece, hair: NDArray[np.bool_]) -> None:
+    count = len(piece.vertices) // 3
+    border = (piece.triangles >= 2 * count).any(1)
+    shown = rasterise(piece.vertices * [1, 1, -1], piece.triangles, SHAPE).triangle
+    assert border.any() and border[shown[shown >= 0]].mean() < 0.01

@@ -10,7 +10,7 @@ from engine.character.hybrid.neck_cloth import neck_cloth
 
 HEIGHT, WIDTH = 140, 120
 FACE = np.array([60.0, 45.0, 18.0, 26.0, 0.0])
-SKIN, HAIR, COAT, LINING = (215, 170, 145), (50, 34, 26), (40, 60, 110), (190, 30, 40)
+SKIN, HAIR, COAT, LINING = (215, 170, 145), (50, 34, 26), (40, 60, 110), (250, 110, 170)
 Y, X = np.mgrid[:HEIGHT, :WIDTH]
 
 
