@@ -1,6 +1,6 @@
 """The queue: hints to the workers that a job waits. It may forget them; SQL is the truth and the sweep sends again.
 
-A message makes a worker look, and no more: which job of that kind it takes is decided in SQL (`leases.claim_next`).
+A message makes a worker look, and no more: which job of that kind it takes is decided in SQL (`fair_queue.claim_next`).
 """
 
 from __future__ import annotations

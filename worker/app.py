@@ -20,7 +20,7 @@ from sqlalchemy.exc import SQLAlchemyError
 from service.context import Context
 from service.database.sessions import database_unavailable
 from service.job_records import jobs as repository
-from service.jobs import leases
+from service.jobs import fair_queue
 from service.jobs.leases import Lease
 from service.pulse import BEAT_SECONDS, Pulse, worker_name
 from service.queue import TASK_NAME, queue_name
@@ -100,7 +100,7 @@ class Worker:
     def _claim(self, kind: str) -> tuple[Job, Lease] | None:
         try:
             with self.context.database.write() as session:
-                lease = leases.claim_next(session, kind, self.owner, self.context.settings.lease_seconds)
+                lease = fair_queue.claim_next(session, kind, self.owner, self.context.settings.lease_seconds)
                 job = repository.get(session, lease.job_id) if lease is not None else None
         except SQLAlchemyError as error:
             structlog.get_logger().warning("job_not_claimed", reason=str(error).splitlines()[0])

@@ -54,7 +54,7 @@ from engine.kind import Given
 from engine.media.image import over_white, write_image
 from engine.motion.clip import Clip
 from engine.motion.retargeting.joint_map import lost_warning
-from engine.perception.masks.matting import matting_model
+from engine.perception.masks.matting_network import matting_model
 from engine.render.lighting.ground_shadow import GroundShadow
 from engine.render.scene.character import film_cast
 from engine.run import Run

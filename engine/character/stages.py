@@ -26,9 +26,9 @@ from engine.character.fit.template_fit import FittedBody, fit_best, load_human, 
 from engine.character.hybrid.behind_limbs import mirrored_behind
 from engine.character.hybrid.headed import HeadedRelief, make_headed_relief
 from engine.character.hybrid.hybrid import Hybrid, limbs_alone
+from engine.character.hybrid.joined_characters import joined
 from engine.character.hybrid.limbs import cut_off
 from engine.character.hybrid.seam import with_the_trunks_colours
-from engine.character.hybrid.two_surfaces import together
 from engine.character.hybrid.under_cloth import bare_under_cloth
 from engine.character.options import LabelStroke
 from engine.character.parts.crossed_labels import label_crossed
@@ -288,7 +288,7 @@ def make_headed_character(
     beside = _left_for_a_relief(triangles, alone)
     character = make_character(*found, headed.labels, headed.relief, beside, back)
     texture = paint_shell(figure.rgb, silhouette, labels, headed.shell, back, alone.mesh.triangles)
-    character = together(bind_shell(alone, figure, silhouette, fitted, texture), character)
+    character = joined(bind_shell(alone, figure, silhouette, fitted, texture), character)
     return replace(character, mesh=fewer_triangles(character, triangles))
 
 
@@ -347,7 +347,7 @@ def make_hybrid_character(
     )
     texture = with_the_trunks_colours(texture, hybrid, tiles, figure, silhouette)
     shell = bind_shell(shown, figure, silhouette, fitted, texture)
-    character = together(shell, relief)
+    character = joined(shell, relief)
     return replace(character, mesh=fewer_triangles(character, triangles))
 
 

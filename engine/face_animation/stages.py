@@ -29,7 +29,7 @@ from engine.face_animation.tracking_refinement import (
 from engine.face_animation.warping.layers import Layers, separate_layers
 from engine.media.excerpt import Excerpt
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.masks.matting import matting_model
+from engine.perception.masks.matting_network import matting_model
 from engine.run import ConcurrentStage, Run
 
 

@@ -133,7 +133,7 @@ def running(session: Session, ids: Sequence[str]) -> set[str]:
 def queue_places(session: Session, jobs: Sequence[Job]) -> dict[str, int]:
     """The places of these jobs among those of their kind that are queued, counted from 1.
 
-    The order is that of `leases.claim_next`: by priority, then one of each key in turn, then by age. Keys of which fewer
+    The order is that of `fair_queue.claim_next`: by priority, then one of each key in turn, then by age. Keys of which fewer
     jobs run come first.
     """
     if not jobs:

@@ -13,8 +13,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import ColumnElement, Select, case, func, or_, select, update
-from sqlalchemy.orm import Session, aliased
+from sqlalchemy import ColumnElement, case, or_, select, update
+from sqlalchemy.orm import Session
 
 from service.events import repository as events
 from service.figures import counters
@@ -53,28 +53,6 @@ def claim(session: Session, job_id: str, owner: str, seconds: float) -> Lease | 
     token = session.scalar(select(Job.lease_token).where(Job.id == job_id))
     events.append(session, job_id, "status", {"status": Status.RUNNING})
     return Lease(job_id, int(token or 0), seconds)
-
-
-def claim_next(session: Session, kind: str, owner: str, seconds: float) -> Lease | None:
-    """Take the queued job of a kind whose turn it is; None if none is queued.
-
-    The highest priority comes first. Among equals it is the key of which the fewest jobs run, so that a long list of
-    one key does not hold up the others. Then it is whoever came first.
-    """
-    while (job_id := session.scalar(_in_turn(kind))) is not None:
-        if (lease := claim(session, job_id, owner, seconds)) is not None:
-            return lease  # otherwise another worker was faster
-    return None
-
-
-def _in_turn(kind: str) -> Select[str]:
-    waits = (Job.status == Status.QUEUED) & (Job.kind == kind)
-    urgent = select(func.min(Job.priority)).where(waits).scalar_subquery()
-    firsts = select(func.min(Job.id)).where(waits, Job.priority == urgent).group_by(Job.owner)
-    other = aliased(Job)
-    running = select(func.count(other.id)).where(other.owner == Job.owner, other.status == Status.RUNNING)
-    in_turn = running.correlate(Job).scalar_subquery()
-    return select(Job.id).where(Job.id.in_(firsts)).order_by(in_turn, Job.id).limit(1)
 
 
 def is_held(session: Session, lease: Lease) -> bool:

@@ -22,7 +22,7 @@ from engine.imaging.masks.mask_distance import dilate_mask
 from engine.imaging.masks.mask_pieces import bounding_box, largest_piece
 from engine.imaging.resample import resized
 from engine.media.limits import Limits
-from engine.perception.masks.matting import MattingModel
+from engine.perception.masks.matting_network import MattingModel
 from engine.perception.masks.person import DOUBTFUL_BELIEF, LIKELY_BELIEF, person_mask
 from engine.perception.masks.salience import with_salience
 from engine.perception.masks.segmentation import people_confidence

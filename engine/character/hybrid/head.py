@@ -17,7 +17,7 @@ from engine.character.figure.face_region import face_ellipse, in_profile
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human
-from engine.character.hybrid.hair_mask import hair_beside_the_face, hair_on_the_shoulders
+from engine.character.hair.mask import hair_beside_the_face, hair_on_the_shoulders
 from engine.character.hybrid.limbs import WEIGHT_SMOOTHING_ROUNDS, Limbs
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, TRUNK_LABEL

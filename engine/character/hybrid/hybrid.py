@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
-from engine.character.hybrid.hair_volume import hair_volume
+from engine.character.hair.volume import hair_volume
 from engine.character.hybrid.head import (
     hair_beside_the_head,
     head_is_known,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from engine.character.figure.face_region import face_ellipse, within_oval
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
-from engine.character.hybrid.hair_mask import (
+from engine.character.hair.mask import (
     BROW_HEIGHT_SHARE,
     FACE_SHARE,
     HAIR_COLOUR_VARIANCE,

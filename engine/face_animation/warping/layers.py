@@ -17,7 +17,7 @@ from engine.imaging.picture_frame import inner_picture
 from engine.imaging.window import Window
 from engine.media.image import is_cut_out, over_grey
 from engine.perception.face.landmarks import FACE_OVAL
-from engine.perception.masks.matting import MattingModel
+from engine.perception.masks.matting_network import MattingModel
 from engine.perception.masks.person import person_mask
 
 LAYER_MARGIN_SHARE = 0.2

@@ -19,10 +19,10 @@ from engine.imaging.masks.mask_pieces import pieces_touching
 from engine.imaging.resample import resized, size_within
 from engine.media.image import is_cut_out
 from engine.perception.masks.figure import figure_on_plain_ground
-from engine.perception.masks.matting import MattingModel
+from engine.perception.masks.matting_network import MattingModel
 from engine.perception.masks.segmentation import MATTE_SIZE_PIXELS, Mask, people_confidence
 
-CUT_SIZE = 480
+CUT_SIDE_PIXELS = 480
 """Longest side at which colours have their say."""
 
 KEPT_CONFIDENCE = 0.6
@@ -117,7 +117,7 @@ def _within(channel: Mask, found: Mask, others: NDArray[np.bool_]) -> Mask:
 def settle_by_colour(rgb: NDArray[np.uint8], belief: Mask) -> Mask:
     """The belief (H, W) averaged with what GrabCut makes of the colours where it is not sure; what the networks
     rather believe than not (grey hair before a pale wall), colours do not take away."""
-    size = size_within(belief.shape, CUT_SIZE)
+    size = size_within(belief.shape, CUT_SIDE_PIXELS)
     small, rough = resized(rgb, size), resized(belief, size)
     foreground, background = rough > CERTAIN_BELIEF, rough < 1 - CERTAIN_BELIEF
     if not (foreground.any() and background.any()):

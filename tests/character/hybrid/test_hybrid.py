@@ -14,9 +14,9 @@ from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import GRID_HEIGHT_PIXELS, Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
 from engine.character.hybrid.hybrid import Hybrid, limbs_alone, make_hybrid
+from engine.character.hybrid.joined_characters import joined
 from engine.character.hybrid.limbs import cut_off, limbs_of
 from engine.character.hybrid.outline_warp import drawn_to_the_outline
-from engine.character.hybrid.two_surfaces import together
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
 from engine.character.rig.measures import pose
@@ -73,7 +73,7 @@ def made() -> tuple[Hybrid, Character, Character]:
     trunk, camera = hybrid.trunk, silhouette.camera(fitted.picture_camera())
     uv = np.full((len(trunk.vertices), 2), 0.5, np.float32)
     relief = bind(trunk, silhouette.mask, camera, fitted, load_human().space, blue, uv)
-    return hybrid, together(limbs, relief), whole
+    return hybrid, joined(limbs, relief), whole
 
 
 def turned(character: Character, joint: str, axis: str, degrees: float) -> Clip:

@@ -10,9 +10,10 @@ import trimesh
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from engine.geometry.deformation.as_rigid_as_possible import AsRigidAsPossible
 from engine.geometry.deformation.cotangent_laplacian import cotangent_laplacian
 from engine.geometry.deformation.handles import handles, surface_points
-from engine.geometry.deformation.laplacian_deformation import AsRigidAsPossible, LaplacianDeformation
+from engine.geometry.deformation.laplacian_deformation import LaplacianDeformation
 from engine.geometry.mesh.surface import vertex_areas
 
 TURN = Rotation.from_rotvec([0.4, -1.9, 0.7]).as_matrix()

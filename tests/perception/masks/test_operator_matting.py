@@ -11,7 +11,7 @@ from tiny_onnx import brightness_model
 
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.layers import separate_layers
-from engine.perception.masks.matting import load_matting_model, matting_model
+from engine.perception.masks.matting_network import load_matting_model, matting_model
 from engine.perception.masks.person import DOUBTFUL_BELIEF, person_mask
 from engine.perception.models import MATTING_SETTING, ModelError, ModelFile
 

@@ -11,7 +11,7 @@ from service.clock import now
 from service.context import Context
 from service.ids import new_id
 from service.job_records import jobs, owned
-from service.jobs import leases
+from service.jobs import fair_queue, leases
 from service.tables.jobs import Job
 from service.tables.webhooks import Delivery
 
@@ -60,7 +60,7 @@ def test_a_job_that_a_worker_took_before_the_answer_was_written_was_the_next(con
         job = jobs.get(session, waiting(context))
     assert job is not None
     with context.database.write() as session:
-        assert leases.claim_next(session, "tiny", "a worker", 30) is not None
+        assert fair_queue.claim_next(session, "tiny", "a worker", 30) is not None
     assert owned.queue_place(context, job) == 1
     shown = owned.job_view(context, "local", job.id)
     assert (shown.status, shown.queue_position) == ("running", None)

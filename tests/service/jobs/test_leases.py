@@ -12,7 +12,7 @@ from service.context import Context
 from service.events import repository as events
 from service.ids import new_id
 from service.job_records import jobs as repository
-from service.jobs import leases
+from service.jobs import fair_queue, leases
 from service.jobs.leases import Lease
 from service.tables.jobs import Job, Priority, Status
 from service.tables.keys import Key
@@ -126,7 +126,7 @@ def test_the_place_in_the_queue_is_the_order_in_which_jobs_are_taken(context: Co
     assert (told.pop(), told.pop()) == (None, 1), "one that runs has none; another kind has a queue of its own"
     assert sorted(told, key=lambda place: place or 0) == list(range(1, 9))
     with context.database.write() as session:
-        taken = [leases.claim_next(session, "tiny", "somebody", 30) for _ in jobs]
+        taken = [fair_queue.claim_next(session, "tiny", "somebody", 30) for _ in jobs]
     order = [lease.job_id for lease in taken if lease is not None]
     assert told == [order.index(job) + 1 for job in jobs]
 
@@ -211,7 +211,7 @@ def test_a_canceled_job_cannot_be_claimed_or_finished(context: Context, job_id: 
 
 def claim_next(context: Context, kind: str = "tiny") -> str | None:
     with context.database.write() as session:
-        lease = leases.claim_next(session, kind, "somebody", 30)
+        lease = fair_queue.claim_next(session, kind, "somebody", 30)
     return lease.job_id if lease is not None else None
 
 

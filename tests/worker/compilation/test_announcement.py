@@ -12,7 +12,7 @@ from service.context import Context
 from service.events import repository as events
 from service.ids import new_id
 from service.job_records import jobs as repository
-from service.jobs import leases
+from service.jobs import fair_queue, leases
 from service.tables.jobs import Job
 from worker.compilation.announcement import PREPARING_MESSAGE, PREPARING_STAGE, announce, take_back
 
@@ -69,7 +69,7 @@ def test_where_one_of_their_kind_runs_they_wait_for_their_turn(context: Context)
     other = waiting(context, kind="other")
     waiting(context)
     with context.database.write() as session:
-        assert leases.claim_next(session, "tiny", "somebody", 30) is not None
+        assert fair_queue.claim_next(session, "tiny", "somebody", 30) is not None
     behind = waiting(context)
     announce(context, ["tiny", "other"])
     assert progress(context, behind) == {}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from engine.character.hybrid.hair_rings import HAIR_CLEARANCE_PIXELS, HairRings, hair_rings
+from engine.character.hair.rings import HAIR_CLEARANCE_PIXELS, HairRings, hair_rings
 
 HEIGHT, WIDTH = 170, 200
 MIDDLE = np.array([100.0, 80.0, 0.0])

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.hybrid.hair_rings import HairRings
+from engine.character.hair.rings import HairRings
 from engine.imaging.filling.nearest import nearest_values
 from engine.imaging.masks.mask_pieces import without_small_pieces
 

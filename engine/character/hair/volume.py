@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.fit.template_fit import load_human
-from engine.character.hybrid.hair_colours import hair_round
-from engine.character.hybrid.hair_extent import HeadLevels, hair_extent
-from engine.character.hybrid.hair_rings import HAIR_CLEARANCE_PIXELS, HairRings, hair_rings
+from engine.character.hair.colours import hair_round
+from engine.character.hair.extent import HeadLevels, hair_extent
+from engine.character.hair.rings import HAIR_CLEARANCE_PIXELS, HairRings, hair_rings
 from engine.character.parts.labels import HEAD_LABEL
 from engine.character.shell.colours.head_map import (
     CHIN_LANDMARK,

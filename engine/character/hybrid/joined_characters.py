@@ -16,7 +16,7 @@ CROP_MARGIN_TEXELS = 8
 """Texels around what is used of a texture that are kept."""
 
 
-def together(first: Character, second: Character) -> Character:
+def joined(first: Character, second: Character) -> Character:
     """Both, of the same joints but for how high these stand, as one: it stands and is seen as the `first`."""
     one, other = first.mesh, second.mesh
     lift = (one.skeleton.heads[0] - other.skeleton.heads[0]).astype(np.float32)

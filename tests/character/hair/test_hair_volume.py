@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from engine.character.figure.face_region import within_oval
 from engine.character.fit.template_fit import load_human, pose_template
-from engine.character.hybrid.hair_colours import COLUMNS, INSIDE_COLUMNS, hair_round
-from engine.character.hybrid.hair_mask import hair_beside_the_face, hair_on_the_shoulders
-from engine.character.hybrid.hair_volume import HairedHead, hair_volume
+from engine.character.hair.colours import COLUMNS, INSIDE_COLUMNS, hair_round
+from engine.character.hair.mask import hair_beside_the_face, hair_on_the_shoulders
+from engine.character.hair.volume import HairedHead, hair_volume
 from engine.character.parts.labels import HEAD_LABEL
 from engine.character.shell.piece import Piece
 from engine.character.shell.template_mesh import template_mesh
