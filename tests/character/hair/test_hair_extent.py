@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tests.character.hybrid.test_hair_rings import HALF, HEIGHT, MIDDLE, WIDTH, depths, skull
 
 from engine.character.hair.extent import HeadLevels, hair_extent
 from engine.character.hair.rings import HairRings, hair_rings
+from tests.character.hair.test_hair_rings import HALF, HEIGHT, MIDDLE, WIDTH, depths, skull
 
 ANGLES = np.linspace(-np.pi, np.pi, 65)
 LEVELS = HeadLevels(ears=MIDDLE[1], nape=MIDDLE[1] + 0.6 * HALF[1], chin=MIDDLE[1] + HALF[1])
