@@ -40,17 +40,9 @@ class BodySurface:
         inside = np.einsum("nd,nd->n", asked - foot, normal) < 0
         return np.where(inside, -near.distance, near.distance)
 
-    def before_face(self, points: NDArray[np.floating]) -> NDArray[np.bool_]:
-        """(N,) which of the `points` (N, 3) have the face's skin nearest."""
-        return self.face[self.nearest(points)]
-
     def beside_head(self, points: NDArray[np.floating]) -> NDArray[np.bool_]:
         """(N,) which of the `points` (N, 3) have the head's skin nearest."""
         return self.head[self.nearest(points)]
-
-    def beside_own(self, points: NDArray[np.floating]) -> NDArray[np.bool_]:
-        """(N,) which of the `points` (N, 3) have skin nearest on which nothing is worn."""
-        return self.own[self.nearest(points)]
 
     def nearest(self, points: NDArray[np.floating]) -> NDArray[np.intp]:
         """(N,) which vertex of the skin is nearest to each of the `points` (N, 3)."""

@@ -88,13 +88,13 @@ def standing_volume(body: BodySurface, silhouettes: Silhouettes) -> StandingVolu
     near[near] = silhouettes.depths(middles, body.beside_head(middles)) > -reach
     cells = np.argwhere(np.kron(near, np.ones((COARSE_STEP,) * 3, np.bool_)))
     places = origin + spacing * cells
-    of_head = body.beside_head(places)
-    inside = silhouettes.depths(places, of_head) > 0
-    cells, places, of_head = cells[inside], places[inside], of_head[inside]
+    nearest = body.nearest(places)
+    inside = silhouettes.depths(places, body.head[nearest]) > 0
+    cells, places, nearest = cells[inside], places[inside], nearest[inside]
     occupied, stands = np.zeros(shape, np.bool_), np.zeros(shape, np.bool_)
     occupied[tuple(cells.T)] = True
-    asked = _stand_off(places, body)
-    depths, views = silhouettes.depths_beside(places[asked], of_head[asked])
+    asked = _stand_off(places, body, nearest)
+    depths, views = silhouettes.depths_beside(places[asked], body.head[nearest[asked]])
     stands[tuple(cells[asked][(depths > 0) & (views >= MIN_BESIDE_VIEWS)].T)] = True
     own = np.argwhere(stands)
     piece = ndimage.label(stands)[0][stands]
@@ -114,8 +114,9 @@ def points_standing_off(
         return points[:0]
     tree = cKDTree(np.concatenate([piece.places for piece in pieces]))
     away = np.asarray(tree.query(points, distance_upper_bound=COVER_REACH_METRES)[0])
-    near = (away < POINT_REACH_METRES) & _stand_off(points, body)
-    under = np.any([piece.covered for piece in pieces], axis=0)[body.nearest(points)]
+    nearest = body.nearest(points)
+    near = (away < POINT_REACH_METRES) & _stand_off(points, body, nearest)
+    under = np.any([piece.covered for piece in pieces], axis=0)[nearest]
     under &= np.isfinite(away) & (body.distances(points) > COVER_DEPTH_METRES)
     return points[near | under]
 
@@ -129,10 +130,10 @@ def _covered(places: NDArray[np.float64], body: BodySurface) -> NDArray[np.bool_
     return np.asarray(part != np.bincount(part).argmax())
 
 
-def _stand_off(points: NDArray[np.floating], body: BodySurface) -> NDArray[np.bool_]:
-    """(N,) which `points` (N, 3) are so far from the skin that they can be of something else."""
-    least = np.where(body.before_face(points), MIN_FACE_DISTANCE_METRES, MIN_STANDING_OFF_METRES)
-    return (body.distances(points) > least) & ~body.beside_own(points)
+def _stand_off(points: NDArray[np.floating], body: BodySurface, nearest: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """(N,) which `points` (N, 3) are so far from the skin that they can be of something else. `nearest` (N,): its vertex at each."""
+    least = np.where(body.face[nearest], MIN_FACE_DISTANCE_METRES, MIN_STANDING_OFF_METRES)
+    return (body.distances(points) > least) & ~body.own[nearest]
 
 
 def _about(vertices: NDArray[np.float64], origin: NDArray[np.float64], shape: NDArray[np.integer]) -> NDArray[np.bool_]:
