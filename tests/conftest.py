@@ -46,9 +46,9 @@ def pytest_collection() -> Generator[None, object, object]:
         return (yield)
 
 
-@pytest.fixture(scope="module", autouse=True)
+@pytest.fixture(scope="session", autouse=True)
 def networks() -> Iterator[None]:
-    """A file's tests load each network once."""
+    """Each network is loaded once."""
     from engine.perception.solutions import kept_networks  # not for who looks at no picture
 
     with kept_networks():

@@ -19,6 +19,7 @@ from benchmarks.known_truth.known_places import places
 from engine.body.shape import Phenotype
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
+from engine.character.fit.template_fit import FittedBody
 from engine.character.options import CharacterOptions, LabelStroke
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS, BODY_PARTS
@@ -199,13 +200,14 @@ def test_a_hidden_hand_comes_out_and_the_cloth_stays(media: Callable[[str], Path
     to_grid = silhouette.to_grid
     place = np.linalg.solve(to_grid[:, :2], np.array([x, y]) - to_grid[:, 2]) / figure.scale
     stroke = LabelStroke(path=((float(place[0]), float(place[1])),), radius=0.05 * figure.rgb.shape[0], part="left_arm")
-    painted = labelled(figure, silhouette, (stroke,))
+    painted = labelled(figure, silhouette, person.fitted, (stroke,))
     assert painted.labels[round(y), round(x)] == LEFT
     assert (painted.hidden >= 0).sum() < 0.1 * (hidden >= 0).sum()
 
 
-def labelled(figure: Figure, silhouette: Silhouette, strokes: tuple[LabelStroke, ...] = ()) -> Labels:
-    fitted = fit_template(figure, silhouette)
+def labelled(
+    figure: Figure, silhouette: Silhouette, fitted: FittedBody, strokes: tuple[LabelStroke, ...] = ()
+) -> Labels:
     return label(figure, silhouette, fitted, None, strokes, Limits(), lambda code, message: None)
 
 
@@ -214,7 +216,7 @@ def test_hands_that_are_seen_are_not_made_up(media: Callable[[str], Path]) -> No
     with Run() as run:
         figures = find_figures(media("fullbody/iper_apose_1.jpg"), options, run)
         (figure,), (silhouette,) = cut_all_out(figures, None, options, run)
-    assert (labelled(figure, silhouette).hidden == -1).all()
+    assert (labelled(figure, silhouette, fit_template(figure, silhouette)).hidden == -1).all()
 
 
 IN_TROUSERS: Turns = {
