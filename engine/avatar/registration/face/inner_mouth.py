@@ -24,22 +24,36 @@ CLAMPING_ROUNDS = 3
 def inner_skin(skin: Skin, before: NDArray[np.floating], after: NDArray[np.floating]) -> NDArray[np.float64]:
     """The skin `after` (S, 3) the fit, with what is not seen of it set anew, from where it was `before` (S, 3).
 
-    It is bound to the visible skin above it, and otherwise moves as smoothly as its rim asks for. None of it is outside.
+    It is bound to the visible skin above it, a lip's to that of the same lip, and otherwise moves as smoothly as its rim asks for. None
+    of it is outside, and none of a lip's in the other lip, where it hung below the lip as the mouth opens.
     """
     inner = skin.regions["inner"]
     was, now = np.asarray(before, np.float64), np.asarray(after, np.float64)
-    hull = skin.triangles[skin.visible]
-    nearest = closest_points(was[inner], was, hull)
-    moved = now - was
-    moved[inner] = nearest.beneath(nearest.distance, now, hull) - nearest.beneath(nearest.distance, was, hull)
-    pull = np.zeros(len(inner))
-    pull[inner] = np.exp(-((nearest.distance / LINING_DEPTH_METRES) ** 2))
+    linings = _linings(skin)
+    moved, away = now - was, np.full(len(was), np.inf)
+    for own, hull in linings:
+        nearest = closest_points(was[own], was, hull)
+        moved[own] = nearest.beneath(nearest.distance, now, hull) - nearest.beneath(nearest.distance, was, hull)
+        away[own] = nearest.distance
+    pull = np.where(inner, np.exp(-((away / LINING_DEPTH_METRES) ** 2)), 0)
     out = was + smooth_field(skin.triangles, inner, moved, pull)
     out[~inner] = now[~inner]
-    least = np.minimum(MIN_SKIN_DEPTH_METRES, MIN_TEMPLATE_DEPTH_SHARE * nearest.distance)
+    least = np.minimum(MIN_SKIN_DEPTH_METRES, MIN_TEMPLATE_DEPTH_SHARE * away)
     for _ in range(CLAMPING_ROUNDS):
-        out[inner] = brought_inside(out[inner], out, hull, least)
+        for own, hull in linings:
+            out[own] = brought_inside(out[own], out, hull, least[own])
     return out
+
+
+def _linings(skin: Skin) -> list[tuple[NDArray[np.intp], NDArray[np.int32]]]:
+    """What is not seen, by what it is below: the numbers of vertices, and the visible triangles above. Of a lip's those of the
+    other lip are none."""
+    inner, hull = skin.regions["inner"], skin.triangles[skin.visible]
+    upper, lower = skin.regions["upper_lip"], skin.regions["lower_lip"]
+    parts = [(inner & ~upper & ~lower, hull)]
+    for own, other in ((upper, lower), (lower, upper)):
+        parts.append((inner & own, hull[~other[hull].all(1)]))
+    return [(np.flatnonzero(part), above) for part, above in parts]
 
 
 def brought_inside(

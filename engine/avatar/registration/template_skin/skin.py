@@ -15,6 +15,7 @@ from engine.avatar.mouth_chart import mouth_faces
 from engine.avatar.registration.template_skin.face_landmarks import landmark_vertices
 from engine.avatar.registration.template_skin.lid_rims import lid_rim
 from engine.avatar.registration.template_skin.lip_contact import lip_contact
+from engine.avatar.registration.template_skin.lip_sides import lip_sides
 from engine.body.body_space import BodySpace
 from engine.body.cache import cached_arrays
 from engine.body.rig import Rig
@@ -57,8 +58,8 @@ class Skin:
     triangles : (T, 3) into them, counter-clockwise from outside.
     visible : (T,) seen from outside; the mouth's inside and the eyes' sockets are not.
     bones, weights : (S, K) the joints that move each, and by how much, summing to one.
-    regions : masks (S,) by name: `head`, `face`, `lips` (with the skin around), `lids`, `hands`, `whole_hands` (those
-        that no forearm moves), `feet`, `lower_feet` (what a shoe covers at least), `inner` (part of no visible
+    regions : masks (S,) by name: `head`, `face`, `lips` (with the skin around), `upper_lip` and `lower_lip` (outside and
+        within: `engine.avatar.registration.template_skin.lip_sides`), `lids`, `hands`, `whole_hands` (those that no forearm moves), `feet`, `lower_feet` (what a shoe covers at least), `inner` (part of no visible
         triangle), `hidden_by_cloth` (nipples, navel). `left_eye_rim` and `right_eye_rim` are where lids end before the
         eyeball (`engine.avatar.registration.template_skin.lid_rims`), `left_eye_lids` and `right_eye_lids` what is
         close to there.
@@ -110,6 +111,7 @@ def load_skin(template: Template, space: BodySpace, rig: Rig) -> Skin:
     touching = np.unique(contact.indices[contact.data == 1])
     lips = touching[~lower[touching]], touching[lower[touching]]
     points = landmark_vertices(template, space, vertices, triangles, shown, lips)
+    regions["upper_lip"], regions["lower_lip"] = lip_sides(mean, triangles, *lips)
     regions["face"] = head & (np.linalg.norm((mean - mean[points[30]]) / FACE_RADII, axis=1) < 1)
     return Skin(vertices, triangles, seen, rig.bones[vertices], rig.weights[vertices], regions, points, contact)
 

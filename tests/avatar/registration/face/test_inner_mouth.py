@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 import trimesh
 from known_person import KnownPerson
 
 from engine.avatar.registration.face.inner_mouth import brought_inside, inner_skin
 from engine.avatar.registration.models import HumanModels
+from engine.avatar.registration.template_skin.lip_contact import closed_mouth
 from engine.geometry.mesh.winding_number import winding_numbers
 
 
@@ -42,3 +44,24 @@ def test_what_is_less_deep_than_it_has_to_be_is_brought_so_deep_and_no_deeper() 
     points = np.array([[0.11, 0, 0], [0.0999, 0, 0], [0.05, 0, 0]])
     found = brought_inside(points, vertices, faces, np.full(3, 0.002))
     np.testing.assert_allclose(found, [[0.098, 0, 0], [0.098, 0, 0], [0.05, 0, 0]], atol=2e-4)
+
+
+@pytest.mark.parametrize("mouth", ["narrow", "pushed back"])
+def test_the_inside_of_a_lip_does_not_hang_past_its_edge(models: HumanModels, mouth: str) -> None:
+    """Lips touch, and what is behind the edge of one is near the other; as the mouth opens it showed as notches."""
+    skin = models.skin
+    inner, lips = skin.regions["inner"], {1: skin.regions["upper_lip"], -1: skin.regions["lower_lip"]}
+    before = models.template.vertices[skin.vertices].astype(np.float64)
+    middle = before[skin.face_points[[62, 66]]].mean(0)
+    near = np.exp(-((np.linalg.norm(before - middle, axis=1) / 0.03) ** 2))
+    after = closed_mouth(before, skin.triangles, skin.lip_contact, skin.regions["lips"] | inner)
+    if mouth == "narrow":
+        after = middle + (after - middle) * (1 - 0.3 * near[:, None])
+    else:
+        after[:, 2] -= 0.006 * near * lips[1]
+    found = inner_skin(skin, before, after)
+    for upwards, lip in lips.items():
+        edge, inside = found[lip & ~inner], found[lip & inner]
+        beside = np.abs(inside[:, None, 0] - edge[None, :, 0]) < 0.002
+        end = np.where(beside, upwards * edge[None, :, 1], np.inf).min(1)
+        assert (upwards * inside[:, 1] > end).all()
