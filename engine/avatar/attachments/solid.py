@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 from scipy.spatial import cKDTree
 
+from engine.avatar.attachments.between_grid_points import between_grid_points
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.avatar.attachments.seen_around import SeenAround
 from engine.avatar.attachments.silhouettes import Silhouettes
@@ -91,7 +92,11 @@ def solid(
     if body.beside_head(piece.places).mean() > 0.5:
         ends = np.where(of_head, ends, NAPE_REACH_METRES - cKDTree(piece.places).query(places)[0])
     sheet = np.full(len(places), np.inf)
-    sheet[~of_head] = cloth_depths(places[~of_head], _outside(piece, body, cloud))
+    outside = _outside(piece, body, cloud)
+    if len(outside) >= CLOTH_POINTS:
+        sheet[~of_head] = between_grid_points(
+            np.argwhere(grid.near)[~of_head], lambda at: cloth_depths(grid.origin + GRID_SPACING_METRES * at, outside)
+        )
     for said, blur in ((held, FREE_BLUR_GRID_POINTS), (ends, END_BLUR_GRID_POINTS), (sheet, FREE_BLUR_GRID_POINTS)):
         field = np.minimum(field, ndimage.gaussian_filter(grid.spread(said), blur))
     return iso_surface(np.minimum(field, grid.spread(off + SKIN_OVERLAP_METRES)), grid.origin, GRID_SPACING_METRES)
@@ -113,9 +118,7 @@ def _outside(piece: StandingPiece, body: BodySurface, cloud: PointCloud) -> Poin
 
 def cloth_depths(places: NDArray[np.float64], outside: PointCloud) -> NDArray[np.float64]:
     """(N,) metres by which `places` (N, 3) lie within cloth whose `outside` is known: from `CLOTH_OUTSIDE_METRES` before it to
-    `CLOTH_INSIDE_METRES` behind it, and no farther aside than `CLOTH_REACH_METRES`. +inf where fewer than `CLOTH_POINTS` tell of it."""
-    if len(outside) < CLOTH_POINTS:
-        return np.full(len(places), np.inf)
+    `CLOTH_INSIDE_METRES` behind it, and no farther aside than `CLOTH_REACH_METRES`. It has `CLOTH_POINTS` at least."""
     tree = cKDTree(outside.points)
     found = np.empty(len(places))
     for start in range(0, len(places), CLOTH_BLOCK_PLACES):

@@ -26,10 +26,6 @@ def test_cloth_goes_as_far_behind_its_outside_and_before_it_as_is_said() -> None
     np.testing.assert_allclose(found, [inside, CLOTH_INSIDE_METRES - 0.1, outside, -CLOTH_REACH_METRES], atol=1e-6)
 
 
-def test_without_an_outside_nothing_is_said() -> None:
-    assert np.isposinf(cloth_depths(np.zeros((3, 3)), wall(2))).all()
-
-
 def test_two_flaps_are_two_pieces_and_a_crumb_is_none() -> None:
     boxes = [trimesh.creation.box((width, width, 0.03)) for width in (0.1, 0.2, 0.01)]
     boxes = [box.subdivide().subdivide().subdivide() for box in boxes]
