@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.coarse import CoarseFit, fit_to_landmarks, fit_to_points
 from engine.avatar.registration.eyes.fitted_eyes import with_eyes, with_sockets
+from engine.avatar.registration.eyes.tucked_lids import with_tucked_lids
 from engine.avatar.registration.face.expressions import transferred_units
 from engine.avatar.registration.face.face_parts import head_change, place_parts
 from engine.avatar.registration.face.facial_hair import facial_hair, with_facial_hair
@@ -141,7 +142,7 @@ def _person(
     vertices = place_parts(template, skin, coarse.whole, fitted)
     head = head_change(skin, coarse.vertices, fitted)
     eyes = with_eyes(template, skin, coarse.whole, vertices, head, seen)
-    vertices = eyes.vertices
+    vertices = with_tucked_lids(template, eyes.vertices)
     vertices[skin.vertices] = inner_skin(skin, coarse.vertices, vertices[skin.vertices])
     vertices = with_sockets(template, skin, vertices)
     rotations = coarse.rotations

@@ -12,7 +12,8 @@ from engine.avatar.registration.eyes.fitted_eyes import IRIS_RADIUS_METRES
 from engine.avatar.texture.labels import UNSEEN_LABEL, FaceLabels
 from engine.avatar.texture.stitching import AVATAR_TEXTURE_SIZE_TEXELS, stitch_texture
 from engine.avatar.texture.template_surface import TemplateSurface
-from engine.avatar.texture.template_texture.placing import place_eyes, place_hands, place_lids, place_mouth
+from engine.avatar.texture.template_texture.lids import place_lids
+from engine.avatar.texture.template_texture.placing import place_eyes, place_hands, place_mouth
 from engine.avatar.texture.views import FrameView
 from engine.body.rig import Rig
 from engine.geometry.mesh.surface import triangle_areas

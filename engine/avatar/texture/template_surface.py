@@ -12,7 +12,8 @@ from scipy.spatial import cKDTree
 from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.mouth_chart import mouth_faces
-from engine.avatar.registration.template_skin.lid_rims import behind_rims, lid_rim
+from engine.avatar.registration.eyes.tucked_lids import LidColumns
+from engine.avatar.registration.template_skin.lid_rims import behind_rims, lid_rim, upper_lid_columns
 from engine.avatar.registration.template_skin.skin import EYE_PARTS
 from engine.avatar.texture.lid_folds import in_lid_fold
 from engine.avatar.texture.views import ChartedSurface
@@ -43,6 +44,7 @@ class TemplateSurface:
     rest : (V, 3) the template's vertices, in whose shape it is known where everything is.
     sockets : (T,) bool: the skin behind the lids.
     lid_rims : of each eyeball, the loop of vertices in which its lids end.
+    lid_columns : of each eyeball, columns of vertices up from the rim of its upper lid, (C, K).
     """
 
     triangles: NDArray[np.int32]
@@ -53,6 +55,7 @@ class TemplateSurface:
     rest: NDArray[np.float64]
     sockets: NDArray[np.bool_]
     lid_rims: Mapping[str, NDArray[np.intp]]
+    lid_columns: Mapping[str, NDArray[np.intp]]
 
     def fitted(self, vertices: NDArray[np.floating]) -> ChartedSurface:
         """The surface of the person whose template vertices are (V, 3), metres. Stitched from frames are all of the
@@ -71,10 +74,30 @@ class TemplateSurface:
         """Of each eyeball, (T,) the skin in the folds of its lids where the template's vertices are (V, 3)."""
         places = np.asarray(vertices, np.float64)
         skin = self.of("body") & ~self.mouth & ~self.sockets
-        return {
-            part: skin & in_lid_fold(places, self.triangles, rim, np.unique(self.triangles[self.of(part)]))
-            for part, rim in self.lid_rims.items()
-        }
+        found = {}
+        for part, rim in self.lid_rims.items():
+            folded = in_lid_fold(places, self.triangles, rim, np.unique(self.triangles[self.of(part)]))
+            found[part] = skin & (folded | self.tucked(part, places)[0])
+        return found
+
+    def tucked(self, part: str, vertices: NDArray[np.floating]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """(T,) and (T,) the skin of the upper lid about an eyeball that lies tucked at its rim where the template's vertices are (V, 3),
+        and what of it is partly in the tuck."""
+        columns = self.lid_columns[part]
+        within, known = np.zeros(len(vertices), np.bool_), np.zeros(len(vertices), np.bool_)
+        within[columns] = LidColumns.of(vertices[columns], vertices[self.lid_rims[part]]).in_tuck()
+        known[columns] = True
+        whole = np.asarray(within[self.triangles].all(1))
+        return whole, np.asarray(within[self.triangles].any(1) & known[self.triangles].all(1) & ~whole)
+
+    def lid_skin(self, part: str, vertices: NDArray[np.floating]) -> NDArray[np.float64]:
+        """(V, 2) of the template's `vertices` (V, 3), metres: widths of the eye along the skin from the rim of the upper lid about an
+        eyeball, as it is with lids tucked and untucked; 0 where they are of no column."""
+        columns = self.lid_columns[part]
+        found = LidColumns.of(vertices[columns], vertices[self.lid_rims[part]])
+        out = np.zeros((len(vertices), 2))
+        out[columns] = np.stack([found.lengths, found.untucked()], 2)
+        return out
 
     def _under_hands(self, vertices: NDArray[np.float64]) -> NDArray[np.bool_]:
         """(T,) what is close to a hand in the pose of the vertices (V, 3), and not by growth: frames show the hand there, too, as it
@@ -105,6 +128,7 @@ class TemplateSurface:
             rest=np.concatenate([self.rest, worn.vertices]),
             sockets=np.concatenate([self.sockets, none]),
             lid_rims=self.lid_rims,
+            lid_columns=self.lid_columns,
         )
 
     def of(self, *parts: str) -> NDArray[np.bool_]:
@@ -129,7 +153,8 @@ def template_surface(template: Template, rig: Rig) -> TemplateSurface:
     rims = {name: lid_rim(template, name) for name in EYE_PARTS}
     sockets = np.zeros(len(triangles), np.bool_)
     sockets[body] = behind_rims(triangles[body], rims.values())
-    return TemplateSurface(triangles, atlas, part, np.tile(mouth, 2), hands, rest, sockets, rims)
+    columns = {name: upper_lid_columns(template, name) for name in EYE_PARTS}
+    return TemplateSurface(triangles, atlas, part, np.tile(mouth, 2), hands, rest, sockets, rims, columns)
 
 
 def _charts(atlas: TextureAtlas, inside: NDArray[np.bool_], among: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from engine.avatar.mesh import AVATAR_PARTS
+from engine.avatar.registration.eyes.tucked_lids import with_tucked_lids
 from engine.avatar.texture.template_surface import TemplateSurface, template_surface
 from engine.avatar.texture.template_texture.eyes import Eyeballs, painted_eyes, persons_eyes
 from engine.avatar.texture.template_texture.hands import hand_bones, painted_hand, past_wrist
+from engine.avatar.texture.template_texture.lids import OWN_LID_EYE_WIDTHS, place_lids
 from engine.avatar.texture.template_texture.mouth import (
     LINING_IN_MOUTH_RGB,
     MIN_MOUTH_LIGHT_SHARE,
@@ -20,7 +21,6 @@ from engine.avatar.texture.template_texture.mouth import (
     painted_tongue,
 )
 from engine.avatar.texture.template_texture.part_texels import PartTexels
-from engine.avatar.texture.template_texture.placing import place_lids
 from engine.body.rig import HUMAN_RIG, Rig
 from engine.body.template import load_rig, load_template
 from engine.performances.modelling.eyes import EYEBALL_RADIUS_METRES
@@ -99,22 +99,31 @@ def test_of_a_lower_lid_what_looks_ahead_is_in_no_fold(surface: TemplateSurface)
         assert lower.any() and (normals[lower] @ ahead / np.linalg.norm(ahead)).max() < 0.5
 
 
-def test_a_shut_lid_s_skin_goes_over_to_what_frames_show_beside_it(surface: TemplateSurface) -> None:
-    folds = surface.lid_folds(surface.rest)
+def test_the_skin_of_an_upper_lid_is_like_that_below_the_eye_and_goes_over_to_what_frames_show_above(
+    surface: TemplateSurface,
+) -> None:
+    vertices = with_tucked_lids(load_template(), surface.rest)
+    folds = surface.lid_folds(vertices)
     raster = texel_raster(surface.atlas, 2048)
     light, dark = np.array([180, 130, 110]), np.array([90, 65, 55])
     texture = np.full((2048, 2048, 3), light, np.uint8)
-    eye = surface.rest[surface.lid_rims["left_eye"]]
+    eye = vertices[surface.lid_rims["left_eye"]]
     shown = PartTexels.of(raster, surface.of("body") & ~surface.sockets & ~np.any(list(folds.values()), axis=0))
-    places = shown.blend(surface.rest, surface.triangles)
-    texture.reshape(-1, 3)[shown.texels[places[:, 1] > eye[:, 1].mean()]] = dark
-    place_lids(texture, surface, surface.rest, raster)
-    lids = PartTexels.of(raster, folds["left_eye"])
-    distance, nearest = cKDTree(places).query(lids.blend(surface.rest, surface.triangles))
-    brightness = texture.reshape(-1, 3)[lids.texels].mean(1)
-    beside = (distance < 0.0005) & (places[nearest, 1] > eye[:, 1].mean() + 0.002)
-    assert beside.sum() > 20
-    assert brightness[beside].mean() == pytest.approx(dark.mean(), abs=0.3 * (light - dark).mean())
+    places = shown.blend(vertices, surface.triangles)
+    first, last = eye[eye[:, 0].argmin()], eye[eye[:, 0].argmax()]
+    above = places[:, 1] > np.interp(places[:, 0], [first[0], last[0]], [first[1], last[1]])
+    texture.reshape(-1, 3)[shown.texels[above]] = dark
+    place_lids(texture, surface, vertices, raster)
+    whole = surface.tucked("left_eye", vertices)[0]
+    assert (folds["left_eye"] | ~whole).all()
+    lids = PartTexels.of(raster, whole)
+    up = lids.blend(surface.lid_skin("left_eye", vertices), surface.triangles)[:, 1]
+    colours = texture.reshape(-1, 3)[lids.texels]
+    assert (up > OWN_LID_EYE_WIDTHS[1]).sum() > 3
+    np.testing.assert_allclose(colours[up > OWN_LID_EYE_WIDTHS[1]].mean(0), dark, rtol=0.1)
+    own = (up > 0.7 * OWN_LID_EYE_WIDTHS[0]) & (up < OWN_LID_EYE_WIDTHS[0])  # beyond most of the lashes' shade
+    assert own.sum() > 20
+    np.testing.assert_allclose(colours[own].mean(0), light, rtol=0.2)
 
 
 def test_what_a_hand_lies_on_is_not_taken_from_frames(surface: TemplateSurface) -> None:

@@ -7,7 +7,9 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from engine.avatar.registration.eyes.blinking import EYE_OF_BLINK_UNIT, before_the_eye, meeting_rims
+from engine.avatar.registration.eyes.tucked_lids import LidColumns
 from engine.avatar.registration.face.face_parts import head_change
+from engine.avatar.registration.template_skin.lid_rims import upper_lid_columns
 from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import FACE_UNITS, Template
 from engine.geometry.deformation.deformation_transfer import DeformationTransfer
@@ -79,8 +81,14 @@ def _blink(template: Template, skin: Skin, rest: NDArray[np.float64], name: str,
     away, near = np.asarray(found[0]), np.asarray(found[1])
     shares = 1 / np.maximum(away, 1e-6) ** 2
     shares /= shares.sum(1, keepdims=True)
-    unfolded = np.clip((STIFF_LID_EYE_WIDTHS - away[:, 0] / width) / (STIFF_LID_EYE_WIDTHS - TARSUS_EYE_WIDTHS), 0, 1)
-    along = np.einsum("sk,skc->sc", shares, moved[loop[near]]) * (unfolded**2 * (3 - 2 * unfolded))[:, None]
+    along = np.einsum("sk,skc->sc", shares, moved[loop[near]])
+    lengths = away[:, 0] / width
+    columns = upper_lid_columns(template, EYE_OF_BLINK_UNIT[name])
+    upper = skin.index_of(columns)
+    lengths[upper] = LidColumns.of(rest[columns], own[loop]).untucked()
+    along[upper] = moved[upper[:, :1]]
+    unfolded = np.clip((STIFF_LID_EYE_WIDTHS - lengths) / (STIFF_LID_EYE_WIDTHS - TARSUS_EYE_WIDTHS), 0, 1)
+    along *= (unfolded**2 * (3 - 2 * unfolded))[:, None]
     lids = (unfolded > 0) & ~skin.regions["inner"]
     along[told] = moved[told]
     along[lids] = before_the_eye(eyeball, own[lids], along[lids])

@@ -12,11 +12,16 @@ from scipy.sparse.csgraph import connected_components
 
 from engine.body.template import Template
 from engine.geometry.mesh.adjacency import edge_table
+from engine.geometry.mesh.surface import triangulate
 
 UPPER_LID_MIN_HEIGHT_RADII = 0.25
 """Radii of the eyeball above its middle beyond which what is near to it is of the upper lid."""
 LID_RIM_RADII = 1.02, 1.08
 """Radii of the eyeball about its middle between which a lid's rim lies."""
+REACH_RADII = 2.5
+"""Radii of the eyeball about its middle within which edges of skin are looked at."""
+LID_COLUMN_VERTICES = 12
+"""Vertices of a column of an upper lid, from its rim to above the brow."""
 
 
 def lid_rim(template: Template, part: str) -> NDArray[np.intp]:
@@ -28,8 +33,8 @@ def lid_rim(template: Template, part: str) -> NDArray[np.intp]:
     eyeball = template.vertices[template.vertices_of(part)].astype(np.float64)
     middle = (eyeball.max(0) + eyeball.min(0)) / 2
     radius = float(np.linalg.norm(eyeball - middle, axis=1).mean())
-    quads = template.quads[template.faces("body")]
-    skin = np.unique(quads)
+    edges = _Edges.about(template, part)
+    skin = np.unique(template.quads[template.faces("body")])
     away = (template.vertices[skin] - middle) / radius
     reach = np.linalg.norm(away, axis=1)
     above = (
@@ -41,11 +46,33 @@ def lid_rim(template: Template, part: str) -> NDArray[np.intp]:
     if not above.any():
         raise ValueError(f"no lid lies about {part}")
     first = int(skin[above][np.argmax(away[above, 2])])
-    edges = _Edges(quads, np.linalg.norm(template.vertices - middle, axis=1) < 2 * radius)
     loops = [found for beside in edges.beside[first] if (found := edges.loop(first, beside)) is not None]
     if not loops:
         raise ValueError(f"no loop of edges lies about {part}")
     return np.array(min(loops, key=lambda loop: float(np.ptp(template.vertices[loop], axis=0)[2])), np.intp)
+
+
+def upper_lid_columns(template: Template, part: str) -> NDArray[np.intp]:
+    """(C, `LID_COLUMN_VERTICES`) the template's vertices up from each of the rim of the upper lid about an eyeball `part`, but for its
+    corners: along edges that cross no quad.
+
+    Raises ValueError where the template has no such columns.
+    """
+    rim = lid_rim(template, part)
+    body = triangulate(template.quads[template.faces("body")])
+    socket = np.unique(body[behind_rims(body, [rim])])
+    edges = _Edges.about(template, part)
+    across, height = template.vertices[rim, 0], template.vertices[rim, 1]
+    ends = np.argsort(across)[[0, -1]]
+    upper = height > np.interp(across, across[ends], height[ends])
+    found = []
+    for first in rim[upper].tolist():
+        outwards = edges.beside[first].difference(rim.tolist(), socket.tolist())
+        column = edges.straight(first, min(outwards), LID_COLUMN_VERTICES) if len(outwards) == 1 else None
+        if column is None:
+            raise ValueError(f"no columns of edges go up from {part}")
+        found.append(column)
+    return np.array(found, np.intp)
 
 
 def behind_rims(triangles: NDArray[np.integer], rims: Collection[NDArray[np.integer]]) -> NDArray[np.bool_]:
@@ -71,6 +98,25 @@ class _Edges:
                 self.beside[one].add(other)
                 self.beside[other].add(one)
                 self._quads[frozenset((one, other))].add(number)
+
+    @classmethod
+    def about(cls, template: Template, part: str) -> _Edges:
+        """Those of the skin about an eyeball."""
+        eyeball = template.vertices[template.vertices_of(part)].astype(np.float64)
+        middle = (eyeball.max(0) + eyeball.min(0)) / 2
+        reach = REACH_RADII * float(np.linalg.norm(eyeball - middle, axis=1).mean())
+        near = np.linalg.norm(template.vertices - middle, axis=1) < reach
+        return cls(template.quads[template.faces("body")], near)
+
+    def straight(self, first: int, second: int, count: int) -> list[int] | None:
+        """`count` vertices of the line that begins with an edge; None where it ends before."""
+        found = [first, second]
+        while len(found) < count:
+            ahead = self._straight_on(found[-2], found[-1])
+            if ahead is None:
+                return None
+            found.append(ahead)
+        return found
 
     def loop(self, first: int, second: int) -> list[int] | None:
         """The vertices of the loop that begins with an edge; None where it does not close."""

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from engine.avatar.registration.eyes.eyeballs import sphere
 from engine.avatar.registration.template_skin.skin import EYE_PARTS
@@ -28,17 +27,6 @@ from engine.render.rasterisation.rasteriser import Raster
 
 SOCKET_LIGHT_SHARE = 0.35
 """Of the light on an eyeball, what its socket has where it shows between this and the lids."""
-LOWER_LID_SKIN_EYE_WIDTHS = 0.5
-"""Widths of an eye from the rim of its lower lid within which the skin below has the lids' colour, in the median."""
-UPPER_LID_SKIN_EYE_WIDTHS = 0.2
-"""Widths of an eye from the rim of its upper lid to where shut lids have the colour of the skin above, which is in the shade of the brow."""
-SHUT_LASH_SHADE_SHARE, SHUT_LASH_WIDTH_METRES = 0.5, 0.0007
-"""Of the light, what lashes take along a shut lid's rim, and metres over which that fades."""
-LID_BORDER_METRES, LID_BORDER_TEXELS = 0.002, 12
-"""Metres over which a shut lid's painted skin goes over to what frames show beside it, and texels there that are asked for their
-mean."""
-LASH_RIM_STEPS = 8
-"""Places between two vertices of a rim from which it is measured."""
 WRIST_LENGTH_METRES, CUFF_LENGTH_METRES = 0.03, 0.004
 """Metres past the wrist over which what the arm's colours are filled with becomes the hand's: along bare skin, and where a sleeve ends."""
 SLEEVE_WINDOW_METRES = (-0.025, 0.0)
@@ -95,41 +83,6 @@ def place_eyes(
     dark = SOCKET_LIGHT_SHARE * np.median(colours[eyes.off_axis > IRIS_RADIUS], axis=0)
     socket.put(texture, np.broadcast_to(dark, (len(socket.texels), 3)))
     return bool(len(iris) and len(white))
-
-
-def place_lids(
-    texture: NDArray[np.uint8], surface: TemplateSurface, vertices: NDArray[np.floating], raster: Raster
-) -> None:
-    """Paint what lies in the lids' folds of the person whose template vertices are (V, 3) like the skin below the eyes, with lashes along
-    the rim, into a `texture` (S, S, 3), in place."""
-    places = np.asarray(vertices, np.float64)
-    flat = texture.reshape(-1, 3)
-    folds = surface.lid_folds(places)
-    skin = surface.of("body") & ~surface.sockets & ~surface.mouth & ~np.any(list(folds.values()), axis=0)
-    for part, folded in folds.items():
-        rim = places[surface.lid_rims[part]]
-        loop = cKDTree(
-            np.concatenate([rim + k / LASH_RIM_STEPS * (np.roll(rim, -1, 0) - rim) for k in range(LASH_RIM_STEPS)])
-        )
-        width = float(np.ptp(rim, axis=0).max())
-        middles = places[surface.triangles].mean(1)
-        near = np.isfinite(loop.query(middles, distance_upper_bound=LOWER_LID_SKIN_EYE_WIDTHS * width)[0])
-        about = PartTexels.of(raster, skin & near & (middles[:, 1] < rim[:, 1].mean()))
-        beside, lids = PartTexels.of(raster, skin & near), PartTexels.of(raster, folded)
-        if not len(about.texels) or not len(lids.texels):
-            continue
-        tone = np.median(flat[about.texels], axis=0)
-        on_lids = lids.blend(places, surface.triangles)
-        away = loop.query(on_lids)[0]
-        share = np.clip(away / (UPPER_LID_SKIN_EYE_WIDTHS * width), 0, 1)[:, None]
-        skin_light = (1 - SHUT_LASH_SHADE_SHARE * np.exp(-away / SHUT_LASH_WIDTH_METRES))[:, None]
-        painted = skin_light * (tone + share * (flat[lids.texels] - tone))
-        distance, which = cKDTree(beside.blend(places, surface.triangles)).query(
-            on_lids, min(LID_BORDER_TEXELS, len(beside.texels))
-        )
-        distance, which = (np.reshape(one, (len(on_lids), -1)) for one in (distance, which))
-        seen = flat[beside.texels][which].mean(1)
-        lids.put(texture, painted + np.exp(-distance[:, :1] / LID_BORDER_METRES) * (seen - painted))
 
 
 def place_hands(
