@@ -136,7 +136,12 @@ def _around(own: NDArray[np.floating]) -> tuple[_Grid, NDArray[np.float64], NDAr
     reach = SOLID_REACH_METRES + GRID_SPACING_METRES
     origin = own.min(0) - reach
     shape = np.ceil((own.max(0) + reach - origin) / GRID_SPACING_METRES).astype(int) + 1
-    places = origin + GRID_SPACING_METRES * np.moveaxis(np.indices(shape), 0, -1)
-    away = np.asarray(cKDTree(own).query(places.reshape(-1, 3), distance_upper_bound=reach)[0])
-    near = np.isfinite(away)
-    return _Grid(origin, near.reshape(tuple(shape))), places.reshape(-1, 3)[near], away[near]
+    empty = np.ones(shape, np.bool_)
+    empty[tuple(np.rint((own - origin) / GRID_SPACING_METRES).astype(int).T)] = False
+    off_grid = np.sqrt(3) / 2  # grid points, at most, from a place to the nearest of the grid
+    near = np.asarray(ndimage.distance_transform_edt(empty) <= reach / GRID_SPACING_METRES + off_grid)
+    places = origin + GRID_SPACING_METRES * np.argwhere(near)
+    away = np.asarray(cKDTree(own).query(places, distance_upper_bound=reach)[0])
+    within = np.isfinite(away)
+    near[near] = within
+    return _Grid(origin, near), places[within], away[within]
