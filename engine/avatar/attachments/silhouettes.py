@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.geometry.camera import Camera
 from engine.geometry.multiview.silhouette_depth import Beside, silhouette_depths
-from engine.render.rasterisation.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import triangle_map
 
 MAX_WRONG_SILHOUETTES_SHARE = 0.12
 """Share of the silhouettes that may leave out what is there: masks miss a hat or its rim in some. With 0.15 a hat and hair came out 6 mm
@@ -68,7 +68,7 @@ def silhouettes_beside(
 ) -> Silhouettes:
     """The silhouettes of views, the last `near` of which are of the clip of the head, with that of the body in each."""
     bare = [
-        rasterise(camera.project(body.vertices), body.triangles, camera.size, perspective=True).triangle >= 0
+        triangle_map(camera.project(body.vertices), body.triangles, camera.size, perspective=True) >= 0
         for camera in cameras
     ]
     return Silhouettes(masks, cameras, bare, near)

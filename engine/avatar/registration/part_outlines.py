@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
-from engine.render.rasterisation.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import barycentrics_at, triangle_map
 from engine.render.textures.sampling import bilinear
 
 OUTLINE_REACH_METRES = 0.12
@@ -91,7 +91,7 @@ def part_sights(
         if not mask.any():
             continue
         outside = pixel * np.where(mask, 1 - distance_inside(mask), distance_to(mask))
-        rest = rasterise(camera.project(body), triangles, camera.size, perspective=True).triangle >= 0
+        rest = triangle_map(camera.project(body), triangles, camera.size, perspective=True) >= 0
         found.append(PartSight(camera, outside[..., None].astype(np.float32), dilate_mask(rest, BODY_COVER_PIXELS)))
     return found
 
@@ -101,9 +101,11 @@ def outline_points(
 ) -> OutlinePoints:
     """A part's points on its outline in a sight, where that ends neither at the rest of the body nor at the picture's
     border. The part has `vertices` (F, 3) where it is and `rest` (F, 3) at rest."""
-    raster = rasterise(sight.camera.project(vertices), triangles, sight.camera.size, perspective=True)
-    shown = raster.triangle >= 0
+    seen = sight.camera.project(vertices)
+    triangle = triangle_map(seen, triangles, sight.camera.size, perspective=True)
+    shown = triangle >= 0
     rim = shown & dilate_mask(~shown, 1) & ~sight.beside
     rim[[0, -1]] = rim[:, [0, -1]] = False
-    corners = rest[triangles[raster.triangle[rim]]]
-    return OutlinePoints(sight, np.einsum("mk,mkc->mc", raster.barycentrics[rim].astype(np.float64), corners))
+    corners = triangles[triangle[rim]]
+    shares = barycentrics_at(seen, corners, np.argwhere(rim), perspective=True).astype(np.float64)
+    return OutlinePoints(sight, np.einsum("mk,mkc->mc", shares, rest[corners]))

@@ -5,7 +5,14 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
-from engine.render.rasterisation.rasteriser import MAX_COORDINATE_PIXELS, SUBPIXEL_STEPS, depth_map, rasterise
+from engine.render.rasterisation.rasteriser import (
+    MAX_COORDINATE_PIXELS,
+    SUBPIXEL_STEPS,
+    barycentrics_at,
+    depth_map,
+    rasterise,
+    triangle_map,
+)
 
 
 def reference(vertices: NDArray, triangles: NDArray, size: tuple[int, int], cull: bool = False):
@@ -122,3 +129,14 @@ def test_the_nearer_triangle_hides_the_other_whatever_their_order() -> None:
 def test_depth_map_is_the_rasters_depth() -> None:
     vertices, triangles = soup(np.random.default_rng(3), 30, (33, 47))
     assert (depth_map(vertices, triangles, (33, 47)) == rasterise(vertices, triangles, (33, 47)).depth).all()
+
+
+@pytest.mark.parametrize("perspective", [False, True])
+def test_triangles_alone_and_barycentrics_at_some_pixels_are_the_rasters(perspective: bool) -> None:
+    vertices, triangles = soup(np.random.default_rng(4), 30, (33, 47))
+    raster = rasterise(vertices, triangles, (33, 47), perspective)
+    found = triangle_map(vertices, triangles, (33, 47), perspective)
+    assert (found == raster.triangle).all()
+    some = np.argwhere(found >= 0)[::3]
+    at = tuple(some.T)
+    assert (barycentrics_at(vertices, triangles[found[at]], some, perspective) == raster.barycentrics[at]).all()
