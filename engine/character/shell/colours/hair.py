@@ -7,12 +7,14 @@ what a picture shows of the front, laid behind, is a second face of hair.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import median_filter
 
 from engine.character.shell.colours.head_map import HeadMap
+from engine.character.shell.colours.seam_path import cheapest_path, sides_cost
 from engine.character.shell.colours.unrolled import ROW_METRES, UNROLLED_COLUMNS
 from engine.imaging.filling.nearest import nearest_in
 
@@ -30,10 +32,15 @@ LONG_HAIR_EDGE_RADIANS = 1.3
 """Radians from the face's middle beyond which hair that falls over the ears is, at most."""
 MIN_EDGE_RADIANS = 0.45
 """Radians from the face's middle from which on a hairline is looked for."""
-EDGE_CELLS = 6
-"""Cells at the end of what is seen of a row that must be hair for it to go on from there."""
-HAIRLINE_MEDIAN_ROWS, HAIRLINE_SMOOTHING_ROWS = 9, 3.0
-"""Rows over which what is seen of a hairline is the median, and averaged."""
+TOLD_COSINES = (0.3, 0.75)
+"""Cosines to the viewer from which on what is seen tells where hair begins, and from which on it does so wholly."""
+USUAL_HAIRLINE_WEIGHT, UNSEEN_HAIRLINE_WEIGHT = 0.04, 0.3
+"""How much a cell of the way to where hair begins on heads counts beside one that is well seen and on the wrong side: above the ears, and below
+them, where nothing tells."""
+NO_HAIRLINE_COST = 10.0
+"""What a cell costs in the middle of the face that would be behind the hairline."""
+HAIRLINE_STEP_CELLS, HAIRLINE_STEP_COST, HAIRLINE_SMOOTHING_ROWS = 6, 0.25, 3.0
+"""Cells by which a hairline moves at most from row to row, what each costs, and rows over which it is averaged."""
 FULL_HAIR_CROWN_SHARE = 0.7
 """Share of the way from the hairline to the crown above which hair is all round."""
 UNEVENNESS_RADIANS, UNEVENNESS_ROWS = 0.04, 0.8
@@ -50,15 +57,28 @@ MIN_STRAND_CELLS = 50
 """Cells of hair that tell how strong strands are."""
 
 
+@dataclass(frozen=True)
+class HeadSeen:
+    """What is seen of a head, (A, `UNROLLED_COLUMNS`) each.
+
+    known : bool, all of it.
+    hair : bool, what of it is hair.
+    facing : float32, cosine to the viewer.
+    """
+
+    known: NDArray[np.bool_]
+    hair: NDArray[np.bool_]
+    facing: NDArray[np.float32]
+
+
 def hair_share(
-    head: HeadMap, hair: NDArray[np.bool_], known: NDArray[np.bool_], streaks: NDArray[np.float32], *, falls: bool
+    head: HeadMap, begins: NDArray[np.float32], seen: HeadSeen, streaks: NDArray[np.float32], *, falls: bool
 ) -> NDArray[np.bool_]:
-    """The cells (A, `UNROLLED_COLUMNS`) of hair, from those that are `known` and those that are seen to be (A, `UNROLLED_COLUMNS` each). `streaks`:
+    """The cells (A, `UNROLLED_COLUMNS`) of hair, which `begins` at so many radians (A, `UNROLLED_COLUMNS`) from the face's middle. `streaks`:
     of `strand_noise`; hair that `falls` covers ears and neck."""
-    begins = _edges(head, hair, known, falls=falls) + UNEVENNESS_RADIANS * streaks
-    covered = head.angle > begins
-    if hair.any():  # above the forehead as the nearest that is seen is
-        wide, of_hair = (np.concatenate([each, each, each], 1) for each in (known, hair))
+    covered = head.angle > begins + UNEVENNESS_RADIANS * streaks
+    if seen.hair.any():  # above the forehead as the nearest that is seen is
+        wide, of_hair = (np.concatenate([each, each, each], 1) for each in (seen.known, seen.hair))
         y, x = nearest_in(wide)
         nearest = of_hair[y, x][:, UNROLLED_COLUMNS : 2 * UNROLLED_COLUMNS]
         covered = np.where(head.above("hairline") & ~covered, nearest, covered)
@@ -69,8 +89,10 @@ def hair_share(
     return np.asarray(covered, np.bool_)
 
 
-def _edges(head: HeadMap, hair: NDArray[np.bool_], known: NDArray[np.bool_], *, falls: bool) -> NDArray[np.float32]:
-    """Radians from the face's middle (A, `UNROLLED_COLUMNS`) at which hair begins, on each side its own."""
+def hairline(head: HeadMap, seen: HeadSeen, *, falls: bool) -> NDArray[np.float32]:
+    """Radians from the face's middle (A, `UNROLLED_COLUMNS`) at which hair begins, on each side its own: a line that runs down from the
+    forehead to before the ear without a step, and has before it as little hair, and behind it as little skin, as it may. What is seen at a slant
+    counts little."""
     names = sorted(HAIR_EDGE_RADIANS, key=lambda name: head.levels[name])
     most = LONG_HAIR_EDGE_RADIANS if falls else np.inf
     usual = np.interp(
@@ -80,19 +102,19 @@ def _edges(head: HeadMap, hair: NDArray[np.bool_], known: NDArray[np.bool_], *, 
     ).astype(np.float32)
     half = UNROLLED_COLUMNS // 2
     aside = head.angle[0, half:]
+    wide = float(aside[1] - aside[0])
+    least, all_ = TOLD_COSINES
+    weight = seen.known * np.clip((seen.facing - least) / (all_ - least), 0, 1) * ~head.around_ears * head.above("ears")
+    trust = np.where(head.above("ears"), USUAL_HAIRLINE_WEIGHT, UNSEEN_HAIRLINE_WEIGHT)
+    far = trust * np.abs(aside - usual[:, None]) / wide
     found = np.empty((len(usual), 2), np.float32)
     for side, columns in enumerate((slice(half - 1, None, -1), slice(half, None))):  # from the face's middle outwards
-        seen = (known & ~head.around_ears)[:, columns] & (aside > MIN_EDGE_RADIANS)
-        skin = median_filter(seen & ~hair[:, columns], (1, 5))
-        last = np.where(seen, aside, 0).max(1)
-        bare = np.where(skin, aside, MIN_EDGE_RADIANS).max(1)
-        goes_on = last - bare > EDGE_CELLS * (aside[1] - aside[0])
-        edge = np.where(goes_on, np.minimum(bare, usual), np.maximum(usual, last))
-        told = head.above("ears")[:, 0] & (seen.sum(1) >= EDGE_CELLS)
-        found[:, side] = np.where(told, edge, usual)
-    smooth = cv2.GaussianBlur(
-        median_filter(found, (HAIRLINE_MEDIAN_ROWS, 1)), (1, 0), 1, sigmaY=HAIRLINE_SMOOTHING_ROWS
-    )
+        told, hair, bare = weight[:, columns], seen.hair[:, columns], aside < MIN_EDGE_RADIANS
+        before = told * hair * ~bare
+        behind = told * ~hair + NO_HAIRLINE_COST * bare
+        line = cheapest_path(sides_cost(before, behind, far), HAIRLINE_STEP_CELLS, HAIRLINE_STEP_COST)
+        found[:, side] = wide * line
+    smooth = cv2.GaussianBlur(found, (1, 0), 1, sigmaY=HAIRLINE_SMOOTHING_ROWS)
     return np.repeat(np.asarray(smooth, np.float32), half, 1)
 
 

@@ -13,19 +13,27 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.shell.colours.hair import hair_share, smoothed_rows, strand_levels, strand_noise
+from engine.character.shell.colours.both_halves import both_halves
+from engine.character.shell.colours.hair import (
+    HeadSeen,
+    hair_share,
+    hairline,
+    smoothed_rows,
+    strand_levels,
+    strand_noise,
+)
 from engine.character.shell.colours.head_map import HeadMap, head_map
 from engine.character.shell.colours.round import COLUMN_SINES, joined, row_middles, row_model, turned_rows
 from engine.character.shell.colours.unrolled import ROW_METRES, UNROLLED_COLUMNS
 
 MIN_WELL_SEEN_COSINE = 0.35
 """Cosine to the viewer from which on a head's colours are told by the picture: beyond, few pixels are drawn out over its side."""
-FACE_EDGE_RADIANS, CHEEK_EDGE_RADIANS = 1.0, 0.65
-"""Radians from its middle to where a face ends and temples and ears begin; and up to where there is surely no hair beside it."""
+CHEEK_EDGE_RADIANS = 0.65
+"""Radians from its middle up to where there is surely no hair beside a face."""
 BARE_SKIN_RADIANS = 0.35
 """Radians from its middle up to which a face is bare between eyes and nose, above all beards and below spectacles."""
-MIN_HALF_FACE_SHARE = 0.5
-"""Share of one half of a face, below which so little of it is seen that the other half says what it is."""
+MIN_SIDE_HAIR_RADIANS, HAIRLINE_TOLERANCE_RADIANS = 0.55, 0.03
+"""Radians from its middle from which on hair is beside a face, and radians from the hairline in which hair and skin are mixed."""
 MIN_HAIR_COLOUR_DISTANCE = 14.0
 """CIE Lab distance, lightness counting 0.7 and hues 1.5, from which hair can be told from skin."""
 MIN_NOT_SKIN_COLOUR_DISTANCE = 25.0
@@ -34,6 +42,8 @@ MAX_LIGHTER_DISTANCE = 5.0
 """By how much a colour counts as lighter than the face's skin there, at most: light may fall on skin."""
 MAX_HAIR_COLOUR_DISTANCE = 20.0
 """CIE Lab distance, weighted alike, up to which what is beside the cheeks is of the hair's own colour."""
+MIXED_CELLS = 5
+"""Cells of a square about what lies on a cheek in which its colours are mixed with skin."""
 MIN_COLOUR_CELLS = 40
 """Cells from which a colour is known."""
 LONG_HAIR_SHARE = 0.5
@@ -88,25 +98,44 @@ def head_round(
     if not source.any():
         return colours, everywhere
     head = head_map()
-    face = head.above("chin") & (head.angle < FACE_EDGE_RADIANS)
-    middle = head.between("chin", "hairline") & (head.angle < CHEEK_EDGE_RADIANS)
-    colours, known = _both_cheeks(colours, source & (facing > MIN_WELL_SEEN_COSINE), face, middle)
-    kinds = _kinds(head, colours, known)
+    known = source & (facing > MIN_WELL_SEEN_COSINE)
+    first = _kinds(head, colours, known)
+    strange = _strange(head, first, hairline(head, HeadSeen(known, first.hair, facing), falls=first.falls), facing)
     side = head.between("chin", "brow") & (head.angle > TEMPLE_RADIANS[0]) & (facing < FULLY_SEEN_COSINES[0])
-    if not kinds.falls and (known & side).any():
-        known = known & ~side
-        kinds = replace(_kinds(head, colours, known), falls=kinds.falls)
-    believed = _believed(head, facing, falls=kinds.falls)
+    halves = both_halves(head, colours, known & ~strange & ~(side & (not first.falls)), facing)
+    believed = _believed(head, halves.facing, falls=first.falls) * halves.own * (1 - _soft(strange)[..., 0])
+    colours, known, facing = halves.colours, halves.known, halves.facing
+    kinds = replace(_kinds(head, colours, known), falls=first.falls)
+    begins = hairline(head, HeadSeen(known, kinds.hair, facing), falls=kinds.falls)
     streaks = strand_noise((len(colours), UNROLLED_COLUMNS))
     skin = _skin(head, colours, kinds)
     if not kinds.hair.any():
         return np.where(known[..., None], colours, skin).astype(np.float32), believed
-    share = _soft(hair_share(head, kinds.hair, known, streaks, falls=kinds.falls))
+    share = _soft(hair_share(head, begins, HeadSeen(known, kinds.hair, facing), streaks, falls=kinds.falls))
     filled = share * _hair(colours, kinds, facing, streaks) + (1 - share) * skin
     if not kinds.falls:
         ear = _soft(head.ears)
         filled = ear * kinds.skin + (1 - ear) * filled
     return np.where(known[..., None], colours, filled).astype(np.float32), believed
+
+
+def _strange(
+    head: HeadMap, kinds: _Kinds, begins: NDArray[np.float32], facing: NDArray[np.float32]
+) -> NDArray[np.bool_]:
+    """The cells (A, `UNROLLED_COLUMNS`) beside the face, seen at a slant, that are not what is there: hair before where it `begins`, skin behind,
+    what is unknown between, and what lies on one cheek alone."""
+    aslant = (head.angle > MIN_SIDE_HAIR_RADIANS) & (facing < FULLY_SEEN_COSINES[0])
+    strange = np.zeros_like(kinds.known)
+    if not kinds.falls:
+        alone = kinds.known & ~kinds.bare & (kinds.known & kinds.bare)[:, ::-1]
+        around = cv2.dilate(alone.astype(np.uint8), np.ones((MIXED_CELLS, MIXED_CELLS), np.uint8)) > 0
+        strange |= around & head.between("chin", "brow")
+    if kinds.hair.any():
+        away = head.angle - begins
+        hair, skin = away > -HAIRLINE_TOLERANCE_RADIANS, away < HAIRLINE_TOLERANCE_RADIANS
+        as_it_is = (kinds.hair & hair) | (kinds.known & ~kinds.hair & (skin | ~kinds.bare))
+        strange |= ~as_it_is & head.between("ears", "forehead")
+    return np.asarray(strange & aslant, np.bool_)
 
 
 def _believed(head: HeadMap, facing: NDArray[np.float32], *, falls: bool) -> NDArray[np.float32]:
@@ -199,25 +228,6 @@ def _hair(
     model = row_model(seen, own * near * (CENTRE_WEIGHT + COLUMN_SINES**2)).colours
     model = smoothed_rows(model, HAIR_SMOOTHING_METRES) + strand_levels(seen, own) * streaks[..., None]
     return joined(turned_rows(model, turns), colours, kinds.known, sure.astype(np.float32))
-
-
-def _both_cheeks(
-    colours: NDArray[np.float32], known: NDArray[np.bool_], on_face: NDArray[np.bool_], middle: NDArray[np.bool_]
-) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """A face that is seen from its side has on the other what it has on this one, in its own light: where it is `on_face`
-    (A, `UNROLLED_COLUMNS`), if of its `middle` (A, `UNROLLED_COLUMNS`) one half is hardly seen."""
-    mirrored, there = colours[:, ::-1], known[:, ::-1]
-    lacks = there & ~known & on_face
-    both = there & known & on_face
-    half = np.arange(UNROLLED_COLUMNS) < UNROLLED_COLUMNS // 2
-    lacking = half if (lacks & half).sum() > (lacks & ~half).sum() else ~half
-    if not lacks.any() or known[middle & lacking].mean() > MIN_HALF_FACE_SHARE:
-        return colours, known
-    near = both & lacking
-    gain = np.ones(3, np.float32)
-    if near.sum() > MIN_COLOUR_CELLS:
-        gain = np.clip(np.median(colours[near], 0) / np.maximum(np.median(mirrored[near], 0), 4), 0.4, 2.5)
-    return np.where(lacks[..., None], mirrored * gain, colours).astype(np.float32), known | lacks
 
 
 def _soft(mask: NDArray[np.bool_]) -> NDArray[np.float32]:
