@@ -39,10 +39,11 @@ LINE_STEP_CELLS, LINE_STEP_COST = 2, 0.4
 """Cells by which the line moves at most from row to row, and what each costs."""
 BLEND_CELLS = 4.0
 """Cells on each side of the line over which one half goes over into the other."""
-MIN_LIGHT_WEIGHT, MIN_LIGHT_CELLS, LIGHT_ROWS = 0.1, 4, 6.0
-"""How well, from 0 to 1, a place must be seen on both halves for their light to be compared there, how many of a row must be, and rows over which
-that is averaged."""
-DARK_LEVELS = 4.0
+MIN_LIGHT_WEIGHT, LIGHT_ROWS = 0.1, 6.0
+"""How well, from 0 to 1, a place must be seen on both halves for their light to be compared there, and rows over which that is averaged."""
+SURE_LIGHT_CELLS, SURE_LIGHT_CELLS_OF_A_ROW = 300.0, 6.0
+"""Cells, in all and of a row, whose light counts half: that of fewer is nearer to that of the other half, and to that of the other rows."""
+LEVELS_ADDED_TO_BLACK = 4.0
 """sRGB levels that are added before light is compared: black has no ratio."""
 MAX_LIGHT_RATIO = 2.2
 """By how much one half may be lighter than the other."""
@@ -126,21 +127,17 @@ def _weight(known: NDArray[np.bool_], facing: NDArray[np.float32]) -> NDArray[np
 def _light(
     colours: NDArray[np.float32], mirrored: NDArray[np.float32], both: NDArray[np.float32]
 ) -> NDArray[np.float32]:
-    """By how much (A, 1, 3) places are lighter than their mirror images, row by row, in the median of what is seen of `both`."""
-    ratio = np.log((colours + DARK_LEVELS) / (mirrored + DARK_LEVELS))
+    """By how much (A, 1, 1) places are lighter than their mirror images, row by row, in the median of what is seen of `both`."""
+    ratio = np.log((colours.mean(-1) + LEVELS_ADDED_TO_BLACK) / (mirrored.mean(-1) + LEVELS_ADDED_TO_BLACK))
     seen = both > MIN_LIGHT_WEIGHT
-    count = np.where(seen.sum(1) < MIN_LIGHT_CELLS, 0, seen.sum(1)).astype(np.float32)
-    rows = np.flatnonzero(count)
-    if not len(rows):
-        return np.ones((len(colours), 1, 3), np.float32)
-    told = np.zeros((len(colours), 3), np.float32)
-    told[rows] = [np.median(ratio[row][seen[row]], 0) for row in rows]
-    usual = np.median(told[rows], 0)
-    total = np.concatenate([(told - usual) * count[:, None], count[:, None]], 1)
+    count = seen.sum(1).astype(np.float32)
+    told = np.array([np.median(row[own]) if own.any() else 0 for row, own in zip(ratio, seen, strict=True)], np.float32)
+    usual = float(np.median(ratio[seen])) * count.sum() / (count.sum() + SURE_LIGHT_CELLS) if seen.any() else 0.0
+    total = np.stack([(told - usual) * count, count], 1)
     smooth = cv2.GaussianBlur(total, (1, 0), 1, sigmaY=LIGHT_ROWS, borderType=cv2.BORDER_REPLICATE)
     most = np.log(MAX_LIGHT_RATIO)
-    light = np.exp(np.clip(usual + smooth[:, :3] / (smooth[:, 3:] + 1), -most, most))
-    return np.asarray(light[:, None], np.float32)
+    light = np.exp(np.clip(usual + smooth[:, 0] / (smooth[:, 1] + SURE_LIGHT_CELLS_OF_A_ROW), -most, most))
+    return np.asarray(light[:, None, None], np.float32)
 
 
 def _own_share(
