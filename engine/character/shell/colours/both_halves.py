@@ -25,7 +25,7 @@ SURE_CELLS = 4.0
 """Cells from the border of what is seen from which on it counts wholly: at a contour colours are mixed with what is behind."""
 OWN_SHARE = 0.65
 """How well, as a share of its mirror image, a place must be seen to be the better one: it is in its own light and expression."""
-MIN_OTHER_WEIGHT = 0.25
+MIN_OTHER_WEIGHT = 0.3
 """How well, from 0 to 1, a place must be seen to be shown on the other half, too."""
 MIN_OTHER_CELLS = 9
 """Cells that must be shown of the other half side by side: a narrow strip has nothing that is missed."""
@@ -91,7 +91,7 @@ def _second_half(
     """A head whose second half has what it lacks from the first; the first is as it was."""
     weight = _weight(known, facing)
     half = UNROLLED_COLUMNS // 2
-    mirrored, there = colours[:, ::-1], (weight > MIN_OTHER_WEIGHT)[:, ::-1] & ~head.around_ears
+    mirrored, there = colours[:, ::-1], (_well_seen(weight) & known)[:, ::-1] & ~head.around_ears
     second = np.arange(UNROLLED_COLUMNS) >= half
     lit = mirrored * _light(colours, mirrored, weight * weight[:, ::-1] * second)
     lowest = int(head.levels["chin"])
@@ -107,6 +107,12 @@ def _second_half(
         np.where(other, facing[:, ::-1], facing).astype(np.float32),
         np.where(there | known, own, 1).astype(np.float32),
     )
+
+
+def _well_seen(weight: NDArray[np.float32]) -> NDArray[np.bool_]:
+    """The cells (A, `UNROLLED_COLUMNS`) that are seen well enough for the other half, folds of lids between them too."""
+    square = np.ones((MIN_OTHER_CELLS, MIN_OTHER_CELLS), np.uint8)
+    return np.asarray(cv2.morphologyEx((weight > MIN_OTHER_WEIGHT).astype(np.uint8), cv2.MORPH_CLOSE, square) > 0)
 
 
 def _wide(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -112,7 +112,8 @@ def hairline(head: HeadMap, seen: HeadSeen, *, falls: bool) -> NDArray[np.float3
         told, hair, bare = weight[:, columns], seen.hair[:, columns], aside < MIN_EDGE_RADIANS
         before = told * hair * ~bare
         behind = told * ~hair + NO_HAIRLINE_COST * bare
-        line = cheapest_path(sides_cost(before, behind, far), HAIRLINE_STEP_CELLS, HAIRLINE_STEP_COST)
+        cost = sides_cost(before, behind, far)[:, :-1]  # hair begins somewhere
+        line = cheapest_path(cost, HAIRLINE_STEP_CELLS, HAIRLINE_STEP_COST)
         found[:, side] = wide * line
     smooth = cv2.GaussianBlur(found, (1, 0), 1, sigmaY=HAIRLINE_SMOOTHING_ROWS)
     return np.repeat(np.asarray(smooth, np.float32), half, 1)

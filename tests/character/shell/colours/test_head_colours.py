@@ -124,6 +124,16 @@ def test_a_hairline_has_no_step() -> None:
     assert line[int(head.levels["nose"]), 0] > 1.4
 
 
+def test_where_a_side_shows_no_hair_it_begins_as_on_heads() -> None:
+    """A face whose one side is skin up to the head's outline, under hair."""
+    head = head_map()
+    colours, source, facing = seen_from_before(painted(temples=1.4))
+    hair = source & (np.abs(colours - HAIR).max(-1) < 1) & head.above("hairline")
+    line = hairline(head, HeadSeen(source & (facing > 0.7), hair & (facing > 0.7), facing), falls=False)
+    for level, least, most in (("eyes", 1.2, 1.7), ("nose", 1.8, 2.2), ("chin", 2.2, 2.6)):
+        assert least < line[int(head.levels[level]), 0] < most
+
+
 def test_a_flap_seen_at_a_slant_before_the_hairline_is_not_shown() -> None:
     head = head_map()
     colours, source, facing = seen_from_before(painted(temples=1.4))
