@@ -32,6 +32,8 @@ CHEEK_EDGE_RADIANS = 0.65
 """Radians from its middle up to where there is surely no hair beside a face."""
 BARE_SKIN_RADIANS = 0.35
 """Radians from its middle up to which a face is bare between eyes and nose, above all beards and below spectacles."""
+MIN_SHOWN_HEAD_COSINE = 0.2
+"""Cosine to the viewer from which on anything of the picture may be shown."""
 MIN_SIDE_HAIR_RADIANS, HAIRLINE_TOLERANCE_RADIANS = 0.55, 0.03
 """Radians from its middle from which on hair is beside a face, and radians from the hairline in which hair and skin are mixed."""
 MIN_HAIR_COLOUR_DISTANCE = 14.0
@@ -100,7 +102,8 @@ def head_round(
     head = head_map()
     known = source & (facing > MIN_WELL_SEEN_COSINE)
     first = _kinds(head, colours, known)
-    strange = _strange(head, first, hairline(head, HeadSeen(known, first.hair, facing), falls=first.falls), facing)
+    shown = replace(_kinds(head, colours, colours.any(-1) & (facing > MIN_SHOWN_HEAD_COSINE)), falls=first.falls)
+    strange = _strange(head, shown, hairline(head, HeadSeen(known, first.hair, facing), falls=first.falls), facing)
     side = head.between("chin", "brow") & (head.angle > TEMPLE_RADIANS[0]) & (facing < FULLY_SEEN_COSINES[0])
     halves = both_halves(head, colours, known & ~strange & ~(side & (not first.falls)), facing)
     believed = _believed(head, halves.facing, falls=first.falls) * halves.own * (1 - _soft(strange)[..., 0])
@@ -122,8 +125,8 @@ def head_round(
 def _strange(
     head: HeadMap, kinds: _Kinds, begins: NDArray[np.float32], facing: NDArray[np.float32]
 ) -> NDArray[np.bool_]:
-    """The cells (A, `UNROLLED_COLUMNS`) beside the face, seen at a slant, that are not what is there: hair before where it `begins`, skin behind,
-    what is unknown between, and what lies on one cheek alone."""
+    """The cells (A, `UNROLLED_COLUMNS`) beside the face, seen at a slant, that are not what is there: hair before where it `begins`, skin behind, and
+    what lies on one cheek alone."""
     aslant = (head.angle > MIN_SIDE_HAIR_RADIANS) & (facing < FULLY_SEEN_COSINES[0])
     strange = np.zeros_like(kinds.known)
     if not kinds.falls:
@@ -133,8 +136,7 @@ def _strange(
     if kinds.hair.any():
         away = head.angle - begins
         hair, skin = away > -HAIRLINE_TOLERANCE_RADIANS, away < HAIRLINE_TOLERANCE_RADIANS
-        as_it_is = (kinds.hair & hair) | (kinds.known & ~kinds.hair & (skin | ~kinds.bare))
-        strange |= ~as_it_is & head.between("ears", "forehead")
+        strange |= ((kinds.hair & ~hair) | (kinds.bare & ~skin)) & head.between("ears", "forehead")
     return np.asarray(strange & aslant, np.bool_)
 
 
