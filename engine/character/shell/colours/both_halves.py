@@ -45,8 +45,8 @@ SURE_LIGHT_CELLS, SURE_LIGHT_CELLS_OF_A_ROW = 300.0, 6.0
 """Cells, in all and of a row, whose light counts half: that of fewer is nearer to that of the other half, and to that of the other rows."""
 LEVELS_ADDED_TO_BLACK = 4.0
 """sRGB levels that are added before light is compared: black has no ratio."""
-MAX_LIGHT_RATIO, MAX_HUE_LOG_RATIO = 2.2, 0.12
-"""By how much one half may be lighter than the other, and logarithm of how much more so in one channel."""
+MAX_LIGHT_RATIO = 2.2
+"""By how much one half may be lighter than the other."""
 OTHER_LIGHT_LOG_RATIO = 0.6
 """Logarithm of how much lighter or darker the other half is by which it counts a third: what lies in the shade is no good image of what is lit."""
 
@@ -97,7 +97,7 @@ def _second_half(
     second = np.arange(UNROLLED_COLUMNS) >= half
     light = _light(colours, mirrored, weight * weight[:, ::-1] * second)
     lit = mirrored * light
-    alike = np.exp(-((np.log(light.mean(-1)) / OTHER_LIGHT_LOG_RATIO) ** 2)) * ~head.around_ears
+    alike = np.exp(-((np.log(light[..., 0]) / OTHER_LIGHT_LOG_RATIO) ** 2)) * ~head.around_ears
     other_weight = weight[:, ::-1] * alike
     there = _well_seen(other_weight) & known[:, ::-1] & ~head.around_ears
     lowest = int(head.levels["chin"])
@@ -139,22 +139,19 @@ def _weight(known: NDArray[np.bool_], facing: NDArray[np.float32]) -> NDArray[np
 def _light(
     colours: NDArray[np.float32], mirrored: NDArray[np.float32], both: NDArray[np.float32]
 ) -> NDArray[np.float32]:
-    """By how much (A, 1, 3) places are lighter than their mirror images, row by row, in the median of what is seen of `both`."""
+    """By how much (A, 1, 1) places are lighter than their mirror images, row by row, in the median of what is seen of `both`."""
     seen = both > MIN_LIGHT_WEIGHT
     if not seen.any():
-        return np.ones((len(colours), 1, 3), np.float32)
+        return np.ones((len(colours), 1, 1), np.float32)
     ratio = np.log((colours.mean(-1) + LEVELS_ADDED_TO_BLACK) / (mirrored.mean(-1) + LEVELS_ADDED_TO_BLACK))
     count = seen.sum(1).astype(np.float32)
     told = np.array([np.median(row[own]) if own.any() else 0 for row, own in zip(ratio, seen, strict=True)], np.float32)
-    sure = float(count.sum() / (count.sum() + SURE_LIGHT_CELLS))
-    usual = sure * float(np.median(ratio[seen]))
+    usual = float(np.median(ratio[seen]) * count.sum() / (count.sum() + SURE_LIGHT_CELLS))
     total = np.stack([(told - usual) * count, count], 1)
     smooth = cv2.GaussianBlur(total, (1, 0), 1, sigmaY=LIGHT_ROWS, borderType=cv2.BORDER_REPLICATE)
     light = usual + smooth[:, 0] / (smooth[:, 1] + SURE_LIGHT_CELLS_OF_A_ROW)
-    channels = np.log((colours[seen] + LEVELS_ADDED_TO_BLACK) / (mirrored[seen] + LEVELS_ADDED_TO_BLACK))
-    hue = sure * np.clip(np.median(channels - ratio[seen][:, None], 0), -MAX_HUE_LOG_RATIO, MAX_HUE_LOG_RATIO)
     most = np.log(MAX_LIGHT_RATIO)
-    return np.asarray(np.exp(np.clip(light[:, None, None] + hue, -most, most)), np.float32)
+    return np.asarray(np.exp(np.clip(light, -most, most))[:, None, None], np.float32)
 
 
 def _own_share(
