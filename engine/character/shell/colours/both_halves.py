@@ -111,7 +111,7 @@ def _second_half(
         np.clip(merged, 0, 255).astype(np.float32),
         np.where(other, there, known),
         np.where(other, facing[:, ::-1], facing).astype(np.float32),
-        np.where(there | known, own, 1).astype(np.float32),
+        own.astype(np.float32),
     )
 
 
