@@ -1,6 +1,7 @@
 /** Which of the people who were woken is meant, or all of them. */
 
 import { words } from './words';
+import { Toggles } from '../widgets/toggles';
 import type { CharacterFiles } from './artifacts/people';
 
 /** The place in their row. */
@@ -18,19 +19,14 @@ interface Props {
 export function PersonSelect({ people, together, chosen, disabled = false, onChoose }: Props) {
   const offered: PersonChoice[] = [...(together ? ['all' as const] : []), ...people.keys()];
   return (
-    <div class="actions viewer-people" role="group" aria-label={words.people}>
-      {offered.map((who) => (
-        <button
-          key={who}
-          type="button"
-          class="toggle"
-          aria-pressed={who === chosen}
-          disabled={disabled}
-          onClick={() => onChoose(who)}
-        >
-          {who === 'all' ? words.everybody : words.person(people[who]?.number ?? who + 1)}
-        </button>
-      ))}
-    </div>
+    <Toggles
+      label={words.people}
+      choices={offered}
+      name={(who) => (who === 'all' ? words.everybody : words.person(people[who]?.number ?? who + 1))}
+      chosen={chosen}
+      disabled={disabled}
+      class="viewer-people"
+      onChoose={onChoose}
+    />
   );
 }

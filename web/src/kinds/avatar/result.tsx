@@ -12,6 +12,7 @@ import type { Stage } from '../../viewer/scene/stage';
 import { Viewer } from '../../viewer/part';
 import { later } from '../../widgets/lazy';
 import { fileUrl, isFileId } from '../../works/inputs';
+import { Toggles } from '../../widgets/toggles';
 import type { AvatarReport } from './types';
 import { words as avatarWords } from './words';
 import './styles/result.css';
@@ -40,13 +41,7 @@ export default function AvatarResult({ job }: ResultProps) {
     <div class="result">
       <div class="avatar-shown">
         {shown.length > 1 && (
-          <div class="actions" role="group" aria-label={words.label}>
-            {shown.map((one) => (
-              <button key={one} type="button" class="toggle" aria-pressed={one === view} onClick={() => setView(one)}>
-                {words.names[one]}
-              </button>
-            ))}
-          </div>
+          <Toggles label={words.label} choices={shown} name={(one) => words.names[one]} chosen={view} onChoose={setView} />
         )}
         {shown.includes('model') && (
           <div hidden={view !== 'model'}>

@@ -3,6 +3,7 @@
 import { useDescriptions } from '../../kind/offered';
 import { plain } from '../../language/strings';
 import { fieldsOf } from '../generic/schema';
+import { Toggles } from '../../widgets/toggles';
 import { words as personaWords } from './words';
 
 const words = personaWords.studio;
@@ -28,13 +29,7 @@ export function CompositeField({ value, onChange }: Props) {
   return (
     <fieldset class="field composites">
       <legend>{words.composite}</legend>
-      <div class="actions">
-        {choices.map((one) => (
-          <button key={one} type="button" class="toggle" aria-pressed={one === value} onClick={() => onChange(one)}>
-            {words.composites[one] ?? plain(one)}
-          </button>
-        ))}
-      </div>
+      <Toggles choices={choices} name={(one) => words.composites[one] ?? plain(one)} chosen={value} onChoose={onChange} />
     </fieldset>
   );
 }

@@ -16,6 +16,7 @@ import type { Character } from '../../viewer/scene/character';
 import type { Stage } from '../../viewer/scene/stage';
 import { later } from '../../widgets/lazy';
 import { workName } from '../../works/names';
+import { Toggles } from '../../widgets/toggles';
 import { usePersonaDraft } from './draft';
 import { FaceList } from './faces/face_list';
 import { useFaces } from './faces/use_faces';
@@ -53,13 +54,7 @@ export default function PersonaResult({ job, report }: ResultProps) {
     <div class="result">
       <div class="persona-shown">
         {shown.length > 1 && (
-          <div class="actions" role="group" aria-label={words.label}>
-            {shown.map((one) => (
-              <button key={one} type="button" class="toggle" aria-pressed={one === view} onClick={() => setView(one)}>
-                {words.names[one]}
-              </button>
-            ))}
-          </div>
+          <Toggles label={words.label} choices={shown} name={(one) => words.names[one]} chosen={view} onChoose={setView} />
         )}
         {view === 'animation' && <Film job={job} />}
         {view === 'model' && <Viewer job={job} renew={(signal) => getJob(job.id, signal)} first="look" beside={expressionsOf(job)} />}

@@ -26,6 +26,7 @@ import { type Draft, usePersonaDraft } from './draft';
 import { PersonaOptionFields } from './option_fields';
 import { personaOrder, type Source } from './order';
 import type { Options } from '../generic/fields';
+import { Toggles } from '../../widgets/toggles';
 import { MIN_PHOTOS, MAX_FILES } from './types';
 import { words as personaWords } from './words';
 import './styles/studio.css';
@@ -82,13 +83,13 @@ export default function PersonaStudio({ kind }: StudioProps) {
       >
         <section class="panel wide" aria-labelledby="source-title">
           <h2 id="source-title">{draft.from === 'photos' ? words.photos : words.earlier}</h2>
-          <div class="actions" role="group" aria-label={words.sources}>
-            {(['photos', 'persona'] as const).map((one) => (
-              <button key={one} type="button" class="toggle" aria-pressed={one === draft.from} onClick={() => change({ from: one })}>
-                {words.sourceNames[one]}
-              </button>
-            ))}
-          </div>
+          <Toggles
+            label={words.sources}
+            choices={['photos', 'persona'] as const}
+            name={(one) => words.sourceNames[one]}
+            chosen={draft.from}
+            onChoose={(from) => change({ from })}
+          />
           {draft.from === 'photos' ? (
             <PhotosPanel
               words={words.collection}
