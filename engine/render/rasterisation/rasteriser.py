@@ -104,12 +104,13 @@ def barycentrics_at(
 
 
 def depth_map(
-    vertices: NDArray[np.floating], triangles: NDArray[np.integer], size: tuple[int, int]
+    vertices: NDArray[np.floating], triangles: NDArray[np.integer], size: tuple[int, int], perspective: bool = False
 ) -> NDArray[np.float32]:
-    """Depth alone, (H, W) float32, +inf where nothing is: the map from which a light casts its shadows."""
+    """Depth alone, (H, W) float32, +inf where nothing is: what a light or a camera sees of a surface. Parameters are those of
+    `rasterise`."""
     points = np.ascontiguousarray(vertices, dtype=np.float32)
     faces = np.ascontiguousarray(triangles, dtype=np.int32)
-    return _nearest(points, faces, size[0], size[1], False, False, get_num_threads())[1]
+    return _nearest(points, faces, size[0], size[1], perspective, False, get_num_threads())[1]
 
 
 @njit(nogil=True, boundscheck=False, error_model="numpy")

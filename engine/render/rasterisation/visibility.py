@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.geometry.camera import Camera
-from engine.render.rasterisation.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import depth_map
 
 DEPTH_SLACK = 4e-3
 """By how much a point may lie behind what the depth buffer has and still be seen, in the unit of the vertices (metres)."""
@@ -33,7 +33,7 @@ def depth_buffer(
     camera: Camera, vertices: NDArray[np.floating], triangles: NDArray[np.integer], jump: float = DEPTH_JUMP
 ) -> DepthBuffer:
     """The depth of a surface, `vertices` (V, 3) and `triangles` (T, 3), as `camera` sees it; `jump` as `DEPTH_JUMP` says."""
-    depth = rasterise(camera.project(vertices), triangles, camera.size, perspective=True).depth
+    depth = depth_map(camera.project(vertices), triangles, camera.size, perspective=True)
     return DepthBuffer(depth, _beside_edges(depth, jump))
 
 

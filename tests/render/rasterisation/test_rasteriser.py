@@ -126,9 +126,11 @@ def test_the_nearer_triangle_hides_the_other_whatever_their_order() -> None:
         assert order[raster.triangle[2, 2]] == [3, 4, 5]
 
 
-def test_depth_map_is_the_rasters_depth() -> None:
+@pytest.mark.parametrize("perspective", [False, True])
+def test_depth_map_is_the_rasters_depth(perspective: bool) -> None:
     vertices, triangles = soup(np.random.default_rng(3), 30, (33, 47))
-    assert (depth_map(vertices, triangles, (33, 47)) == rasterise(vertices, triangles, (33, 47)).depth).all()
+    raster = rasterise(vertices, triangles, (33, 47), perspective)
+    assert (depth_map(vertices, triangles, (33, 47), perspective) == raster.depth).all()
 
 
 @pytest.mark.parametrize("perspective", [False, True])

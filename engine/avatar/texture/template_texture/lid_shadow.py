@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from engine.avatar.texture.views import ChartedSurface
 from engine.geometry.camera import Camera
-from engine.render.rasterisation.rasteriser import rasterise
+from engine.render.rasterisation.rasteriser import depth_map
 from engine.render.textures.sampling import bilinear
 
 LIGHT_DIRECTION_COUNT = 24
@@ -53,7 +53,7 @@ def lid_shadow(surface: ChartedSurface, points: NDArray[np.float64], gaze: NDArr
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
     for direction in _sky(gaze):
         camera = lens.aimed((middle + LIGHT_DISTANCE * direction).tolist(), middle.tolist())
-        depth = rasterise(camera.project(surface.vertices), near, camera.size, perspective=True).depth
+        depth = depth_map(camera.project(surface.vertices), near, camera.size, perspective=True)
         depth = np.where(np.isfinite(depth), depth, 2 * LIGHT_DISTANCE).astype(np.float32)
         pixels = camera.project(points)
         lit = pixels[:, 2] <= bilinear(depth[..., None], pixels)[:, 0] + OCCLUSION_TOLERANCE_METRES
