@@ -32,8 +32,8 @@ from engine.perception.face.landmarks import (
     mouth_opening,
 )
 from engine.perception.face_track.face_crop import CROP_EYE_DISTANCE_PIXELS, CROP_SHAPE
+from engine.perception.face_track.steady_face import steady_on_head
 from engine.perception.face_track.track import FaceTrack
-from engine.perception.temporal_filter import remove_jitter
 
 SMOOTHING_PIXELS = 4.0
 """Pixels of the crop over which the measured rest is averaged."""
@@ -110,9 +110,10 @@ def register_track(
     for some in np.array_split(np.flatnonzero(weight), 16):  # a part at a time, for the same reason
         eased = _eased(belief[:, some].astype(np.float32))
         meshes[:, some, :2] += (weight[some] * eased)[..., None] * left[:, some]
-        meshes[:, some, :2] = remove_jitter(meshes[:, some])[..., :2]
+    # what stays as tracked was steadied there: twice would shift its peaks
+    steady_on_head(meshes, np.flatnonzero(weight))
     shut_by_contrast(meshes, contrast, neutral, track.fps)
-    return Registration(meshes)  # what stays as tracked was steadied there: twice would shift its peaks
+    return Registration(meshes)
 
 
 def _eased(belief: NDArray[np.float32]) -> NDArray[np.float32]:

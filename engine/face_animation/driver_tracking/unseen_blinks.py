@@ -33,6 +33,9 @@ OPEN_CONTRAST_SHARES = np.array((0.64, 0.74))
 the real clips is taken as neutral, no open eye falls below them."""
 MIN_EYE_DARKNESS = 0.3
 """Eyes of less darkness in the neutral frame, as behind dark glasses, tell nothing."""
+LONE_SHUT_SHARE = 0.5
+"""Of the contrast below which both eyes are shut, that below which one is beside an open one: a reflection in one glass of
+spectacles veils its eye, and people blink with both."""
 MIN_BLINK_SECONDS = 0.1
 """Seconds for which an eye is shut at least: a blink takes 0.1 to 0.4, and one that is shorter the tracker does not miss."""
 MIN_OPEN_EYE_RATIO = 0.2
@@ -64,9 +67,9 @@ def shut_by_contrast(meshes: NDArray[np.floating], contrast: NDArray[np.floating
     heights = np.linalg.norm(at_rest[upper] - at_rest[lower], axis=1).reshape(2, -1).max(axis=1)
     widths = np.linalg.norm(at_rest[EYE_CONTOURS[:, 0]] - at_rest[EYE_CONTOURS[:, INNER_CORNER_INDEX]], axis=1)
     tells = (rest[:, 0] >= MIN_EYE_DARKNESS) & (heights >= MIN_OPEN_EYE_RATIO * widths)
-    kept = np.clip(
-        (contrast / np.maximum(rest, 1e-6) - SHUT_CONTRAST_SHARES) / (OPEN_CONTRAST_SHARES - SHUT_CONTRAST_SHARES), 0, 1
-    ).max(axis=2)
+    shares = contrast / np.maximum(rest, 1e-6)
+    kept, kept_alone = _open_share(shares), _open_share(shares / LONE_SHUT_SHARE)
+    kept += kept[:, ::-1] * (kept_alone - kept)
     lasting = grey_opening(
         np.where(tells, 1 - kept, 0), size=(max(1, ceil(MIN_BLINK_SECONDS * fps)), 1), mode="nearest"
     )
@@ -74,6 +77,12 @@ def shut_by_contrast(meshes: NDArray[np.floating], contrast: NDArray[np.floating
     way = closed * (meshes[:, lower] - meshes[:, upper])
     meshes[:, [skin for skin, _ in LID_SKIN_VERTEX_PAIRS]] += 0.5 * way
     meshes[:, upper] += way
+
+
+def _open_share(shares: NDArray[np.floating]) -> NDArray[np.floating]:
+    """(N, 2) how far each eye is open whose contrast is `shares` (N, 2, 2) of the neutral frame's."""
+    way = (shares - SHUT_CONTRAST_SHARES) / (OPEN_CONTRAST_SHARES - SHUT_CONTRAST_SHARES)
+    return np.asarray(np.clip(way, 0, 1).max(axis=2))
 
 
 def _middle(outline: NDArray[np.floating]) -> NDArray[np.floating]:

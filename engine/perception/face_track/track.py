@@ -23,7 +23,7 @@ from engine.perception.face_track.covered_face import CoveredFace
 from engine.perception.face_track.face_crop import FaceCrop, crop_face
 from engine.perception.face_track.held_face import HeldFace
 from engine.perception.face_track.periphery import PeripheryTracker
-from engine.perception.temporal_filter import remove_jitter
+from engine.perception.face_track.steady_face import steady_face, steady_points
 
 MAX_TRACKED_SIDE_PIXELS = 1280
 """Pixels; larger videos are read at this size, which holds all that is kept of them."""
@@ -147,15 +147,16 @@ def track_face(
         strip, faces = crops.strip(), follow.boxes
     stack = np.frombuffer(meshes, np.float32).reshape(-1, MESH_SIZE, 3)
     points, trust = periphery.result()
+    points = steady_points(points, stack)
     end = min(trim[1], info.seconds) if trim else info.seconds
     return FaceTrack(
         size=size,
         fps=fps or info.fps,
         times=_times(starts, end, fps or (None if info.variable_rate else info.fps)),
         has_sound=info.has_sound,
-        meshes=remove_jitter(stack, out=stack),
+        meshes=steady_face(stack, out=stack),
         found=np.array(found),
-        periphery=remove_jitter(points),
+        periphery=points,
         trust=trust,
         crops=strip,
         crop_places=np.array(places),
