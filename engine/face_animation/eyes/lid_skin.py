@@ -49,6 +49,8 @@ how much it is darker there: soft, for a line would be an outline."""
 SEAM_COVER_EYE_WIDTHS = 0.05
 """Eye widths around the line where lids meet, and beyond its ends, that are of the lid's colour. The tracker's eye and
 the picture's differ by as much, and what is left of the picture's beside the line are specks of white and lash."""
+OUTER_CORNER_COVER_EYE_WIDTHS = 0.08
+"""Eye widths around an eye's outer corner that are of the lid's colour: tracker and picture differ most in where it is."""
 _STRIP_TRIANGLES = np.array([t for k in range(8) for t in ((k, k + 1, 9 + k), (k + 1, 10 + k, 9 + k))], np.int32)
 
 
@@ -100,6 +102,9 @@ def _cover_seam(frame: NDArray[np.uint8], skin: NDArray[np.float32], edge: NDArr
     mask = np.zeros((int(high[1] - low[1]), int(high[0] - low[0])), np.uint8)
     line = np.round((edge - low) * 16).astype(np.int32)
     cv2.polylines(mask, [line], False, 255, max(round(2 * reach), 1), cv2.LINE_AA, 4)
+    corner = OUTER_CORNER_COVER_EYE_WIDTHS * width
+    outer = np.round((edge[0] - corner * across / width / 3 - low) * 16).astype(int).tolist()
+    cv2.circle(mask, outer, round(16 * corner), 255, -1, cv2.LINE_AA, 4)
     soft = np.asarray(cv2.GaussianBlur(mask, (0, 0), max(reach / 2, 0.5)), np.float32)[..., None] / 255
     xs, ys = np.meshgrid(np.arange(low[0], high[0]), np.arange(low[1], high[1]))
     along = ((xs - edge[0, 0]) * across[0] + (ys - edge[0, 1]) * across[1]) / width**2
