@@ -114,7 +114,8 @@ def hair_rings(
     )
     wide = _known(np.fmax(np.fmax(*aside), 0.5), head.half)
     near = _near(hair[rows], front[rows], rows, head)
-    far = _far(back[rows], rows, wide, head, hangs=bool((outermost & (rows > high[1])).any(1).all()))
+    both = _known(np.fmax(np.fmin(*aside), 0.5), head.half)  # hair that falls to one side stands off no back
+    far = _far(back[rows], rows, both, head, hangs=bool((outermost & (rows > high[1])).any(1).all()))
     closed = _closing(rows, wide, head)
     near, far = (head.middle + closed * (one - head.middle) for one in (near, far))
     for ring, centre in ((left, head.axis), (right, head.axis), (near, head.middle), (far, head.middle)):
@@ -153,7 +154,7 @@ def _near(
 def _far(
     back: NDArray[np.float32], rows: NDArray[np.intp], wide: NDArray[np.float64], head: _Skull, *, hangs: bool
 ) -> NDArray[np.float64]:
-    """How far (R,) hair is: as far behind the head as it is `wide` (R,) of it, and closer and closer to what is behind it, whose `back` is known
+    """How far (R,) hair is: as far behind the head as it is `wide` (R,) of it on both sides, and closer and closer to what is behind it, whose `back` is known
     (R, w). From the chin down it `hangs`; else it keeps to the head from the ears down."""
     span = np.abs(np.arange(back.shape[1]) - head.axis) < head.half
     there = np.isfinite(back) & span & (rows >= head.crown)[:, None]

@@ -54,6 +54,21 @@ def test_the_back_of_long_hair_hangs_down_from_where_it_is_furthest(long_hair: H
     np.testing.assert_allclose(long_hair.far[-1], -HALF[2] - HAIR_CLEARANCE_PIXELS, atol=2.5)
 
 
+def test_of_hair_that_falls_to_one_side_the_back_stands_off_as_on_the_other() -> None:
+    """A head held aslant: on its left hair hangs 30 pixels away from it, on its right it lies on it."""
+    y, x = np.mgrid[:HEIGHT, :WIDTH]
+    front = depths().astype(np.float32)
+    beside = (y > MIDDLE[1] - 0.7 * HALF[1]) & (y < ENDS) & (np.abs(x - MIDDLE[0]) > 0.9 * HALF[0])
+    on_the_head = np.isfinite(front) & (y < MIDDLE[1] - 0.5 * HALF[1])
+
+    def behind(left: float, right: float) -> NDArray[np.float64]:
+        hair = on_the_head | (beside & (x > MIDDLE[0] - HALF[0] - left) & (x < MIDDLE[0] + HALF[0] + right))
+        return hair_rings(hair, skull(), front, -front, MIDDLE[1] + HALF[1]).far
+
+    np.testing.assert_allclose(behind(30, 1), behind(1, 1), atol=1.0)
+    assert (behind(1, 1) - behind(12, 12)).max() > 8
+
+
 def test_they_close_above(long_hair: HairRings) -> None:
     first = long_hair.places(np.linspace(-np.pi, np.pi, 20))[0]
     assert np.hypot(first[:, 0] - MIDDLE[0], first[:, 2] - MIDDLE[2]).max() < 0.5
