@@ -93,12 +93,12 @@ class _Kinds:
 
 def head_round(
     colours: NDArray[np.float32], source: NDArray[np.bool_], facing: NDArray[np.float32]
-) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """The colours (A, `UNROLLED_COLUMNS`, 3) of the unrolled head, as `round.coloured_round` has those of other parts, and how far (A,
-    `UNROLLED_COLUMNS`) the picture is believed, from 0 to 1."""
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
+    """The colours (A, `UNROLLED_COLUMNS`, 3) of the unrolled head, as `round.coloured_round` has those of other parts. Then (A, `UNROLLED_COLUMNS`)
+    each, from 0 to 1, how far the picture is believed, and how far a place does not have the colours of the other half."""
     everywhere = np.ones(source.shape, np.float32)
     if not source.any():
-        return colours, everywhere
+        return colours, everywhere, everywhere
     head = head_map()
     known = source & (facing > MIN_WELL_SEEN_COSINE)
     first = _kinds(head, colours, known)
@@ -113,13 +113,13 @@ def head_round(
     streaks = strand_noise((len(colours), UNROLLED_COLUMNS))
     skin = _skin(head, colours, kinds)
     if not kinds.hair.any():
-        return np.where(known[..., None], colours, skin).astype(np.float32), believed
+        return np.where(known[..., None], colours, skin).astype(np.float32), believed, halves.own
     share = _soft(hair_share(head, begins, HeadSeen(known, kinds.hair, facing), streaks, falls=kinds.falls))
     filled = share * _hair(colours, kinds, facing, streaks) + (1 - share) * skin
     if not kinds.falls:
         ear = _soft(head.ears)
         filled = ear * kinds.skin + (1 - ear) * filled
-    return np.where(known[..., None], colours, filled).astype(np.float32), believed
+    return np.where(known[..., None], colours, filled).astype(np.float32), believed, halves.own
 
 
 def _strange(

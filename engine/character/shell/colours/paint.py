@@ -100,10 +100,11 @@ def paint_shell(
         evidence[part.name] = seen.colours, seen.source & part.covered, points[..., 3]
     rows, sure = [], []
     trust: NDArray[np.float32] | None = None
+    halves: NDArray[np.float32] | None = None
     for part in parts:
         own = evidence[part.name]
         if part.name == "head":
-            (around, trust), known = head_round(*own), np.ones(len(own[0]), np.float32)
+            (around, trust, halves), known = head_round(*own), np.ones(len(own[0]), np.float32)
         elif part.name.endswith("foot"):
             beside = OPPOSITE_LIMB.get(part.name)
             pair = next(((one, evidence[one.name]) for one in parts if one.name == beside), None)
@@ -129,12 +130,13 @@ def paint_shell(
         points = interpolate(told.attributes, triangles, part_of_it)
         seen = told.of(points)
         believed = _well_seen(points[..., 3])
-        if trust is not None:
+        around_it = 0.0 if framed is None else interpolate(framed[:, None], triangles, part_of_it)[..., 0]
+        if trust is not None and halves is not None:
             head = [part.name for part in parts].index("head")
             at = interpolate(places[:, head].astype(np.float32), triangles, part_of_it)
             believed = believed * _at(trust, at[..., 1], at[..., 2])
-        if framed is not None:
-            believed = np.maximum(believed, interpolate(framed[:, None], triangles, part_of_it)[..., 0])
+            around_it = around_it * _at(halves, at[..., 1], at[..., 2])
+        believed = np.maximum(believed, around_it)
         shown[strip] = np.minimum(seen.shown, 1 - points[..., HEAD_ATTRIBUTE_INDEX] * (1 - believed))
         painted[strip] = seen.colours
     soft = _softened(np.where(wanted, shown, 0))

@@ -38,7 +38,7 @@ def off(found: NDArray[np.floating], cells: NDArray[np.bool_], colour: tuple[flo
 
 def test_what_is_well_seen_stays_as_it_is() -> None:
     colours, source, facing = seen_from_before(painted())
-    found, _ = head_round(colours, source, facing)
+    found, *_ = head_round(colours, source, facing)
     head = head_map()
     well = source & (facing > 0.36) & ((head.angle < 0.55) | ~head.between("chin", "forehead"))
     assert (found[well] == colours[well]).all()
@@ -48,7 +48,7 @@ def test_between_eye_and_ear_skin_goes_on_by_itself() -> None:
     """A wall, a light rim or the shadow before an ear, which the picture has there, is no side of a head."""
     head = head_map()
     strip = (head.angle > 0.72) & (head.angle < 1.1) & head.between("chin", "brow")
-    found, believed = head_round(*seen_from_before(np.where(strip[..., None], COLLAR, painted(temples=1.4))))
+    found, believed, _ = head_round(*seen_from_before(np.where(strip[..., None], COLLAR, painted(temples=1.4))))
     skin = strip & head.between("chin", "eyes")
     assert off(found, skin, SKIN) < 3
     assert np.median(believed[skin]) < 0.2
@@ -56,14 +56,14 @@ def test_between_eye_and_ear_skin_goes_on_by_itself() -> None:
 
 
 def test_behind_is_hair_down_to_the_nape_and_skin_below() -> None:
-    head, (found, _) = head_map(), head_round(*seen_from_before(painted()))
+    head, (found, *_) = head_map(), head_round(*seen_from_before(painted()))
     behind = head.angle > 2.6
     assert off(found, behind & head.above("nose"), HAIR) < 6
     assert off(found, behind & ~head.above("chin"), SKIN) < 3
 
 
 def test_ears_and_jaws_are_skin() -> None:
-    head, (found, _) = head_map(), head_round(*seen_from_before(painted()))
+    head, (found, *_) = head_map(), head_round(*seen_from_before(painted()))
     assert off(found, head.ears, SKIN) < 5  # hair around them is a soft edge
     assert off(found, (head.angle > 1.2) & (head.angle < 1.7) & head.between("chin", "nose"), SKIN) < 3
 
@@ -75,7 +75,7 @@ def test_a_hairline_that_is_seen_goes_on_from_there() -> None:
     begins = []
     for temples in (0.6, 2.0):
         colours, source, facing = seen_from_before(painted(temples=temples))
-        found, _ = head_round(colours, source, facing)
+        found, *_ = head_round(colours, source, facing)
         hairy = np.abs(found[row] - HAIR).max(-1) < 40
         begins.append(float(head.angle[0][hairy].min()))
     assert begins[0] == pytest.approx(0.6, abs=0.05)
@@ -85,7 +85,7 @@ def test_a_hairline_that_is_seen_goes_on_from_there() -> None:
 def test_a_hat_goes_round_at_its_own_height() -> None:
     head = head_map()
     colours = np.where((head.height > head.levels["forehead"])[..., None], HAT, painted())
-    found, _ = head_round(*seen_from_before(colours))
+    found, *_ = head_round(*seen_from_before(colours))
     behind = head.angle > 2.6
     top = head.height > head.levels["forehead"] + 8
     assert off(found, behind & top, HAT) < 8
@@ -95,13 +95,13 @@ def test_a_hat_goes_round_at_its_own_height() -> None:
 def test_a_collar_stays_at_the_neck() -> None:
     head = head_map()
     colours = np.where(head.above("chin")[..., None], painted(), COLLAR)
-    found, _ = head_round(*seen_from_before(colours))
+    found, *_ = head_round(*seen_from_before(colours))
     assert off(found, (head.angle > 2.6) & (head.height < head.levels["chin"] - 4), COLLAR) < 4
     assert off(found, (head.angle > 2.6) & head.above("nose"), HAIR) < 8
 
 
 def test_a_bald_head_is_skin_all_round() -> None:
-    found, _ = head_round(*seen_from_before(np.broadcast_to(SKIN, (*head_map().ears.shape, 3))))
+    found, *_ = head_round(*seen_from_before(np.broadcast_to(SKIN, (*head_map().ears.shape, 3))))
     assert np.abs(found - SKIN).max() < 2
 
 
@@ -109,7 +109,7 @@ def test_of_a_face_seen_from_one_side_the_other_cheek_is_the_same() -> None:
     head = head_map()
     side = np.arange(UNROLLED_COLUMNS) < UNROLLED_COLUMNS // 2 + UNROLLED_COLUMNS // 20
     colours, source, facing = seen_from_before(painted())
-    found, _ = head_round(np.where(side[None, :, None], colours, 0), source & side, facing)
+    found, *_ = head_round(np.where(side[None, :, None], colours, 0), source & side, facing)
     assert off(found, ~side & (head.angle < 0.6) & head.between("nose", "eyes"), SKIN) < 2
 
 
@@ -140,7 +140,7 @@ def test_a_flap_seen_at_a_slant_before_the_hairline_is_not_shown() -> None:
     facing = np.where(head.angle > 0.6, np.minimum(facing, 0.4), facing).astype(np.float32)
     flap = (head.angle > 0.75) & (head.angle < 0.85) & head.between("eyes", "hairline")
     shown = np.where(flap[..., None] & source[..., None], np.float32(HAIR), colours)
-    found, believed = head_round(shown, source, facing)
+    found, believed, _ = head_round(shown, source, facing)
     assert off(found, flap, SKIN) < 5
     assert np.median(believed[flap]) < 0.2
 
@@ -150,7 +150,7 @@ def test_what_lies_on_one_cheek_alone_at_a_slant_is_not_shown() -> None:
     left = np.arange(UNROLLED_COLUMNS) < UNROLLED_COLUMNS // 2
     scarf = left & (head.angle > 0.75) & (head.angle < 0.95) & head.between("chin", "nose")
     colours, source, facing = seen_from_before(np.where(scarf[..., None], HAT, painted()))
-    found, believed = head_round(colours, source, facing)
+    found, believed, _ = head_round(colours, source, facing)
     assert off(found, scarf, SKIN) < 3
     assert np.median(believed[scarf]) < 0.1
 
