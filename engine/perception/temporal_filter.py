@@ -8,6 +8,8 @@ included, keeps its height and its moment.
 
 from __future__ import annotations
 
+from statistics import NormalDist
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,18 +23,20 @@ RANGE_SIGMAS = 3.0
 """Positions further apart than about this many noise deviations are motion, not noise."""
 
 
-def noise_level(tracks: NDArray[np.floating]) -> NDArray[np.float64]:
+def noise_level(tracks: NDArray[np.floating], quantile: float = 0.5) -> NDArray[np.float64]:
     """Standard deviation of each point's jitter, pixels: (N, V, D) to (V,).
 
-    From second differences, which smooth motion hardly shows; the median keeps the few lively frames out.
+    From second differences, which smooth motion hardly shows; their `quantile` keeps lively frames out: by the median
+    the few, by a lower one as many as there are above it.
     """
     if len(tracks) < 5:
         return np.zeros(tracks.shape[1])
+    usual = NormalDist().inv_cdf((1 + quantile) / 2) * np.sqrt(6.0)
     deviation = np.empty(tracks.shape[1:])
     for start in range(0, tracks.shape[1], BLOCK_POINTS):
         some = tracks[:, start : start + BLOCK_POINTS]
         second = some[2:] - 2 * some[1:-1] + some[:-2]
-        deviation[start : start + BLOCK_POINTS] = np.median(np.abs(second), axis=0) / 0.6745 / np.sqrt(6.0)
+        deviation[start : start + BLOCK_POINTS] = np.quantile(np.abs(second), quantile, axis=0) / usual
     return np.asarray(np.sqrt((deviation**2).mean(axis=-1)), float)
 
 
