@@ -135,6 +135,12 @@ def installation(tmp_path: Path, postgres_installed: None) -> Iterator[Installat
         network.close()
 
 
+def unsigned(job: dict[str, Any]) -> dict[str, Any]:
+    """A job without its signed addresses, which are others every half an hour."""
+    artifacts = {name: {**one, "signed_url": None} for name, one in job["artifacts"].items()}
+    return {**job, "artifacts": artifacts}
+
+
 def test_a_worker_that_is_cut_off_in_mid_job_loses_it_and_the_other_finishes_it_once(
     installation: Installation, picture: bytes
 ) -> None:
@@ -159,7 +165,7 @@ def test_a_worker_that_is_cut_off_in_mid_job_loses_it_and_the_other_finishes_it_
     eventually(lambda: not list(folder.glob("attempt-*")), "it has dropped what it had made")
     installation.network.plug_in(cut.host)
     time.sleep(LEASE_SECONDS)
-    assert installation.job(job) == done, "nothing of it came after"
+    assert unsigned(installation.job(job)) == unsigned(done), "nothing of it came after"
 
     # Back on the network, it works again: two jobs at once need both.
     both = [installation.submit(picture, seconds=3000) for _ in range(2)]
