@@ -1,6 +1,7 @@
 """Collars, scarves and hoods that lie on the shoulders: what of the head's label below the mouth has the clothes' colours is the trunk's.
 
-Labels end the head at the template's chin, however high a collar stands. Left with the head it would be hair, or a bare neck.
+Labels end the head at the template's chin, however high a collar stands. Left with the head it would be hair, or a bare neck. Clothes are
+learned where the trunk surely wears some, and skin also as dark as it is beneath a chin: a bare neck is no cloth.
 """
 
 from __future__ import annotations
@@ -32,8 +33,11 @@ from engine.imaging.masks.colour_segmentation import (
 )
 from engine.imaging.masks.mask_pieces import pieces_touching, without_small_pieces
 
-CLOTH_REACH_SHARE = 1.2
-"""How far below the head's label the colours of clothes are learned, in half heights of the face."""
+CLOTH_REACH_SHARE, SURE_CLOTH_SHARES = 1.2, (1.2, 4.0)
+"""How far below the head's label cloth is told from what is bare, and between which heights below it the trunk is surely in its clothes, in half
+heights of the face."""
+SHADES = (1.0, 0.75, 0.5)
+"""How light skin is beneath a chin, as a share of the face's."""
 MIN_CLOTH_PIECE_PIXELS = 12
 """Pixels of the grid of a piece of cloth that is worth having."""
 MIN_HAIR_BESIDE_SHARE = 0.4
@@ -56,6 +60,10 @@ def with_neck_cloth(figure: Figure, silhouette: Silhouette, labels: Labels) -> L
         face_ellipse(figure, silhouette.to_grid, labels.labels == HEAD_LABEL),
     )
     return replace(labels, labels=np.where(cloth, TRUNK_LABEL, labels.labels).astype(labels.labels.dtype))
+
+
+def _between(rows: NDArray[np.integer], first: float, last: float) -> NDArray[np.bool_]:
+    return np.asarray((rows > first) & (rows < last), np.bool_)
 
 
 def neck_cloth(
@@ -83,7 +91,8 @@ def neck_cloth(
     beside = np.asarray(head & ~oval & ~low & (rows > face[1]), np.bool_)
     no_skin = np.zeros(head.shape, np.bool_)
     no_skin[beside] = skin.negative_log_likelihood(colours[beside]) > usual
-    shown, bare = [colours[inner & head]], [skin]
+    shown = [np.concatenate([shade * colours[inner & head] for shade in SHADES])]
+    bare = [ColourMixture.fit(shown[0]).widened(HAIR_COLOUR_VARIANCE)]
     if no_skin.sum() > MIN_HAIR_BESIDE_SHARE * beside.sum():  # else none comes down to the shoulders
         shown.append(colours[np.asarray(crown, np.bool_) | no_skin])
         bare.append(ColourMixture.fit(shown[1]).widened(HAIR_COLOUR_VARIANCE))
@@ -94,12 +103,15 @@ def neck_cloth(
         float(np.quantile(one.negative_log_likelihood(own), USUAL_QUANTILE))
         for one, own in zip(bare, shown, strict=True)
     ]
-    found = np.where((costs < limits).any(1), costs.argmin(1), cloth_number)
+    surely = trunk & _between(rows, *(last + share * face[3] for share in SURE_CLOTH_SHARES))
+    if surely.sum() < MIN_MIXTURE_PIXELS:
+        return nothing
+    worn = ColourMixture.fit(colours[surely]).widened(HAIR_COLOUR_VARIANCE)
+    other = np.minimum(worn.negative_log_likelihood(pixels), STRANGE_COST)
+    found = np.where((costs < limits).any(1) & (costs.min(1) < other), costs.argmin(1), cloth_number)
     seeds = np.full(len(pixels), UNSEEDED_MARK)
     for _ in range(SEGMENTATION_ROUNDS):
-        of_cloth = pixels[(found == cloth_number) & near[area]]
-        if len(of_cloth) < MIN_MIXTURE_PIXELS:
-            return nothing
+        of_cloth = np.concatenate([pixels[(found == cloth_number) & near[area]], colours[surely]])
         cloth = ColourMixture.fit(of_cloth).widened(HAIR_COLOUR_VARIANCE)
         other = np.minimum(cloth.negative_log_likelihood(pixels), STRANGE_COST)
         found = graph.cut(np.concatenate([costs, other[:, None]], 1), found, seeds)

@@ -60,3 +60,14 @@ def test_a_bare_neck_stays_the_heads() -> None:
     rgb[collar] = rgb[45, 60]
     assert neck_cloth(rgb, head, trunk, FACE).sum() < 0.02 * head.sum()
     assert not neck_cloth(rgb, head, trunk, None).any(), "no face, no mouth to be below"
+
+
+def test_a_neck_in_the_shade_above_a_low_neckline_stays_the_heads() -> None:
+    """Half as light as the face, and going on below the head's label, where a dark vest has its neckline."""
+    rgb, head, trunk, collar = person(False)
+    bare = (head & (Y > 66)) | collar | (trunk & (np.abs(X - 60) < 20) & (Y < 100))
+    rgb[bare] = rgb[bare] * 0 + (np.array(SKIN) * 0.5).astype(np.uint8)
+    rgb[trunk & ~bare] = rgb[trunk & ~bare] // 3
+    noise = np.random.default_rng(2).normal(0, 4, rgb.shape)
+    found = neck_cloth(np.clip(rgb + noise, 0, 255).astype(np.uint8), head, trunk, FACE)
+    assert found.sum() < 0.02 * head.sum()
