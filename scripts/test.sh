@@ -22,8 +22,7 @@ for check in lint types imports web-unit; do begin "$check"; done
 for check in lint types imports web-unit compiled; do finish "$check"; done
 begin web-browser
 heading unit
-# A little behind the browser's, which wait more and would go on alone at the end.
-nice -n 1 make --no-print-directory --old-file=compiled unit || failed+=(unit)
+make --no-print-directory --old-file=compiled unit || failed+=(unit)
 finish web-browser
 
 printf '\n'
