@@ -36,8 +36,8 @@ from engine.imaging.masks.mask_pieces import pieces_touching, without_small_piec
 CLOTH_REACH_SHARE, SURE_CLOTH_SHARES = 1.2, (1.2, 4.0)
 """How far below the head's label cloth is told from what is bare, and between which heights below it the trunk is surely in its clothes, in half
 heights of the face."""
-SHADES = (1.0, 0.75, 0.5)
-"""How light skin is beneath a chin, as a share of the face's."""
+SHADES = tuple(np.linspace(1.0, 0.4, 13))
+"""How light skin may be beneath a chin, as shares of the face's."""
 MIN_CLOTH_PIECE_PIXELS = 12
 """Pixels of the grid of a piece of cloth that is worth having."""
 MIN_HAIR_BESIDE_SHARE = 0.4
@@ -46,8 +46,8 @@ EARS_DEPTH_SHARE, MAX_CLOTH_BESIDE_SHARE = 0.15, 0.3
 """How far below a face's middle ears are, as a share of half its height, and the share of what is beside it down to there that may have the clothes'
 colours: of more, what was taken for clothes is hair."""
 USUAL_QUANTILE, STRANGE_COST = 0.95, 18.0
-"""Quantile of how unlikely colours of skin and of hair are among themselves, up to which others are theirs at first; and the negative logarithm of
-a density, levels to the minus third, that cloth of a colour that is nowhere on the trunk, as a lining, has at most."""
+"""Quantile of how unlikely colours of skin are among themselves, up to which others are skin; and the negative logarithm of a density, levels
+to the minus third, that a colour has at most of all that is told apart. One that is nowhere else, as a lining's, is what its surroundings are."""
 
 
 def with_neck_cloth(figure: Figure, silhouette: Silhouette, labels: Labels) -> Labels:
@@ -91,24 +91,19 @@ def neck_cloth(
     beside = np.asarray(head & ~oval & ~low & (rows > face[1]), np.bool_)
     no_skin = np.zeros(head.shape, np.bool_)
     no_skin[beside] = skin.negative_log_likelihood(colours[beside]) > usual
-    shown = [np.concatenate([shade * colours[inner & head] for shade in SHADES])]
-    bare = [ColourMixture.fit(shown[0]).widened(HAIR_COLOUR_VARIANCE)]
+    shades = np.concatenate([shade * colours[inner & head] for shade in SHADES])
+    bare = [ColourMixture.fit(shades).widened(HAIR_COLOUR_VARIANCE)]
     if no_skin.sum() > MIN_HAIR_BESIDE_SHARE * beside.sum():  # else none comes down to the shoulders
-        shown.append(colours[np.asarray(crown, np.bool_) | no_skin])
-        bare.append(ColourMixture.fit(shown[1]).widened(HAIR_COLOUR_VARIANCE))
+        bare.append(ColourMixture.fit(colours[np.asarray(crown, np.bool_) | no_skin]).widened(HAIR_COLOUR_VARIANCE))
     area, cloth_number = np.asarray(low | near, np.bool_), len(bare)
     graph, pixels = ContrastGraph.of(colours, area), colours[area]
-    costs = colour_costs(bare, pixels)
-    limits = [
-        float(np.quantile(one.negative_log_likelihood(own), USUAL_QUANTILE))
-        for one, own in zip(bare, shown, strict=True)
-    ]
+    costs = np.minimum(colour_costs(bare, pixels), STRANGE_COST)
     surely = trunk & _between(rows, *(last + share * face[3] for share in SURE_CLOTH_SHARES))
     if surely.sum() < MIN_MIXTURE_PIXELS:
         return nothing
     worn = ColourMixture.fit(colours[surely]).widened(HAIR_COLOUR_VARIANCE)
     other = np.minimum(worn.negative_log_likelihood(pixels), STRANGE_COST)
-    found = np.where((costs < limits).any(1) & (costs.min(1) < other), costs.argmin(1), cloth_number)
+    found = np.where(costs.min(1) < other, costs.argmin(1), cloth_number)
     seeds = np.full(len(pixels), UNSEEDED_MARK)
     for _ in range(SEGMENTATION_ROUNDS):
         of_cloth = np.concatenate([pixels[(found == cloth_number) & near[area]], colours[surely]])

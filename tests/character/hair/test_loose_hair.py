@@ -73,3 +73,6 @@ def test_a_scarf_that_stands_up_is_the_trunks(media: Callable[[str], Path]) -> N
     assert moved.sum() > 300
     green = person.silhouette.rgb[moved, 1]
     assert np.median(green) < 70, "olive; at its upper edge the trunk goes on behind the chin"
+    red, green, blue = person.silhouette.rgb.astype(int).transpose(2, 0, 1)
+    lining = (bare == HEAD_LABEL) & (red > 120) & (red > 2.5 * np.maximum(green, blue))
+    assert lining.sum() > 60 and (found.labels.labels == TRUNK_LABEL)[lining].mean() > 0.95, "red, like nothing below"

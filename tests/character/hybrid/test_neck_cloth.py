@@ -10,7 +10,7 @@ from engine.character.hybrid.neck_cloth import neck_cloth
 
 HEIGHT, WIDTH = 140, 120
 FACE = np.array([60.0, 45.0, 18.0, 26.0, 0.0])
-SKIN, HAIR, COAT, LINING = (215, 170, 145), (50, 34, 26), (40, 60, 110), (250, 110, 170)
+SKIN, HAIR, COAT, LINING = (215, 170, 145), (50, 34, 26), (40, 60, 110), (190, 30, 40)
 Y, X = np.mgrid[:HEIGHT, :WIDTH]
 
 
@@ -62,11 +62,12 @@ def test_a_bare_neck_stays_the_heads() -> None:
     assert not neck_cloth(rgb, head, trunk, None).any(), "no face, no mouth to be below"
 
 
-def test_a_neck_in_the_shade_above_a_low_neckline_stays_the_heads() -> None:
-    """Half as light as the face, and going on below the head's label, where a dark vest has its neckline."""
+@pytest.mark.parametrize("shade", [0.9, 0.7, 0.5, 0.4])
+def test_a_neck_in_the_shade_above_a_low_neckline_stays_the_heads(shade: float) -> None:
+    """Darker than the face, and going on below the head's label, where a dark vest has its neckline."""
     rgb, head, trunk, collar = person(False)
     bare = (head & (Y > 66)) | collar | (trunk & (np.abs(X - 60) < 20) & (Y < 100))
-    rgb[bare] = rgb[bare] * 0 + (np.array(SKIN) * 0.5).astype(np.uint8)
+    rgb[bare] = rgb[bare] * 0 + (np.array(SKIN) * shade).astype(np.uint8)
     rgb[trunk & ~bare] = rgb[trunk & ~bare] // 3
     noise = np.random.default_rng(2).normal(0, 4, rgb.shape)
     found = neck_cloth(np.clip(rgb + noise, 0, 255).astype(np.uint8), head, trunk, FACE)

@@ -78,6 +78,7 @@ def test_some_vertices_are_steadied_on_their_head_and_the_others_stay() -> None:
     before, others = meshes.copy(), np.delete(np.arange(MESH_SIZE), some)
     steady_on_head(meshes, some)
     np.testing.assert_array_equal(meshes[:, others], before[:, others])
+    np.testing.assert_array_equal(meshes[..., 2], before[..., 2])
     frames = HeadFrames.of(truth)
     apart, raw = (frames.on_head(one)[:, some] - frames.on_head(truth)[:, some] for one in (meshes, before))
     assert apart.std() < 0.75 * raw.std()

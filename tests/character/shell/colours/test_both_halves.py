@@ -49,6 +49,15 @@ def test_it_is_in_its_own_light(turn: float) -> None:
     assert np.abs(found.colours - lit)[far].mean() < 0.5 * np.abs(mirrored - lit)[far].mean()
 
 
+def test_a_half_in_the_shade_has_no_image_of_what_is_lit() -> None:
+    """A fifth as light: that its mirror image can be made as dark as that makes it no good one."""
+    shaded = face() * np.where(ANGLES < 0, 0.2, 1).astype(np.float32)[None, :, None]
+    found = seen(shaded, 0.5)
+    there = np.broadcast_to(np.cos(ANGLES - 0.5) > 0.35, found.own.shape)
+    assert (found.own == 1)[there].all()
+    assert (found.colours == shaded)[there].all()
+
+
 def test_of_a_face_from_the_front_nothing_changes() -> None:
     found = seen(face(), 0.0)
     assert (found.own == 1).all()
