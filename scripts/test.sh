@@ -17,10 +17,10 @@ heading() { printf '\n\033[1m== %s ==\033[0m\n' "$1"; }
 begin() { setsid make --no-print-directory "$1" >"$reports/$1.log" 2>&1 & begun[$1]=$!; }
 finish() { heading "$1"; wait "${begun[$1]}" || failed+=("$1"); cat "$reports/$1.log"; }
 
-begin compiled
-for check in lint types imports web-unit; do begin "$check"; done
-for check in lint types imports web-unit compiled; do finish "$check"; done
-begin web-browser
+for check in compiled lint types imports web-unit; do begin "$check"; done
+finish compiled
+begin web-browser  # ends last: it waits longest
+for check in lint types imports web-unit; do finish "$check"; done
 heading unit
 make --no-print-directory --old-file=compiled unit || failed+=(unit)
 finish web-browser
