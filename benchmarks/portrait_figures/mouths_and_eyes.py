@@ -16,7 +16,7 @@ from benchmarks.presentation.tables import table
 from benchmarks.shared_media import driving_clips, media
 from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget, draw_in_order
 from engine.face_animation.creases.fine_details import RatioStrip
-from engine.face_animation.eyes.eyes import iris_positions
+from engine.face_animation.eyes.gaze import iris_positions
 from engine.face_animation.mouth.lip_contours import LOWER_INNER_LIP, UPPER_INNER_LIP
 from engine.face_animation.skin_colour import skin_colour
 from engine.media.image import read_image

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
 from engine.errors import InputError
-from engine.face_animation.eyes.eyes import iris_positions
+from engine.face_animation.eyes.gaze import iris_positions
 from engine.face_animation.motion_transfer.head_motion import turn_angles
 from engine.perception.expression.features import lip_asymmetry
 from engine.perception.expression.measures import (

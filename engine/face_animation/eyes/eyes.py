@@ -29,73 +29,6 @@ CLOSING_GAP_SHARES = (0.92, 0.5)
 """Shares of the picture's opening at which a lid begins to take its own colours, and has."""
 GLINT_MOTION_SHARE = 0.3
 """Of the iris' way, that the catch-light goes: it is a mirror image of what is before the face."""
-MIN_CORNER_DISTANCE_IRIS_RADII = 0.85
-"""Radii of the iris that are between its middle and a corner of the eye, at least."""
-FREE_GAZE_SHARE = 0.6
-"""Share of the way to where it may go that an iris goes freely."""
-MIN_VERGENCE_EYE_WIDTHS = 0.1
-"""Eye widths by which each iris has to go against the other's before eyes are taken to converge: a tracker errs by less."""
-INWARD_SIGNS = np.array([1.0, -1.0])[:, None]
-"""Of both eyes, right eye first: from the outer corner to the inner one, along the picture's right or against it."""
-
-
-def gaze_offsets(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(N, 2, 2) how far each iris has moved against the neutral frame, right eye first, in eye widths along
-    and across the line between the eye's corners. A shut eye does not look anywhere: it moves back to rest."""
-    return conjugate(iris_positions(meshes) - iris_positions(neutral[None]))
-
-
-def conjugate(looks: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Looks (N, 2, 2) of two eyes that move together, as `gaze_offsets` has them. Both go the mean of what each was
-    seen to do. Only what they differ by beyond `MIN_VERGENCE_EYE_WIDTHS` remains: whoever crosses their eyes means
-    it."""
-    across_picture = looks * INWARD_SIGNS
-    together = across_picture.mean(axis=1, keepdims=True)
-    apart = across_picture - together
-    meant = np.sign(apart) * np.maximum(np.abs(apart) - MIN_VERGENCE_EYE_WIDTHS, 0)
-    return np.asarray((together + meant) * INWARD_SIGNS, float)
-
-
-def iris_positions(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(N, 2, 2) where each iris stands between the eye's corners, right eye first, from their middle, in eye widths along
-    and across the line between them."""
-    return np.stack([_look(meshes, side) for side in EYE_OUTLINE_IRIS_CORNERS], axis=1)
-
-
-def _look(meshes: NDArray[np.floating], side: tuple) -> NDArray[np.float64]:
-    _, iris, outer, inner = side
-    a, b = meshes[:, outer, :2], meshes[:, inner, :2]
-    along = b - a
-    width = np.linalg.norm(along, axis=1, keepdims=True)
-    along = along / width
-    across = np.stack([-along[:, 1], along[:, 0]], axis=1)
-    centre = meshes[:, iris[0], :2] - (a + b) / 2
-    return np.stack([(centre * along).sum(1), (centre * across).sum(1)], axis=1) / width
-
-
-def held_looks(eyes: tuple[Eyeball | None, Eyeball | None], looks: NDArray[np.floating]) -> NDArray[np.float64]:
-    """`looks` (2, 2), as `gaze_offsets` gives them, with each iris within its eye. Irises that are larger than the
-    driver's, or nearer to a corner in the picture, go less far. The other eye goes less far by the same share, so that
-    held eyes are not crossed."""
-    shares = [
-        held_along(eye, float(look[0])) / look[0]
-        for eye, look in zip(eyes, looks, strict=True)
-        if eye is not None and abs(look[0]) > 1e-6
-    ]
-    return np.asarray(looks * (min(shares, default=1.0), 1.0), float)
-
-
-def held_along(eye: Eyeball, look: float) -> float:
-    """How far an iris goes along its eye that wants to go as far as `look`, in eye widths."""
-    most = max(0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * eye.radius, 0.05)
-    free = FREE_GAZE_SHARE * most
-
-    def held(at: float) -> float:
-        over = max(abs(at) - free, 0.0)
-        return float(np.sign(at) * (min(abs(at), free) + (most - free) * np.tanh(over / (most - free))))
-
-    rest = float(eye.centre[0])
-    return held(rest + look) - held(rest)
 
 
 def draw_eye(
@@ -105,7 +38,7 @@ def draw_eye(
 
     Parameters
     ----------
-    mesh : (478, 2) the face in this frame. side : 0 right, 1 left. look : (2,) from `held_looks`.
+    mesh : (478, 2) the face in this frame. side : 0 right, 1 left. look : (2,) of the iris from where it rests, as `gaze.iris_shift` has it.
     """
     contour, _, outer, inner = EYE_OUTLINE_IRIS_CORNERS[side]
     opening = mesh[list(contour), :2].astype(np.float32)

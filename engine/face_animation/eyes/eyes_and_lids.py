@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.eyes.eyeball import prepare_eyes
-from engine.face_animation.eyes.eyes import draw_eye, held_looks, lid_closing_share
+from engine.face_animation.eyes.eyes import draw_eye, lid_closing_share
+from engine.face_animation.eyes.gaze import iris_shift
 from engine.face_animation.eyes.lid_skin import draw_lid, lid_skins
 from engine.face_animation.target_face import TargetFace
 
@@ -19,9 +20,8 @@ class EyesAndLids:
         self._lids = lid_skins(target.rgb, target.mesh)
 
     def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], look: NDArray[np.float32]) -> None:
-        """Draw them in place where a `face` (478, 2) of the frame (H, W, 3) has them, pixels; `look` (2, 2) as `eyes.gaze_offsets`."""
-        held = held_looks(self._eyeballs, look)
+        """Draw them in place where a `face` (478, 2) of the frame (H, W, 3) has them, pixels; `look` (2, 2) as `gaze.gaze`."""
         for side, eyeball in enumerate(self._eyeballs):
             if eyeball is not None:
                 draw_lid(frame, self._lids[side], face, side, lid_closing_share(eyeball, face, side))
-                draw_eye(frame, eyeball, face, side, held[side])
+                draw_eye(frame, eyeball, face, side, iris_shift(eyeball, look[side]))

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions, Part
-from engine.face_animation.eyes.eyes import gaze_offsets
+from engine.face_animation.eyes.gaze import gaze
 from engine.face_animation.motion_transfer.alignment import align
 from engine.face_animation.motion_transfer.body_motion import (
     body_share,
@@ -72,7 +72,7 @@ class ControlMotion:
 
     offsets : (C, 2) of the control points, pixels.
     depth : (C,) of them, smaller is nearer.
-    look : (2, 2) of the irises, see `eyes.gaze_offsets`.
+    look : (2, 2) of the irises, see `gaze.gaze`.
     behind : (C, 2) how far apart from them the points of the sheet behind the face are, see `far_side`.
     """
 
@@ -191,7 +191,7 @@ class MotionTransfer:
         keep_lips_off_skin(acted, target, philtrum_compression(upright, rest))
         ratio = np.maximum(ratio, 0)
         expression = constrain_lids_and_lips(acted, target, ratio, self._control.bare) - target
-        look = self._eyes * gaze_offsets(rest + motion.expression, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
+        look = self._eyes * gaze(rest + motion.expression, rest, np.clip(ratio[:, [3, 10]], 0, 1))
         return expression, look.astype(np.float32), ratio
 
     def _carried_around(self, frames: DriverFrames) -> NDArray[np.floating]:

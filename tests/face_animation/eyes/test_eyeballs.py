@@ -13,14 +13,7 @@ from made_face import BROWN, SKIN, WHITE, painted, placed, shut
 from numpy.typing import NDArray
 
 from engine.face_animation.eyes.eyeball import MIN_EYE_WIDTH_PIXELS, prepare_eyes, white_light
-from engine.face_animation.eyes.eyes import (
-    MIN_VERGENCE_EYE_WIDTHS,
-    conjugate,
-    draw_eye,
-    gaze_offsets,
-    held_along,
-    held_looks,
-)
+from engine.face_animation.eyes.eyes import draw_eye
 from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS
 from engine.perception.face.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
@@ -99,29 +92,6 @@ def test_a_gaze_moves_the_iris_by_the_asked_distance(picture, mesh, look: tuple[
     assert np.linalg.norm(moved - asked) < max(0.15 * np.linalg.norm(asked), 0.6)
 
 
-def test_the_measured_gaze_is_the_drawn_one(mesh: NDArray) -> None:
-    """What `gaze_offsets` reads from two meshes is what `draw_eye` wants: both eyes look to the picture's right."""
-    looking = mesh.copy()
-    for iris in IRISES:
-        looking[list(iris), 0] += 5.0
-    found = gaze_offsets(looking[None], mesh)[0]
-    assert found[0, 0] == pytest.approx(5 / width(mesh, 0), abs=0.01)  # outer to inner corner: to the right
-    assert found[1, 0] == pytest.approx(-5 / width(mesh, 1), abs=0.01)  # the left eye's inner corner is on its left
-    picture = painted(mesh, SIZE)
-    for side, eye in enumerate(prepare_eyes(picture, mesh)):
-        assert eye is not None
-        out = picture.copy()
-        draw_eye(out, eye, mesh, side, found[side])
-        moved = iris_centre(out, mesh, side) - iris_centre(picture, mesh, side)
-        np.testing.assert_allclose(moved, [5, 0], atol=0.8)
-
-
-def test_gaze_does_not_see_the_head_move(mesh: NDArray) -> None:
-    a = np.deg2rad(20)
-    turned = 1.3 * (mesh[:, :2] - 180) @ np.array([[np.cos(a), np.sin(a)], [-np.sin(a), np.cos(a)]]) + 90
-    np.testing.assert_allclose(gaze_offsets(turned[None], mesh[:, :2])[0], 0, atol=1e-5)
-
-
 def test_closing_lids_move_over_the_eyeball(picture: NDArray, mesh: NDArray) -> None:
     """The iris does not shrink or sink with the lid: what is still open shows what was there."""
     half = shut(mesh, 0.55)
@@ -198,36 +168,6 @@ def test_a_catch_light_stays_nearly_where_it_was(mesh: NDArray) -> None:
     found = np.argwhere(bright)[:, ::-1].mean(axis=0)
     gone, iris_way = np.linalg.norm(found - light), np.linalg.norm(moved - centre)
     assert gone < 0.6 * iris_way
-
-
-def test_an_iris_stays_within_its_eye_however_far_it_is_told_to_look(picture: NDArray, mesh: NDArray) -> None:
-    eye = prepare_eyes(picture, mesh)[0]
-    assert eye is not None
-    looks = [held_along(eye, far) for far in np.linspace(-0.6, 0.6, 25)]
-    assert (np.diff(looks) > 0).all(), "further is further"
-    assert held_along(eye, 0.0) == pytest.approx(0)
-    assert abs(eye.centre[0] + looks[-1]) < 0.5 - 0.8 * eye.radius
-    assert held_along(eye, 0.05) == pytest.approx(0.05, abs=0.005), "a usual look is as it is"
-
-
-def test_eyes_look_the_same_way_but_where_they_are_crossed() -> None:
-    """A tracker that has one iris go further than the other errs; irises that both go far inwards are meant."""
-    one_errs = np.array([[[0.12, -0.04], [-0.06, 0.0]]])
-    np.testing.assert_allclose(conjugate(one_errs), [[[0.09, -0.02], [-0.09, 0.02]]])
-    crossed = np.array([[[0.2, 0.0], [0.2, 0.0]]])
-    np.testing.assert_allclose(conjugate(crossed), crossed - np.array([MIN_VERGENCE_EYE_WIDTHS, 0.0]))
-
-
-def test_an_eye_that_is_held_holds_the_other(picture: NDArray, mesh: NDArray) -> None:
-    """Of a face whose irises do not rest in the middle one comes to its corner before the other."""
-    right, left = prepare_eyes(picture, mesh)
-    assert right is not None and left is not None
-    aside = replace(right, centre=right.centre + np.array([0.1, 0.0]))
-    looks = np.array([[0.3, 0.05], [-0.3, -0.05]])
-    held = held_looks((aside, left), looks)
-    assert held[0, 0] == pytest.approx(held_along(aside, 0.3))
-    np.testing.assert_allclose(held * [[1], [-1]], held[[0, 0]])
-    np.testing.assert_allclose(held_looks((None, left), looks)[1, 0], held_along(left, -0.3))
 
 
 def test_small_and_shut_eyes_of_a_picture_have_no_layer(mesh: NDArray) -> None:

@@ -1,0 +1,139 @@
+"""Where eyes look: both go the same share of their ways, come to their corners together, and shut ones do not count."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+import pytest
+from made_face import painted, placed, shut
+from numpy.typing import NDArray
+
+from engine.face_animation.eyes.eyeball import Eyeball, prepare_eyes
+from engine.face_animation.eyes.eyes import draw_eye
+from engine.face_animation.eyes.gaze import (
+    MIN_CORNER_DISTANCE_IRIS_RADII,
+    MIN_VERGENCE_SHARE,
+    conjugate,
+    gaze,
+    iris_positions,
+    iris_radii,
+    iris_shift,
+    ways_to_corners,
+)
+from engine.perception.face.landmarks import LEFT_IRIS, RIGHT_IRIS
+
+SIZE = (360, 320)
+OPEN = np.ones((1, 2))
+EYES = ((33, 133, RIGHT_IRIS), (263, 362, LEFT_IRIS))
+"""Outer corner, inner corner and iris of both, right eye first."""
+
+
+@pytest.fixture(scope="module")
+def mesh() -> NDArray[np.float32]:
+    return shut(placed(120, (180, 140)), 1.6)
+
+
+@pytest.fixture(scope="module")
+def eyes(mesh: NDArray) -> tuple[Eyeball, Eyeball]:
+    right, left = prepare_eyes(painted(mesh, SIZE), mesh)
+    assert right is not None and left is not None
+    return right, left
+
+
+def irises_moved(mesh: NDArray, right: float, left: float) -> NDArray[np.float32]:
+    """A mesh whose irises have moved along the picture, pixels."""
+    moved = mesh.copy()
+    moved[list(RIGHT_IRIS), 0] += right
+    moved[list(LEFT_IRIS), 0] += left
+    return moved
+
+
+def test_radii_and_places_of_irises_in_eye_widths(mesh: NDArray) -> None:
+    for side, (outer, inner, iris) in enumerate(EYES):
+        width = np.linalg.norm(mesh[outer, :2] - mesh[inner, :2])
+        rim = np.linalg.norm(mesh[iris[1], :2] - mesh[iris[0], :2])
+        assert iris_radii(mesh[None])[0, side] == pytest.approx(rim / width, rel=0.05)
+    before, after = iris_positions(np.stack([mesh, irises_moved(mesh, 6, 6)]))
+    width = np.linalg.norm(mesh[33, :2] - mesh[133, :2])
+    np.testing.assert_allclose((after - before)[:, 0] * width, [6, -6], rtol=0.05)  # outer to inner: right, and left
+
+
+def test_the_target_looks_as_the_driver_does_where_both_are_alike(mesh: NDArray, eyes: tuple[Eyeball, Eyeball]) -> None:
+    look = gaze(irises_moved(mesh, 5, 5)[None], mesh, OPEN)[0]
+    for side, (outer, inner, _) in enumerate(EYES):
+        along = (mesh[inner, :2] - mesh[outer, :2]) * iris_shift(eyes[side], look[side])[0]
+        np.testing.assert_allclose(along, [5, 0], atol=0.8)  # irises of the made face rest unevenly
+
+
+def test_gaze_does_not_see_the_head_move(mesh: NDArray) -> None:
+    a = np.deg2rad(20)
+    turned = 1.3 * (mesh[:, :2] - 180) @ np.array([[np.cos(a), np.sin(a)], [-np.sin(a), np.cos(a)]]) + 90
+    np.testing.assert_allclose(gaze(turned[None], mesh[:, :2], OPEN)[0], 0, atol=1e-5)
+
+
+def test_irises_that_rest_apart_come_to_their_corners_together(mesh: NDArray, eyes: tuple[Eyeball, Eyeball]) -> None:
+    """Of a face whose irises rest unevenly none looks at its corner while the other looks ahead."""
+    right, left = eyes
+    uneven = (replace(right, centre=np.array([-0.1, 0.0])), replace(left, centre=np.array([-0.1, 0.0])))
+    for far in (1.0, -1.0):
+        for eye, sign in zip(uneven, (1, -1), strict=True):
+            at = eye.centre[0] + iris_shift(eye, np.array([sign * far, 0.0]))[0]
+            assert at == pytest.approx(sign * far * (0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * eye.radius))
+    half = [iris_shift(eye, np.array([sign * 0.5, 0.0]))[0] for eye, sign in zip(uneven, (1, -1), strict=True)]
+    assert half[0] > 0 > half[1]
+    assert half[0] / -half[1] == pytest.approx(
+        np.divide(*[ways_to_corners(-0.1, e.radius)[k] for e, k in zip(uneven, (1, 0), strict=True)])
+    )
+
+
+def test_an_iris_stays_within_its_eye_however_far_it_is_told_to_look(
+    mesh: NDArray, eyes: tuple[Eyeball, Eyeball]
+) -> None:
+    for told in (-3.0, 3.0):
+        shift = iris_shift(eyes[0], np.array([told, 0.0]))[0]
+        assert abs(eyes[0].centre[0] + shift) <= 0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * eyes[0].radius + 1e-9
+    far = gaze(irises_moved(mesh, 60, 60)[None], mesh, OPEN)[0]
+    np.testing.assert_allclose(far[:, 0], [1, -1])
+
+
+def test_a_large_iris_that_rests_in_its_corner_still_moves() -> None:
+    assert min(ways_to_corners(0.4, 0.3)) > 0
+
+
+def test_eyes_look_the_same_way_but_where_they_are_crossed() -> None:
+    """A tracker that has one iris go further than the other errs; irises that both go far inwards are meant."""
+    one_errs = np.array([[[0.4, -0.04], [-0.2, 0.0]]])
+    np.testing.assert_allclose(conjugate(one_errs, OPEN), [[[0.3, -0.02], [-0.3, 0.02]]], atol=1e-6)
+    crossed = np.array([[[0.6, 0.0], [0.6, 0.0]]])
+    np.testing.assert_allclose(conjugate(crossed, OPEN), crossed - np.array([MIN_VERGENCE_SHARE, 0.0]), atol=1e-6)
+
+
+def test_nobody_looks_up_with_one_eye_and_down_with_the_other() -> None:
+    skewed = np.array([[[0.0, 0.3], [0.0, 0.3]]])  # across each eye: down the picture, and up
+    np.testing.assert_allclose(conjugate(skewed, OPEN), 0, atol=1e-9)
+
+
+def test_an_eye_that_shuts_does_not_lead_the_other() -> None:
+    """Its iris is not seen; and where both are shut nobody looks anywhere."""
+    looks = np.array([[[0.5, 0.0], [0.8, 0.0]]])
+    winking = conjugate(looks, np.array([[1.0, 0.0]]))
+    np.testing.assert_allclose(winking, [[[0.5, 0.0], [-0.5, 0.0]]], atol=1e-5)
+    np.testing.assert_allclose(conjugate(looks, np.zeros((1, 2))), 0)
+
+
+def test_the_measured_gaze_is_the_drawn_one(mesh: NDArray, eyes: tuple[Eyeball, Eyeball]) -> None:
+    """The iris of a drawn eye stands where the driver's does, measured in the picture: its brown is there."""
+    picture = painted(mesh, SIZE)
+    look = gaze(irises_moved(mesh, 5, 5)[None], mesh, OPEN)[0]
+    for side, (_, _, iris) in enumerate(EYES):
+        out = picture.copy()
+        draw_eye(out, eyes[side], mesh, side, iris_shift(eyes[side], look[side]))
+        box = np.zeros(picture.shape[:2], np.uint8)
+        centre = mesh[iris[0], :2]
+        cv2.circle(box, tuple(int(v) for v in np.rint(centre)), 22, 1, -1)
+        change = (out.astype(int) - picture).sum(axis=2) * box
+        xs = np.mgrid[: box.shape[0], : box.shape[1]][1]
+        gone, come = (change > 60), (change < -60)
+        assert xs[come].mean() > xs[gone].mean(), "it goes to the picture's right"
