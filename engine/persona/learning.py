@@ -14,6 +14,7 @@ from engine.perception.face.landmarks import LIPS_INNER, mouth_opening
 from engine.persona.collection.rest import at_rest
 from engine.persona.persona import Persona
 from engine.persona.shape.average_shape import average_depth
+from engine.persona.shape.parallax import depth_by_parallax
 from engine.persona.texture.aligned_photos import AlignedPhotos, align_photos
 from engine.persona.texture.appearance_subspace import Appearance, appearance, exposed
 from engine.persona.texture.bare_skin import bared
@@ -30,6 +31,9 @@ MIN_BELIEVED = 0.45
 spectacles or a light of its own cover the face, or it is painted. Caps leave more."""
 BROW_TOP_VERTICES = (105, 334)
 """Vertices at the tops of the brows' arches."""
+
+TOWARDS_FAR = np.array([0.0, 0.0, 1.0])
+"""Away from the viewer."""
 
 
 @dataclass(frozen=True)
@@ -65,11 +69,12 @@ def learn_persona(
     front = frontalise(meshes)
     offsets, seen = align_densely(first, shown, frame.covered, lambda fraction: tick(0.4 + 0.5 * fraction))
     colours = _moved(AlignedPhotos(balanced(aligned.colours, seen.weights, frame.face), shown), offsets)
-    depth = average_depth(frame, seen)
+    deeper = depth_by_parallax(frame, meshes, offsets, seen.weights)[:, None] * TOWARDS_FAR
+    depth = average_depth(texture_frame(mesh + deeper, size), seen)
     tick(1.0)
     belief = np.rint(seen.weights * 255).astype(np.uint8)
     points = expression_points(front).astype(np.float32)
-    persona = Persona(mesh, at_rest(front), colours, belief, points, depth.astype(np.float32))
+    persona = Persona(mesh + deeper, at_rest(front) + deeper, colours, belief, points, depth.astype(np.float32))
     return LearntPersona(persona, used)
 
 

@@ -10,10 +10,13 @@ import numpy as np
 import pytest
 
 from engine.errors import InputError
+from engine.perception.expression.features import frontalise
 from engine.perception.face.landmarks import mouth_opening
+from engine.persona.collection.rest import at_rest
 from engine.persona.learning import learn_persona
 from engine.persona.persona import Persona, read_persona, write_persona
 from engine.persona.texture.expression_weights import expression_weights
+from engine.persona.texture.template_shape import template_shape
 
 SIZE = (244, 194)
 Collection = tuple[np.ndarray, list[np.ndarray]]
@@ -89,6 +92,13 @@ def test_the_shape_is_a_face(persona: Persona) -> None:
     nose, cheek, jaw = (frame.places[vertex, :2].round().astype(int) for vertex in (4, 50, 172))
     assert depth[nose[1], nose[0]] < depth[cheek[1], cheek[0]] < depth[jaw[1], jaw[0]], "away from the viewer"
     assert np.isfinite(depth).all()
+
+
+def test_depth_that_photographs_tell_is_in_the_face_at_rest_too(collection: Collection, persona: Persona) -> None:
+    front = frontalise(collection[0])
+    in_frame, rest = persona.mesh - template_shape(collection[0]), persona.neutral - at_rest(front)
+    np.testing.assert_allclose(in_frame, rest, atol=1e-12)
+    assert not in_frame[:, :2].any() and 0.005 < in_frame[:, 2].std() < 0.1
 
 
 def test_it_is_kept_in_a_file(persona: Persona, tmp_path: Path) -> None:

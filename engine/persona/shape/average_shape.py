@@ -1,6 +1,7 @@
 """The depth of a person's average face: its low frequencies from the mesh, its high ones from shading.
 
-Shading alone loses the nose from the side, since no photograph tells how far things are; the mesh alone makes everybody alike.
+Shading alone loses the nose from the side, since it tells slopes and not how far things are; the mesh, led to where photographs have it
+(`parallax`), has no more than its vertices tell.
 """
 
 from __future__ import annotations

@@ -10,10 +10,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.registration.rigid import fit_similarity
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.perception.face.head_pose import mirror_vertices
-from engine.perception.face.landmarks import FACE_OVAL, RIGID_VERTICES
+from engine.perception.face.landmarks import FACE_OVAL
 from engine.persona.texture.texture_frame import TextureFrame, sampled
 
 MIRRORED_WEIGHT = 0.5
@@ -56,7 +55,7 @@ def align_photos(
     for number, mesh in enumerate(meshes):
         rgb, lookup = photo(number), frame.lookup(mesh)
         own = sampled(rgb, lookup)
-        visible = frame.facing(_rotation(frame, mesh)) * frame.covered * _within(lookup, rgb.shape)
+        visible = frame.facing(frame.rotation_of(mesh)) * frame.covered * _within(lookup, rgb.shape)
         other, seen_there = (
             cv2.remap(layer, opposite[..., 0], opposite[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
             for layer in (own, visible)
@@ -81,10 +80,3 @@ def _within(lookup: NDArray[np.float32], shape: tuple[int, ...]) -> NDArray[np.f
     """(H, W) one where a photograph of `shape` (h, w, 3) reaches, zero beyond its edge."""
     inside = (lookup >= 0) & (lookup <= np.array(shape[1::-1]) - 1)
     return np.asarray(inside.all(axis=-1), np.float32)
-
-
-def _rotation(frame: TextureFrame, mesh: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(3, 3) by which the head of a photograph's mesh is turned from the frame's."""
-    chosen = list(RIGID_VERTICES)
-    linear = fit_similarity(frame.places[chosen], np.asarray(mesh, np.float64)[chosen]).linear
-    return np.asarray(linear / np.cbrt(np.linalg.det(linear)))

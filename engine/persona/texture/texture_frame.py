@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.mesh.surface import vertex_normals
+from engine.geometry.registration.rigid import fit_similarity
 from engine.imaging.resample import resized
 from engine.perception.face.face_tessellation import face_triangles, opening_triangles
-from engine.perception.face.landmarks import FACE_OVAL
+from engine.perception.face.landmarks import FACE_OVAL, RIGID_VERTICES
 from engine.render.rasterisation.attributes import interpolate
 from engine.render.rasterisation.rasteriser import Raster, rasterise
 
@@ -64,6 +65,11 @@ class TextureFrame:
     def lookup(self, mesh: NDArray[np.floating]) -> NDArray[np.float32]:
         """(H, W, 2) where in a photograph each pixel is, by the photograph's `mesh` (478, 2 or 3), pixels."""
         return self.interpolated(with_rim(mesh[:, :2]))
+
+    def rotation_of(self, mesh: NDArray[np.floating]) -> NDArray[np.float64]:
+        """(3, 3) by which the head of a photograph's `mesh` (478, 3) is turned from this frame's."""
+        chosen = list(RIGID_VERTICES)
+        return fit_similarity(self.places[chosen], np.asarray(mesh, np.float64)[chosen]).rotation
 
     def facing(self, rotation: NDArray[np.floating]) -> NDArray[np.float32]:
         """(H, W) in [0, 1], how well a photograph shows each pixel whose head is turned by `rotation` (3, 3) from this frame."""
