@@ -47,6 +47,7 @@ from engine.face_animation.motion_transfer.lids_below_brows import keep_lids_bel
 from engine.face_animation.motion_transfer.pose_refinement import refine_pose
 from engine.face_animation.motion_transfer.turned_expression import even_out_turned
 from engine.face_animation.mouth.closing import ClosingLips
+from engine.face_animation.mouth.lip_thickness import keep_thickness, thickness_shares
 from engine.face_animation.mouth.lips_and_skin import keep_lips_off_skin, philtrum_compression
 from engine.face_animation.mouth.smile_curve import SmileCurve
 from engine.face_animation.smoothstep import smoothstep
@@ -143,7 +144,7 @@ class MotionTransfer:
         if proxy is not None:
             around, trust = frames.periphery - self._around, frames.trust * self._trust
             motion = refine_pose(motion, self._driver, frames.meshes, around, trust)
-        expression, look, ratio = self._acted(motion)
+        expression, look, ratio, thickness = self._acted(motion)
         scaled = scale_motion(motion, self._head)
         offsets = np.zeros((len(frames.meshes), len(control.points), 2), np.float32)
         depths, behind = np.zeros(offsets.shape[:2], np.float32), np.zeros_like(offsets)
@@ -164,6 +165,7 @@ class MotionTransfer:
             keep_lids_below_brows(placed, rigid, control.bare)
             close_lids(placed, rigid, ratio)
             hold_lids(placed, rigid, self._lids)
+            keep_thickness(placed, rigid, thickness)
             offsets[:, MESH_SIZE:] = self._around_face(frames, motion, held, proxy, solid[..., :2], placed)
         offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
         if proxy is not None:
@@ -179,8 +181,11 @@ class MotionTransfer:
         keep_inside(placed, self._target, self._control.usable[:MESH_SIZE])
         return placed
 
-    def _acted(self, motion: HeadMotion) -> tuple[NDArray[np.float64], NDArray[np.float32], NDArray[np.float64]]:
-        """The expression on the target's upright face, (N, 478, 3) offsets; where its irises look; and how far its lids open, (N, 14) as `lid_ratio`."""
+    def _acted(
+        self, motion: HeadMotion
+    ) -> tuple[NDArray[np.float64], NDArray[np.float32], NDArray[np.float64], NDArray[np.float64]]:
+        """The expression on the target's upright face, (N, 478, 3) offsets; where its irises look; how far its lids open, (N, 14) as `lid_ratio`; and
+        how thick its lips are, (N, 2) as `thickness_shares`."""
         rest, target = self._rest, self._target
         even = even_out_turned(motion)
         expression = self._acts @ carry_expression(self._maps, self._phi, even)
@@ -192,7 +197,7 @@ class MotionTransfer:
         ratio = np.maximum(ratio, 0)
         expression = constrain_lids_and_lips(acted, target, ratio, self._control.bare) - target
         look = self._eyes * gaze(rest + motion.expression, rest, np.clip(ratio[:, [3, 10]], 0, 1))
-        return expression, look.astype(np.float32), ratio
+        return expression, look.astype(np.float32), ratio, thickness_shares(upright, rest)
 
     def _carried_around(self, frames: DriverFrames) -> NDArray[np.floating]:
         """(N, P, 2) what the driver's tracked points around the face say of the target's peripheral points, pixels."""

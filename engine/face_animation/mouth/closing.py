@@ -11,12 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.mouth.lip_contours import LOWER_INNER_LIP, UPPER_INNER_LIP
-from engine.face_animation.mouth.lips_and_skin import (
-    LOWER_LIP_COLUMNS,
-    SKIN_ABOVE_COLUMNS,
-    SKIN_BELOW_COLUMNS,
-    UPPER_LIP_COLUMNS,
-)
+from engine.face_animation.mouth.lips_and_skin import LIP_COLUMNS
 from engine.face_animation.mouth.skin_around_lips import with_lips
 from engine.face_animation.smoothstep import smoothstep
 from engine.perception.face.head_pose import canonical_face
@@ -32,11 +27,6 @@ LIP_GAP_SHARES = (0.15, 0.5)
 """Shares of its usual gap at which a mouth whose lips are usually parted has closed, and begins to."""
 MAX_LIP_GAIN = 1.25
 """By how many times lips that meet are thicker than in the picture, at most, where the mouth is as much narrower."""
-_COLUMNS = (
-    tuple((*lip, skin[0]) for lip, skin in zip(UPPER_LIP_COLUMNS, SKIN_ABOVE_COLUMNS, strict=True)),
-    tuple((*lip, skin[0]) for lip, skin in zip(LOWER_LIP_COLUMNS, SKIN_BELOW_COLUMNS, strict=True)),
-)
-"""Of the upper and the lower lip, inner edge to border."""
 
 
 class ClosingLips:
@@ -81,7 +71,7 @@ class ClosingLips:
             for one in (positions, self._target)
         )
         gain = np.clip(rest / np.maximum(now, 1e-6), 1, MAX_LIP_GAIN)
-        for columns, influence in zip(_COLUMNS, thickness_influence(), strict=True):
+        for columns, influence in zip(LIP_COLUMNS, thickness_influence(), strict=True):
             inner, border = np.array(columns)[:, -2], np.array(columns)[:, -1]
             out = positions[:, border] - positions[:, inner]
             thick = np.linalg.norm(out, axis=-1)
@@ -94,7 +84,7 @@ class ClosingLips:
 def lip_influence() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(478, 9) each, how much a vertex goes along with each of nine columns of the upper lip, and of the lower: all of it in the lip itself,
     none at the other one's."""
-    columns = np.array(_COLUMNS).reshape(-1, len(_COLUMNS[0][0]))
+    columns = np.array(LIP_COLUMNS).reshape(-1, len(LIP_COLUMNS[0][0]))
     vertices = columns.ravel()
     upper, lower = np.split(with_lips(vertices, np.repeat(np.eye(len(columns)), columns.shape[1], axis=0)), 2, axis=1)
     return upper, lower
@@ -104,7 +94,7 @@ def lip_influence() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def thickness_influence() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(478, 9) each, how much a vertex goes along with the border of each of nine columns of the upper lip, and of the
     lower. At the lips' inner edges that is none; within the lip it grows with the distance from there."""
-    columns = np.array(_COLUMNS).reshape(-1, len(_COLUMNS[0][0]))
+    columns = np.array(LIP_COLUMNS).reshape(-1, len(LIP_COLUMNS[0][0]))
     face = canonical_face().astype(float)
     away = np.linalg.norm(face[columns] - face[columns[:, -2:-1]], axis=-1)
     share = np.minimum(away / away[:, -1:], 1)

@@ -35,6 +35,11 @@ SKIN_BELOW_COLUMNS = (
     *((405, 406, 418, 262, 369, 400), (321, 335, 424, 431, 395, 378), (375, 273, 422, 430, 394, 379)),
 )
 """What each of `LOWER_LIP_COLUMNS` goes on with, down to the jaw's contour."""
+LIP_COLUMNS = (
+    tuple((*lip, skin[0]) for lip, skin in zip(UPPER_LIP_COLUMNS, SKIN_ABOVE_COLUMNS, strict=True)),
+    tuple((*lip, skin[0]) for lip, skin in zip(LOWER_LIP_COLUMNS, SKIN_BELOW_COLUMNS, strict=True)),
+)
+"""Of the upper and the lower lip, nine columns each; the last but one of a column is the inner edge, the last the border."""
 MIN_SKIN_SHARE = 0.2
 """Share of its usual breadth that skin keeps, at least."""
 NARROW_LIP_SKIN_SHARE = 0.3

@@ -14,6 +14,8 @@ from engine.face_animation.acting_options import ActingOptions, Part
 from engine.face_animation.motion_transfer.control_motion import PLANE_SHARE, ControlMotion, carry_motion, plane_share
 from engine.face_animation.motion_transfer.control_points import place_control_points
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
+from engine.face_animation.mouth.lip_thickness import thickness_shares
+from engine.face_animation.mouth.lips_and_skin import LIP_COLUMNS
 from engine.perception.face.landmarks import (
     FACE_OVAL,
     LEFT_BROW,
@@ -79,3 +81,21 @@ def test_what_is_named_follows_and_the_rest_stays(tmp_path: Path, part: Part, in
         wanted = everything.offsets[vertices] if name == part else 0.0
         assert np.linalg.norm(made.offsets[vertices] - wanted, axis=1).max() < 0.12 * most, name
     assert np.abs(made.look).max() > 0.02 if part == "eyes" else not made.look.any()
+
+
+@pytest.mark.parametrize("lips", [0.3, 1.0])
+def test_lips_of_a_mouth_that_opens_wide_keep_their_thickness(tmp_path: Path, lips: float) -> None:
+    """As the driver's do; on a target with thin ones, too, where the way of a thick one would turn them inside out."""
+    rest, target = placed(80, (200, 180)), placed(60, (150, 130))
+    for column in np.array(LIP_COLUMNS).reshape(-1, 4):
+        target[column] = target[column[-2]] + lips * (target[column] - target[column[-2]])
+    wide = opened(rest, 0.3)
+    for column in LIP_COLUMNS[1]:
+        wide[list(column)] = wide[column[-1]] + 0.7 * (wide[list(column)] - wide[column[-1]])
+    track = driver(tmp_path, [rest, wide], size=(400, 400))
+    control = place_control_points(target, np.ones((300, 300), np.float32))
+    made = list(carry_motion(track, 0, target, control, build_head_proxy(control.points, target), ActingOptions()))[1]
+    face = control.points[:478] + made.offsets[:478]
+    wanted = thickness_shares(np.asarray(track.meshes[1:]), np.asarray(track.meshes[0]))[0]
+    kept = thickness_shares(face[None], target)[0]
+    assert (kept > 0.93 * np.minimum(wanted, 1)).all(), (kept, wanted)
