@@ -13,6 +13,8 @@ from engine.geometry.camera import Camera
 from engine.geometry.rigging.morph_target import MorphTarget, MorphTrack, morphed
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.geometry.rigging.skinning import skin
+from engine.motion.arms.arms_outside import arms_outside
+from engine.motion.arms.solid_body import solid_body
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place, loop_travel
 from engine.motion.kinematics import pose_transforms
@@ -47,8 +49,9 @@ def standing_clip(mesh: SkinnedMesh, rotations: NDArray[np.floating], root: NDAr
 
 
 def built_in_clips(mesh: SkinnedMesh, fps: float) -> list[Clip]:
-    """All built-in motions; those that would go somewhere in place."""
-    clips = [built_in(name, mesh.skeleton, fps) for name in CLIPS]
+    """All built-in motions, the arms outside the body; those that would go somewhere in place."""
+    body = solid_body(mesh)
+    clips = [arms_outside(body, built_in(name, mesh.skeleton, fps)) for name in CLIPS]
     return [
         in_place(clip) if clip.loops and np.linalg.norm(loop_travel(clip)) > TRAVEL_METRES else clip for clip in clips
     ]

@@ -21,6 +21,8 @@ from engine.export.videos.encoders import VideoTarget
 from engine.export.videos.video import VideoWriter
 from engine.kind import Given
 from engine.media.excerpt import Excerpt
+from engine.motion.arms.arms_outside import arms_outside
+from engine.motion.arms.solid_body import solid_body
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place, repeat_loop
 from engine.motion.files.reading import read_motion
@@ -77,6 +79,7 @@ def chosen_scene(avatar: Avatar, motion: Path | None, driver: Path | None, optio
         clip = replace(carried.clip, name="motion")
     else:
         clip = built_in(options.motion, skeleton, fps)
+    clip = arms_outside(solid_body(avatar.mesh), clip)
     if driver is None:
         return Scene(clip)
     with run.timed("capture_face"):

@@ -14,7 +14,8 @@ from engine.character.rig.measures import pose as posed_vertices
 from engine.character.rig.rigging import Character
 from engine.errors import InputError
 from engine.geometry.camera import Camera
-from engine.geometry.rigging.skeleton import Skeleton
+from engine.motion.arms.arms_outside import arms_outside
+from engine.motion.arms.solid_body import SolidBody, solid_body
 from engine.motion.beginning import beginning, length_warning
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place, keep_pictured_parts, loop_travel
@@ -98,6 +99,8 @@ def choose_motion(
     else:
         carried = retarget(choice.motion, skeleton, choice.joints, fps=choice.fps)
         clip, mapping = replace(carried.clip, name="motion"), carried.mapping
+    body = solid_body(character.mesh)
+    clip = arms_outside(body, clip)
     length = seconds if clip.loops else None
 
     def stepped(back: float) -> Clip:
@@ -107,17 +110,17 @@ def choose_motion(
     film = replace(kept_in_frame(character, camera_at, stepped), name="step_out")
     if kept:
         clip = keep_pictured_parts(skeleton, clip, start, list(kept))
-    others = [_other_motion(skeleton, start, other, kept) for other in CLIPS if other != clip.name]
+    others = [_other_motion(body, start, other, kept) for other in CLIPS if other != clip.name]
     clips = [character.pictured, film, clip, replace(in_place(clip), name=_in_place_name(clip)), *others]
     return Played(film, tuple(clips), mapping)
 
 
-def _other_motion(skeleton: Skeleton, start: Clip, name: str, kept: Sequence[str]) -> Clip:
+def _other_motion(body: SolidBody, start: Clip, name: str, kept: Sequence[str]) -> Clip:
     """A built-in motion that was not chosen, for whoever plays the file: in one place, and at 30 frames a second, of
     whatever rate the film is, for players fill in between."""
-    clip = built_in(name, skeleton)
+    clip = arms_outside(body, built_in(name, body.skeleton))
     if kept:
-        clip = keep_pictured_parts(skeleton, clip, start, list(kept))
+        clip = keep_pictured_parts(body.skeleton, clip, start, list(kept))
     if clip.loops and np.linalg.norm(loop_travel(clip)) > MIN_TRAVEL_METRES:
         return replace(in_place(clip), name=_in_place_name(clip))
     return clip

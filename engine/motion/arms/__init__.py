@@ -1,0 +1,1 @@
+"""Arms that stop at the body that they belong to."""
