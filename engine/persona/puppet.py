@@ -18,6 +18,7 @@ from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.geometry.mesh.adjacency import edge_table
 from engine.geometry.mesh.subdivision import midpoint_subdivision
 from engine.perception.face.face_tessellation import face_triangles, opening_triangles
+from engine.perception.face.landmarks import FACE_OVAL
 from engine.persona.mouth.persona_mouth import puppet_mouth
 from engine.persona.persona import Persona
 from engine.render.scene.scratch import Scratch
@@ -94,7 +95,7 @@ class Puppet:
     @cached_property
     def _subdivision(self) -> tuple[sp.csr_array, NDArray[np.int32]]:
         coarse = face_triangles() if self.openings else np.concatenate([face_triangles(), opening_triangles()])
-        matrix, triangles = midpoint_subdivision(coarse, FACE_VERTICES, FRAME_SUBDIVISIONS)
+        matrix, triangles = midpoint_subdivision(coarse, FACE_VERTICES, FRAME_SUBDIVISIONS, FACE_OVAL)
         return matrix, np.ascontiguousarray(triangles[:, ::-1])  # counter-clockwise, which is what is not culled
 
     @cached_property

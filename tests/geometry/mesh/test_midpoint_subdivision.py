@@ -38,3 +38,16 @@ def test_neighbours_share_the_middles_of_their_edges() -> None:
     matrix, triangles = midpoint_subdivision(TRIANGLES, 5, 2)
     places = np.round(matrix @ VERTICES, 9)
     assert len(np.unique(places, axis=0)) == len(places) == len(np.unique(triangles))
+
+
+def test_a_rim_that_is_to_be_a_curve_is_one() -> None:
+    angles = np.linspace(0, 2 * np.pi, 12, endpoint=False)
+    fan = np.vstack([[0, 0], np.stack([np.cos(angles), np.sin(angles)], 1)])
+    triangles = np.array([[0, k + 1, (k + 1) % 12 + 1] for k in range(12)])
+    for order in (range(1, 13), range(12, 0, -1)):
+        matrix, finer = midpoint_subdivision(triangles, 13, 3, tuple(order))
+        edges = np.sort(np.concatenate([finer[:, [0, 1]], finer[:, [1, 2]], finer[:, [2, 0]]]), axis=1)
+        unique, count = np.unique(edges, axis=0, return_counts=True)
+        rim = np.unique(unique[count == 1])
+        assert len(rim) == 12 * 8
+        np.testing.assert_allclose(np.linalg.norm((matrix @ fan)[rim], axis=1), 1, atol=0.004)
