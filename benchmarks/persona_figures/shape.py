@@ -1,7 +1,7 @@
 """How near a persona's shape is to the true one, of collections that are rendered of known heads under many lights.
 
-The error is that of depth, after the best similarity, in shares of the face's width. It is told of the persona, of its
-landmark mesh and of the general face.
+The error is that of depth, after the best similarity, in shares of the face's width. It is told of the persona, of the
+tracker's meshes in the mean and of the general face.
 """
 
 from __future__ import annotations
@@ -18,6 +18,8 @@ from engine.perception.face.landmarks import FACE_OVAL, RIGID_VERTICES
 from engine.persona.learning import learn_persona
 from engine.persona.motion.performance import FRAME_SIZE
 from engine.persona.persona import Persona
+from engine.persona.texture.template_shape import template_shape
+from engine.persona.texture.texture_frame import TextureFrame
 from engine.render.rasterisation.rasteriser import rasterise
 
 PHOTO_COUNT = 60
@@ -27,21 +29,17 @@ def shape() -> None:
     """Print the table."""
     rows = []
     for head in (head_scan(), *(template_person(name) for name in ("template-a", "template-b"))):
-        persona = _learnt(head)
-        ours, mesh, general = _errors(head, persona)
+        meshes, photos = photographs(head, PHOTO_COUNT, np.random.default_rng(5))
+        learnt = learn_persona(meshes, lambda number, photos=photos: photos[number], FRAME_SIZE)
+        ours, mesh, general = _errors(head, learnt.persona, template_shape(meshes[learnt.used]))
         best = min(mesh, general)
         rows.append([head.name, f"{ours:.2f}", f"{mesh:.2f}", f"{general:.2f}", f"{100 * (1 - ours / best):.0f}%"])
     head_row = ["head", "persona", "landmark mesh", "general face", "below the better of both"]
     print(table(f"Depth error, % of the face's width, {PHOTO_COUNT} photographs; goal 10% below", head_row, rows))
 
 
-def _learnt(head: KnownHead) -> Persona:
-    meshes, photos = photographs(head, PHOTO_COUNT, np.random.default_rng(5))
-    return learn_persona(meshes, lambda number: photos[number], FRAME_SIZE).persona
-
-
-def _errors(head: KnownHead, persona: Persona) -> tuple[float, float, float]:
-    """Of the persona's depth, its landmark mesh's and the general face's."""
+def _errors(head: KnownHead, persona: Persona, tracked: NDArray[np.float64]) -> tuple[float, float, float]:
+    """Of the persona's depth, the landmark mesh's, `tracked` (478, 3) in the mean, and the general face's."""
     frame = persona.frame
     mesh, seen = from_before(head)
     chosen = list(RIGID_VERTICES)
@@ -52,16 +50,15 @@ def _errors(head: KnownHead, persona: Persona) -> tuple[float, float, float]:
     area = cv2.erode(frame.face.astype(np.uint8), np.ones((15, 15))) > 0
     area &= np.isfinite(true)
     width = float(np.ptp(frame.places[list(FACE_OVAL), 0]))
-    general = np.zeros(len(frame.places))
-    general[:478] = canonical_face()[:, 2] * frame.scale
-    general[478:] = general[list(FACE_OVAL)]
-    depths = (
-        persona.depth,
-        frame.interpolated(frame.places[:, 2:])[..., 0],
-        frame.interpolated(general[:, None])[..., 0],
-    )
-    ours, landmark, generic = (100 * _error(depth, true, area) / width for depth in depths)
-    return ours, landmark, generic
+    depths = (persona.depth, *(_depth(frame, mesh) for mesh in (tracked, canonical_face())))
+    ours, landmark, general = (100 * _error(depth, true, area) / width for depth in depths)
+    return ours, landmark, general
+
+
+def _depth(frame: TextureFrame, mesh: NDArray[np.floating]) -> NDArray[np.float32]:
+    """(H, W) pixels, of a `mesh` (478, 3) in eye distances."""
+    depth = np.concatenate([mesh[:, 2], mesh[list(FACE_OVAL), 2]]) * frame.scale
+    return frame.interpolated(depth[:, None])[..., 0]
 
 
 def _error(depth: NDArray[np.floating], true: NDArray[np.floating], area: NDArray[np.bool_]) -> float:
