@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from shutil import copyfile
 
 import numpy as np
 
@@ -54,7 +55,10 @@ def make_persona(inputs: Mapping[str, Given], options: PersonaOptions, out: Path
         assert isinstance(photos, tuple)
         persona, told, relit = learnt_of_photos(photos, options, out, run)
     with run.timed("write_persona"):
-        write_persona(out / "persona.npz", persona)
+        if not isinstance(kept, Path):
+            write_persona(out / "persona.npz", persona)
+        elif kept.resolve() != (out / "persona.npz").resolve():
+            copyfile(kept, out / "persona.npz")
         average = persona.average
         alone = np.where(persona.frame.face[..., None], average, np.array(BACKGROUND_COLOUR, np.uint8))
         write_still(out / "average.png", alone, run.mark_synthetic)

@@ -91,8 +91,11 @@ def test_the_same_again_is_taken_from_what_was_stored(whole: Path, tmp_path: Pat
 
 def test_what_was_kept_is_driven_without_photographs(whole: Path, tmp_path: Path) -> None:
     options = OPTIONS.model_copy(update={"composite": "side_by_side"})
+    kept = tmp_path / "kept.npz"
+    np.savez(kept, **np.load(whole / "out/persona.npz"))
     with Run() as run:
-        make_persona({"persona": whole / "out/persona.npz", "driver": video("happy")}, options, tmp_path, run)
+        make_persona({"persona": kept, "driver": video("happy")}, options, tmp_path, run)
+    assert (tmp_path / "persona.npz").read_bytes() == kept.read_bytes(), "it is handed on as it is"
     frames = [frame.rgb for frame in read_video(tmp_path / "animation.mp4")]
     assert len(frames) == 9 and frames[0].shape == (200, 360, 3)
     driver = [frame.rgb for frame in read_video(video("happy"), 15, (0.5, 1.1))]
@@ -132,6 +135,14 @@ def test_too_few_photos_of_the_driver_are_refused(whole: Path, tmp_path: Path) -
     with Run() as run, pytest.raises(InputError) as error:
         make_persona(inputs, OPTIONS, tmp_path, run)
     assert error.value.code == "too_few_driver_photos" and error.value.correctable == ("driver_photos",)
+
+
+def test_a_persona_may_be_driven_where_it_lies(whole: Path, tmp_path: Path) -> None:
+    kept = tmp_path / "persona.npz"
+    kept.write_bytes((whole / "out/persona.npz").read_bytes())
+    with Run() as run:
+        make_persona({"persona": kept, "driver": video("happy")}, OPTIONS, tmp_path, run)
+    assert (tmp_path / "animation.mp4").exists() and len(read_persona(kept)) > 0
 
 
 @pytest.mark.parametrize("composite", ["none", "photo"])
