@@ -30,7 +30,7 @@ def shape() -> None:
     rows = []
     for head in (head_scan(), *(template_person(name) for name in ("template-a", "template-b"))):
         meshes, photos = photographs(head, PHOTO_COUNT, np.random.default_rng(5))
-        learnt = learn_persona(meshes, lambda number, photos=photos: photos[number], FRAME_SIZE)
+        learnt = learn_persona(meshes, photos.__getitem__, FRAME_SIZE)
         ours, mesh, general = _errors(head, learnt.persona, template_shape(meshes[learnt.used]))
         best = min(mesh, general)
         rows.append([head.name, f"{ours:.2f}", f"{mesh:.2f}", f"{general:.2f}", f"{100 * (1 - ours / best):.0f}%"])

@@ -41,7 +41,7 @@ def midpoint_subdivision(
         )
         around = np.stack([np.roll(ring, 1), ring, np.roll(ring, -1), np.roll(ring, -2)], axis=1)
         split = np.searchsorted(unique @ (known, 1), np.sort(around[:, 1:3], axis=1) @ (known, 1))
-        middles[split[:, None], around] = FOUR_POINT_WEIGHTS
+        middles[split[:, None], around] = np.array(FOUR_POINT_WEIGHTS)
         ring = np.stack([ring, known + split], axis=1).ravel()
         matrix = sp.csr_array(sp.vstack([sp.eye_array(known), middles.tocsr()]) @ matrix)
     return matrix, faces.astype(np.int32)
