@@ -22,6 +22,8 @@ MAX_POINTER_CHARACTERS = 300
 """Characters of an answer's pointer, at most: it may repeat what a request held."""
 MAX_DETAIL_CHARACTERS = 2000
 """Characters of an answer's detail, at most: it may repeat what a request held."""
+PYDANTIC_UNKNOWN_FIELD, MAX_NAME_CHARACTERS = "Extra inputs are not permitted", 80
+"""What pydantic says of a field that a document does not have, and characters of its name that are repeated."""
 
 STATUS_HEADERS = {
     401: {"WWW-Authenticate": {"description": "How to authenticate.", "required": True, "schema": {"type": "string"}}},
@@ -117,7 +119,15 @@ def field_errors(
         place = elsewhere.get(str(location[0]), prefix) if location else prefix
         return place + "".join(f"/{str(part).replace('~', '~0').replace('/', '~1')}" for part in location)
 
-    return [FieldError(pointer=pointer(e["loc"]), code=e["type"], detail=e["msg"]) for e in errors[:MAX_ERRORS]]
+    return [FieldError(pointer=pointer(e["loc"]), code=e["type"], detail=_detail(e)) for e in errors[:MAX_ERRORS]]
+
+
+def _detail(error: Any) -> str:
+    """What is said of an error of pydantic's, whose words for a field that is unknown do not say what to do."""
+    if error["msg"] == PYDANTIC_UNKNOWN_FIELD:
+        name = _cut(str(error["loc"][-1]), MAX_NAME_CHARACTERS)
+        return f"There is no such field as {name}: leave it out, or look its name up in /v1/openapi.json."
+    return str(error["msg"])
 
 
 def invalid_fields(code: str, errors: Sequence[FieldError], count: int) -> Problem:
