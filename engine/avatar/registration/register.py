@@ -26,6 +26,7 @@ from engine.avatar.registration.head_in_outlines import with_head_in_outlines
 from engine.avatar.registration.head_shape import head_shape
 from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.part_outlines import Silhouette
+from engine.avatar.registration.resting_shoulders import with_resting_shoulders
 from engine.avatar.registration.rigging import Pose, on_the_ground, rest_joints, unposed
 from engine.body.face.visemes import viseme_displacements
 from engine.errors import InputError, Notice
@@ -152,6 +153,7 @@ def _person(
     pose = Pose(joints, rotations)
     at_rest = rest_joints(pose, rig.parents)
     flat = unposed(vertices, rig.bones, rig.weights, pose, at_rest)
+    flat = with_resting_shoulders(models, flat, coefficients)
     rest, skeleton = on_the_ground(flat, at_rest, skin.vertices, rig.names, rig.parents)
     units = transferred_units(template, skin, rest)
     return FittedTemplate(
