@@ -107,14 +107,22 @@ def _confidence(bands: NDArray[np.float32], unit: float) -> NDArray[np.float32]:
     """(N, h, w) how much detail each photograph has at each pixel of a band (N, h, w, 3), L^alpha of equation 2."""
     grey = np.abs(bands @ LUMINANCE_WEIGHTS)
     told = np.array([cv2.GaussianBlur(one, (0, 0), CONFIDENCE_SIGMA * unit) for one in grey])
-    capped = np.minimum(told, np.percentile(told, CAP_PERCENTILE, axis=0)) + DETAIL_FLOOR_LEVELS
+    capped = np.minimum(told, _cap(told)) + DETAIL_FLOOR_LEVELS
     sharpness = np.median(
         (told + DETAIL_FLOOR_LEVELS) / (told.mean(axis=0) + DETAIL_FLOOR_LEVELS), axis=(1, 2), keepdims=True
     )
     told /= sharpness
-    most = np.percentile(told, CAP_PERCENTILE, axis=0) + DETAIL_FLOOR_LEVELS
+    most = _cap(told) + DETAIL_FLOOR_LEVELS
     capped *= np.minimum(1, most / np.maximum(told, DETAIL_FLOOR_LEVELS)) ** CONFIDENCE_REDESCENT_POWER
     return np.asarray(np.maximum(capped, DETAIL_FLOOR_LEVELS) ** CONFIDENCE_POWER, np.float32)
+
+
+def _cap(told: NDArray[np.float32]) -> NDArray[np.float32]:
+    """(h, w) `CAP_PERCENTILE` of (N, h, w), as `np.percentile` has it: of few numbers for each of many pixels sorting is four times as quick."""
+    ordered, place = np.sort(told, axis=0), CAP_PERCENTILE / 100 * (len(told) - 1)
+    below = int(place)
+    above = min(below + 1, len(told) - 1)
+    return np.asarray(ordered[below] + np.float32(place - below) * (ordered[above] - ordered[below]), np.float32)
 
 
 def _shrunk(weights: NDArray[np.floating], shape: Sequence[int]) -> NDArray[np.float32]:
