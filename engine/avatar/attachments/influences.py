@@ -1,4 +1,7 @@
-"""Which joints move what stands off the body: the head alone what is on it, else those of the skin below, smoothly."""
+"""Which joints move what stands off the body: the head alone what is on it, else those of the skin below, smoothly.
+
+Nothing is worn on arms, hands and feet: what hangs beside an arm goes with the trunk when the arm is raised.
+"""
 
 from __future__ import annotations
 
@@ -27,8 +30,8 @@ def influences(
     `joint_weights` (S, J) are those of the skin; `head` (J,) bool the joints of the head, the first of which turns all of it: a
     piece that lies mostly on the head is rigid.
     """
-    near = closest_points(vertices, body.vertices, body.triangles)
-    own = near.interpolated(joint_weights, body.triangles)
+    wearing = body.triangles[~body.own[body.triangles].any(1)]
+    own = closest_points(vertices, body.vertices, wearing).interpolated(joint_weights, wearing)
     if own[:, head].sum(1).mean() > 0.5:
         own = np.zeros_like(own)
         own[:, np.flatnonzero(head)[0]] = 1

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -37,3 +39,14 @@ def test_a_piece_that_lies_mostly_on_the_head_turns_with_it_as_a_whole(
     found, shares = influences(vertices, triangles, body, weights, np.array([False, True, True]))
     np.testing.assert_allclose(shares.sum(1), 1, atol=1e-6)
     assert set(found[shares > 0]) == joints
+
+
+def test_what_hangs_beside_an_arm_is_not_moved_by_it(skin: tuple[BodySurface, np.ndarray]) -> None:
+    """The wall's upper half is an arm: what lies on it, and nearest to it, goes with the lower half."""
+    body, weights = skin
+    upper = body.vertices[:, 1] > 0.5
+    vertices = np.array([[0.4, 0.7, 0.02], [0.5, 0.7, 0.02], [0.4, 0.9, 0.02]])
+    arm = replace(body, own=upper)
+    none = np.zeros(3, np.bool_)
+    found, shares = influences(vertices, np.array([[0, 1, 2]], np.int32), arm, weights, none)
+    assert set(found[shares > 0]) == {SPINE}
