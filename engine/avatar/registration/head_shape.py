@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 from engine.avatar.registration.fine import FIRST_INNER_FACE_POINT
@@ -24,12 +25,19 @@ POINTS_PER_ROUND = 5000
 """Points of the cloud that are looked at in each round."""
 HEAD_POINT_SIGMA_METRES = 0.002
 """Metres by which the head's points are off, usually."""
+BELIEVED_GATE_SHARE = 0.25
+"""Of a round's gate, how far off across the surface a point counts a quarter (Geman-McClure): what lies farther is hair."""
 INDEPENDENT_HEAD_POINTS = 1000.0
 """As how many independent measurements all points of the head count."""
 HEAD_LANDMARK_SIGMA_METRES = 0.004
 """Metres by which face landmarks are off, usually."""
 MIN_HEAD_NORMAL_COSINE = 0.5
 """Between the normals of a point and of the surface there."""
+MAX_HEAD_DEVIATIONS = 5.5
+"""How far a head is from the mean at most, in standard deviations over all coefficients together: as far as most people's (the root of
+30). Hair is no part of a head of the space: drawn to it, all else becomes a caricature, with ears of a third of their height."""
+MAX_PRIOR_LOGARITHM = 40.0
+"""Natural logarithm of what the prior counts at most: against it no data are anything."""
 NECK_RINGS = 6
 """Rings of vertices at the edge of the head that go over into the neck."""
 
@@ -92,16 +100,33 @@ def head_shape(
             break
         slopes = head.slopes()[marks].reshape(-1, rows.shape[1]) / HEAD_LANDMARK_SIGMA_METRES
         marks_off = (head.vertices()[marks] - face[known]).ravel() / HEAD_LANDMARK_SIGMA_METRES
-        prior = np.concatenate([np.full(6, 1e-6), np.ones(len(head.coefficients))])
-        gradient = rows.T @ off + slopes.T @ marks_off + np.concatenate([np.zeros(6), head.coefficients])
-        head = head.moved(-np.linalg.solve(rows.T @ rows + slopes.T @ slopes + np.diag(prior), gradient))
+        head = head.moved(_step(head, rows.T @ rows + slopes.T @ slopes, rows.T @ off + slopes.T @ marks_off))
     return _grafted(skin, fitted, own, head.vertices())
+
+
+def _step(head: _Head, normal: NDArray[np.float64], gradient: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(6 + K,) the step to where data, of a `normal` matrix and a `gradient`, and the prior cost least, among heads within
+    `MAX_HEAD_DEVIATIONS`: the prior counts as much more as it takes."""
+    prior = np.concatenate([np.zeros(6), np.ones(len(head.coefficients))])
+    own = np.concatenate([np.zeros(6), head.coefficients])
+
+    def step(strength: float) -> NDArray[np.float64]:
+        solved = np.linalg.solve(normal + np.diag(strength * prior + 1e-6), gradient + strength * own)
+        return np.asarray(-solved, np.float64)
+
+    def beyond(logarithm: float) -> float:
+        return float(np.linalg.norm(own[6:] + step(np.exp(logarithm))[6:])) - MAX_HEAD_DEVIATIONS
+
+    if beyond(0.0) <= 0:
+        return step(1.0)
+    return step(float(np.exp(brentq(beyond, 0.0, MAX_PRIOR_LOGARITHM))))
 
 
 def _point_rows(
     head: _Head, corners: NDArray[np.intp], picked: PointCloud, gate: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The Jacobian (M, 6 + K) and how far (M,) points are off across the surface, in standard deviations."""
+    """The Jacobian (M, 6 + K) and how far (M,) points are off across the surface, in standard deviations, each as far as it is
+    believed."""
     vertices = head.vertices()
     nearest = closest_points(picked.points, vertices, corners)
     normals = face_normals(vertices, corners)[nearest.triangle]
@@ -110,7 +135,9 @@ def _point_rows(
     scale = np.sqrt(INDEPENDENT_HEAD_POINTS / max(int(used.sum()), 1)) / HEAD_POINT_SIGMA_METRES
     off = np.einsum("mk,mkc->mc", shares, vertices[at]) - picked.points[used]
     moved = np.einsum("mk,mkcp->mcp", shares, head.slopes()[at])
-    return scale * np.einsum("mc,mcp->mp", across, moved), scale * (off * across).sum(1)
+    away = (off * across).sum(1)
+    believed = scale / (1 + (away / (BELIEVED_GATE_SHARE * gate)) ** 2)
+    return believed[:, None] * np.einsum("mc,mcp->mp", across, moved), believed * away
 
 
 def _counted_triangles(skin: Skin, own: NDArray[np.intp]) -> NDArray[np.intp]:
