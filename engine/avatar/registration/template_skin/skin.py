@@ -15,7 +15,7 @@ from engine.avatar.mouth_chart import mouth_faces
 from engine.avatar.registration.template_skin.face_landmarks import landmark_vertices
 from engine.avatar.registration.template_skin.lid_rims import lid_rim
 from engine.avatar.registration.template_skin.lip_contact import lip_contact
-from engine.avatar.registration.template_skin.lip_sides import lip_sides
+from engine.avatar.registration.template_skin.lip_sides import lip_rims, lip_sides
 from engine.body.body_space import BodySpace
 from engine.body.cache import cached_arrays
 from engine.body.rig import Rig
@@ -38,8 +38,6 @@ CLOSE_LID_RINGS = 3
 """Rings of vertices about the rims of lids that are close to them."""
 MIN_UNIT_MOTION_METRES = 0.002
 """Metres by which a face unit moves skin, at least, for that to be moved by it."""
-JAW_DROP_METRES = 0.008
-"""Metres by which what hangs on the jaw goes down as it opens."""
 NIPPLE_BOX_METRES = np.array([[-0.25, 1.0, 0.03], [0.25, 1.6, 1.0]])
 FINE_EDGE_METRES = 0.009
 """Vertices of the trunk whose edges are shorter in the mean, metres, are nipples (or the navel), which no clothes show."""
@@ -89,7 +87,8 @@ def load_skin(template: Template, space: BodySpace, rig: Rig) -> Skin:
     visible = cached_arrays("visible-skin", lambda: {"visible": _visible(template, space, vertices[triangles])})
     seen = visible["visible"]
     seen = seen | seen[_mirrored(template.vertices[vertices], triangles)]
-    seen = _largest_piece(triangles, seen & ~np.tile(mouth_faces(template), 2))
+    inside = np.tile(mouth_faces(template), 2)
+    seen = _largest_piece(triangles, seen & ~inside)
     strongest = np.array(rig.names)[rig.bones[vertices, 0]]
     head = np.isin(strongest, ["Head", "Jaw", "LeftEye", "RightEye"])
     seen = seen | ~head[triangles].all(1)  # what lies between fingers or under arms does show, if not in every pose
@@ -106,12 +105,12 @@ def load_skin(template: Template, space: BodySpace, rig: Rig) -> Skin:
         regions[f"{part}_rim"] = rim
         regions[f"{part}_lids"] = grown(rim, triangles, CLOSE_LID_RINGS) & shown
         regions["lids"] |= regions[f"{part}_lids"]
-    lower = template.face_units.dense(("jawOpen",))[0, vertices, 1] < -JAW_DROP_METRES
-    contact = lip_contact(mean, triangles, regions["lips"] & shown, lower)
+    upper, lower = lip_sides(mean, triangles, *lip_rims(mean, triangles, inside))
+    regions["upper_lip"], regions["lower_lip"] = upper, lower
+    contact = lip_contact(mean, triangles, regions["lips"] & shown & (upper | lower), lower)
     touching = np.unique(contact.indices[contact.data == 1])
     lips = touching[~lower[touching]], touching[lower[touching]]
     points = landmark_vertices(template, space, vertices, triangles, shown, lips)
-    regions["upper_lip"], regions["lower_lip"] = lip_sides(mean, triangles, *lips)
     regions["face"] = head & (np.linalg.norm((mean - mean[points[30]]) / FACE_RADII, axis=1) < 1)
     return Skin(vertices, triangles, seen, rig.bones[vertices], rig.weights[vertices], regions, points, contact)
 

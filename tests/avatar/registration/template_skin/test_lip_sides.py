@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.avatar.registration.models import HumanModels
-from engine.avatar.registration.template_skin.lip_sides import lip_sides
+from engine.avatar.registration.template_skin.lip_sides import lip_rims, lip_sides
 
 
 def test_of_two_sheets_that_touch_each_keeps_what_hangs_together_with_it() -> None:
@@ -19,6 +19,27 @@ def test_of_two_sheets_that_touch_each_keeps_what_hangs_together_with_it() -> No
     )
     assert np.array_equal(np.flatnonzero(upper), np.arange(10))
     assert np.array_equal(np.flatnonzero(lower), np.arange(10, 20))
+
+
+def test_the_rims_are_both_ways_around_a_hole_from_corner_to_corner() -> None:
+    """A disc, three quarters as high as wide, whose middle is the mouth's inside."""
+    turn = np.arange(12) * np.pi / 6
+    ring = np.stack([np.cos(turn), 0.75 * np.sin(turn), 0 * turn], 1)
+    vertices = np.concatenate([ring, 2 * ring, [[0, 0, 0]]])
+    here, after = np.arange(12), (np.arange(12) + 1) % 12
+    skin = np.concatenate([np.stack([here, here + 12, after + 12], 1), np.stack([here, after + 12, after], 1)])
+    inside = np.stack([here, after, np.full(12, 24)], 1)
+    within = np.arange(36) >= 24
+    upper, lower = lip_rims(vertices, np.concatenate([skin, inside]).astype(np.int32), within)
+    assert sorted(upper) == [1, 2, 3, 4, 5] and sorted(lower) == [7, 8, 9, 10, 11]
+
+
+def test_each_corner_of_the_mouth_is_of_both_lips(models: HumanModels) -> None:
+    skin = models.skin
+    width = np.ptp(models.template.vertices[skin.vertices][skin.face_points[[48, 54]], 0])
+    for lip in ("upper_lip", "lower_lip"):
+        across = models.template.vertices[skin.vertices[skin.regions[lip] & ~skin.regions["inner"]], 0]
+        assert np.ptp(across) > width and abs(across.max() + across.min()) < 0.005
 
 
 def test_lips_have_an_inside_each_and_one_is_above_the_other(models: HumanModels) -> None:
