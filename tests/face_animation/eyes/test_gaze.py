@@ -98,6 +98,18 @@ def test_an_iris_stays_within_its_eye_however_far_it_is_told_to_look(
     np.testing.assert_allclose(far[:, 0], [1, -1])
 
 
+@pytest.mark.parametrize("aside", [-6.0, 0.0, 6.0])
+def test_a_whole_share_is_the_corner_wherever_a_driver_rests(mesh: NDArray, aside: float) -> None:
+    rest = irises_moved(mesh, aside, aside)
+    places, radii = iris_positions(rest[None])[0, :, 0], iris_radii(rest[None])[0]
+    widths = [np.linalg.norm(rest[outer, :2] - rest[inner, :2]) for outer, inner, _ in EYES]
+    for way in (1, -1):  # to the picture's right, and left
+        most = 0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * radii
+        right, left = (most[0] * way - places[0]) * widths[0], -(-most[1] * way - places[1]) * widths[1]
+        half = gaze(irises_moved(rest, right / 2, left / 2)[None], rest, OPEN)[0]
+        np.testing.assert_allclose(half[:, 0], [way / 2, -way / 2], atol=0.02)
+
+
 def test_a_large_iris_that_rests_in_its_corner_still_moves() -> None:
     assert min(ways_to_corners(0.4, 0.3)) > 0
 
@@ -111,7 +123,7 @@ def test_eyes_look_the_same_way_but_where_they_are_crossed() -> None:
 
 
 def test_nobody_looks_up_with_one_eye_and_down_with_the_other() -> None:
-    skewed = np.array([[[0.0, 0.3], [0.0, 0.3]]])  # across each eye: down the picture, and up
+    skewed = np.array([[[0.0, 0.9], [0.0, 0.9]]])  # across each eye: down the picture, and up
     np.testing.assert_allclose(conjugate(skewed, OPEN), 0, atol=1e-9)
 
 
