@@ -45,8 +45,9 @@ MIN_WHITES_TO_FACE_RATIO = 1.05
 """Of the luminance of a light place of the face, that eyes' whites have at least which are seen, and not lashes, shadow and skin."""
 LIGHT_PLACE_PERCENTILE = 75
 """Of the luminance within the face's oval, that of a light place."""
-TEETH_TINT_SHARES = (0.08, 0.3)
-"""Of the skin's hue in teeth beside that of enamel, least and most: whole colours have 0.09, 0.14, 0.16, 0.2 and 0.45 of it in portraits that show them."""
+TEETH_TINT_SHARES = (0.16, 0.3)
+"""Of the skin's hue in teeth beside that of enamel, least and most: whole colours have 0.09, 0.14, 0.16, 0.2 and 0.45 of it in portraits that show them. As
+little as a collar has in a flash's light looks blue between lips."""
 LOWER_TEETH_LIGHT_SHARE = 0.75
 """Of the upper teeth's light, that lower ones have."""
 BAG_LIGHT_SHARES = (0.75, 1.4)
