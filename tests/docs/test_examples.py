@@ -50,6 +50,7 @@ def blocks(name: str, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", (ROOT / "docs" / name).read_text(), re.MULTILINE | re.DOTALL)
 
 
+@pytest.mark.timeout(1200)  # half a dozen jobs, one after the other
 def test_the_rest_guide(running: Running, folder: Path) -> None:
     if shutil.which("jq") is None or shutil.which("curl") is None:
         message = "the guide's commands need curl and jq (make test installs them: scripts/setup.sh --for-tests)"
