@@ -18,9 +18,9 @@ export default defineConfig({
           root,
           include: ['browser/**/*.test.ts'],
           globalSetup: ['browser/warm_server.ts', 'browser/finished_jobs.ts', 'browser/viewer_build.ts'],
-          testTimeout: 1_000_000,
-          expect: { poll: { timeout: 120_000 } },
-          hookTimeout: 180_000,
+          testTimeout: 1_500_000,
+          expect: { poll: { timeout: 300_000 } },
+          hookTimeout: 900_000,
           maxWorkers: 2, // each file has a browser and a service of its own: see browser/own_service.ts
         },
       },

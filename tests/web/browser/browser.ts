@@ -14,7 +14,7 @@ const flags = [
 ];
 
 /** Milliseconds that a page is waited for, whatever for; as long as what is polled (`vitest.config.ts`). */
-export const PATIENCE = 120_000;
+export const PATIENCE = 300_000;
 
 /** Starts one. Each of its pages is waited for with patience, and shaken where that is asked for. */
 export async function launch(more: string[] = []): Promise<Browser> {

@@ -4,10 +4,10 @@ import { expect } from 'vitest';
 import { fileOf } from './media';
 
 /** Milliseconds: a job's time on a machine that has other work as well. */
-export const LONG = 300_000;
+export const LONG = 900_000;
 
 /** Milliseconds: the same where what makes the job is compiled first, as it is for kinds that are not in `finished_jobs`. */
-export const LONG_WITH_COMPILING = 800_000;
+export const LONG_WITH_COMPILING = 1_200_000;
 
 /** Orders a job; its id. */
 export async function submit(
