@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from engine import avatar, character, motion_check, persona, portrait
+from engine import avatar, character, motion_file, persona, portrait
 from engine.kind import Kind
 from engine.portrait import driver_segments
 
@@ -14,7 +14,7 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         kind.name: kind
         for kind in (
             *(portrait.KIND, driver_segments.KIND, character.KIND, avatar.KIND),
-            *(persona.KIND, motion_check.KIND),
+            *(persona.KIND, motion_file.KIND),
         )
     }
 )

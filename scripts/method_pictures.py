@@ -18,7 +18,7 @@ from engine.face_animation.creases.fine_details import keep_ratio_images
 from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.driver_tracking.neutral import choose_neutral_frame
-from engine.face_animation.rig import Rig, rig_target
+from engine.face_animation.face_rig import FaceRig, rig_target
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.layers import Layers, separate_layers
 from engine.imaging.composite import composite_over, upsample_twice, warp_layer
@@ -90,7 +90,7 @@ def _faded(rgb: Picture) -> Picture:
     return np.asarray(cv2.addWeighted(rgb, 0.55, np.full_like(rgb, 255), 0.45, 0), np.uint8)
 
 
-def _dots(target: TargetFace, rig: Rig, offsets: NDArray[np.float32]) -> Picture:
+def _dots(target: TargetFace, rig: FaceRig, offsets: NDArray[np.float32]) -> Picture:
     """The control points, and how far each one goes."""
     picture = _faded(target.rgb)
     for start, offset, usable in zip(rig.control.points, offsets, rig.control.usable, strict=True):
@@ -101,7 +101,7 @@ def _dots(target: TargetFace, rig: Rig, offsets: NDArray[np.float32]) -> Picture
     return picture
 
 
-def _wires(target: TargetFace, rig: Rig, offsets: NDArray[np.float32]) -> Picture:
+def _wires(target: TargetFace, rig: FaceRig, offsets: NDArray[np.float32]) -> Picture:
     picture = _faded(target.rgb)
     points = np.round((rig.mesh.vertices + offsets) * 8).astype(np.int32)
     cv2.polylines(picture, list(points[rig.mesh.triangles]), True, INK_RGB, 1, cv2.LINE_AA, 3)
@@ -120,7 +120,7 @@ def _colours(origin: NDArray[np.float32]) -> Picture:
     return np.asarray(cv2.cvtColor(hsv, cv2.COLOR_HSV2RGB), np.uint8)
 
 
-def _warped(layers: Layers, rig: Rig, moved: NDArray[np.float32]) -> Picture:
+def _warped(layers: Layers, rig: FaceRig, moved: NDArray[np.float32]) -> Picture:
     origin = rig.mesh.inverse_map(moved[:, :2], moved[:, 2], scale=2)
     return np.asarray(composite_over(warp_layer(upsample_twice(layers.person), origin), layers.plate), np.uint8)
 

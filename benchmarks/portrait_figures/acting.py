@@ -23,7 +23,7 @@ from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.driver_tracking.lid_speed import slow_lids
 from engine.face_animation.driver_tracking.neutral import choose_neutral_frame
-from engine.face_animation.rig import Rig, rig_target
+from engine.face_animation.face_rig import FaceRig, rig_target
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.tracking_refinement import ObservedDriver, observe_driver, refine_tracking
 from engine.face_animation.warping.layers import Layers, separate_layers
@@ -43,7 +43,7 @@ class Acting:
     neutral: int
     target: TargetFace
     layers: Layers
-    rig: Rig
+    rig: FaceRig
     options: ActingOptions
     looked: bool = True
     """Whether a second look corrects it."""
@@ -63,7 +63,7 @@ class Acting:
         yield from draw_in_order(animation.draw, (moment for moment in moments if moment[0].frame % step == 0))
 
 
-def read_target(folder: Path, rgb: NDArray[np.uint8], options: PortraitOptions) -> tuple[TargetFace, Layers, Rig]:
+def read_target(folder: Path, rgb: NDArray[np.uint8], options: PortraitOptions) -> tuple[TargetFace, Layers, FaceRig]:
     """A picture (H, W, 3) as a target; `folder` takes its file."""
     height, width = (side - side % 2 for side in rgb.shape[:2])
     path = folder / "target.png"

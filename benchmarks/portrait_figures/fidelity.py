@@ -17,9 +17,9 @@ from benchmarks.presentation.contact_sheet import Row, contact_sheet, evenly, wr
 from benchmarks.presentation.tables import mean_row, table
 from benchmarks.shared_media import driving_clips, media, tool, write_clip
 from engine.face_animation.animation import Parts
+from engine.face_animation.face_rig import rig_target
 from engine.face_animation.motion_transfer.alignment import align
 from engine.face_animation.motion_transfer.control_points import carry_fiducials
-from engine.face_animation.rig import rig_target
 from engine.imaging.warping.mesh_warp import inverse_map
 from engine.media.image import read_image
 from engine.perception.face.faces import find_faces

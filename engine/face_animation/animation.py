@@ -21,13 +21,13 @@ from engine.face_animation.creases.corner_seams import CornerSeams
 from engine.face_animation.creases.fine_details import shade
 from engine.face_animation.creases.own_folds import OwnFolds
 from engine.face_animation.eyes.eyes_and_lids import EyesAndLids
+from engine.face_animation.face_rig import FaceRig
 from engine.face_animation.motion_transfer.contour import rim_distance
 from engine.face_animation.motion_transfer.control_motion import ControlMotion, carry_motion
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.mouth.target_mouth import target_mouth
-from engine.face_animation.rig import Rig
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.face_before_head import FaceBeforeHead
 from engine.face_animation.warping.layers import Layers, beyond_border
@@ -69,7 +69,7 @@ class RiggedTarget:
 
     face: TargetFace
     layers: Layers
-    rig: Rig
+    rig: FaceRig
 
 
 @dataclass(frozen=True)

@@ -16,9 +16,9 @@ from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.driver_tracking.lid_speed import slow_lids
 from engine.face_animation.driver_tracking.neutral import NeutralFrame
+from engine.face_animation.face_rig import FaceRig, rig_target
 from engine.face_animation.loop import close_loop
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
-from engine.face_animation.rig import Rig, rig_target
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.tracking_refinement import (
     DriverObservations,
@@ -41,7 +41,7 @@ class PreparedTarget:
     face: TargetFace
     details: ConcurrentStage[DetailRegion]
     layers: ConcurrentStage[Layers]
-    rig: ConcurrentStage[Rig]
+    rig: ConcurrentStage[FaceRig]
 
 
 def prepare_target(face: TargetFace, run: Run) -> PreparedTarget:

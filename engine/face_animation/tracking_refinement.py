@@ -21,13 +21,13 @@ from numpy.typing import NDArray
 from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget
 from engine.face_animation.creases.fine_details import DetailRegion, RatioStrip
+from engine.face_animation.face_rig import rig_target
 from engine.face_animation.motion_transfer.landmark_residuals import (
     LandmarkResiduals,
     fit_residuals,
     flatten_residuals,
     no_residuals,
 )
-from engine.face_animation.rig import rig_target
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.layers import single_layer
 from engine.imaging.window import Window

@@ -15,7 +15,7 @@ from engine.face_animation.animation import FaceAnimation, RegisteredDriver, Rig
 from engine.face_animation.creases.fine_details import detail_region, keep_ratio_images
 from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
-from engine.face_animation.rig import rig_target
+from engine.face_animation.face_rig import rig_target
 from engine.face_animation.tracking_refinement import OBSERVED_FRAMES, ObservedDriver, observe_driver, refine_tracking
 from engine.face_animation.warping.layers import separate_layers
 from engine.media.excerpt import Excerpt

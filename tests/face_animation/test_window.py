@@ -10,7 +10,7 @@ from made_clip import OPENS
 from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget
 from engine.face_animation.creases.fine_details import keep_ratio_images
 from engine.face_animation.driver_tracking.driver import track_driver
-from engine.face_animation.rig import rig_target
+from engine.face_animation.face_rig import rig_target
 from engine.face_animation.warping.layers import separate_layers
 from engine.imaging.window import Window
 from engine.media.excerpt import Excerpt

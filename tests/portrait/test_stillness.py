@@ -14,7 +14,7 @@ from engine.face_animation.animation import FaceAnimation, RegisteredDriver, Rig
 from engine.face_animation.creases.fine_details import RatioImages
 from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
-from engine.face_animation.rig import rig_target
+from engine.face_animation.face_rig import rig_target
 from engine.face_animation.warping.layers import Layers, separate_layers
 from engine.media.excerpt import Excerpt
 from engine.media.image import read_image, write_image

@@ -16,7 +16,7 @@ KINDS = "tiny_kind:KIND,tiny_kind:SHORT,tiny_kind:BRIEF"
 def busy(tmp_path_factory: pytest.TempPathFactory, picture: bytes) -> Iterator[tuple[Running, dict[str, Any]]]:
     """A service whose only slot has a job that lasts, and that job."""
     data = tmp_path_factory.mktemp("busy") / "data"
-    with Running(data, kinds=f"{KINDS},engine.motion_check:KIND", lease_seconds=5, sweep_seconds=0.5) as running:
+    with Running(data, kinds=f"{KINDS},engine.motion_file:KIND", lease_seconds=5, sweep_seconds=0.5) as running:
         yield running, running.job(running.rest(picture))
 
 

@@ -16,10 +16,10 @@ from engine.export.videos.video import VideoWriter
 from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget, draw_in_order
 from engine.face_animation.creases.fine_details import RatioStrip
 from engine.face_animation.driver_tracking.neutral import NeutralFrame, choose_neutral_frame, warn_if_never_at_rest
+from engine.face_animation.face_rig import FaceRig
 from engine.face_animation.motion_transfer.control_motion import carry_motion
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
-from engine.face_animation.rig import Rig
 from engine.face_animation.stages import (
     DriverPerformance,
     analyse_driver,
@@ -149,7 +149,7 @@ def plan_performances(
     performances: Sequence[DriverPerformance],
     residuals: Sequence[LandmarkResiduals | None],
     target: TargetFace,
-    rig: Rig,
+    rig: FaceRig,
     options: PortraitOptions,
 ) -> list[StatePerformance]:
     """The poses of all states, and the ways out of them, before anything is drawn."""
@@ -170,7 +170,7 @@ def plan_performances(
 
 
 def _draw(
-    acts: Sequence[StatePerformance], target: TargetFace, layers: Layers, rig: Rig, options: PortraitOptions, fps: float,
+    acts: Sequence[StatePerformance], target: TargetFace, layers: Layers, rig: FaceRig, options: PortraitOptions, fps: float,
     out: Path, run: Run,
 ) -> None:  # fmt: skip
     """All clips, their bridges, all of it in one animation, and the poster."""

@@ -12,7 +12,7 @@ from made_motion import BONES, bvh
 
 from engine.errors import InputError
 from engine.motion.files.gltf_motion import read_gltf_motion
-from engine.motion_check import KIND, MotionOptions
+from engine.motion_file import KIND, MotionOptions
 from engine.run import Run
 
 STICK = """HIERARCHY

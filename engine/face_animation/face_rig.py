@@ -15,7 +15,7 @@ from engine.face_animation.warping.warp_mesh import WarpMesh
 
 
 @dataclass(frozen=True)
-class Rig:
+class FaceRig:
     """`control` points at rest, the `mesh` that follows them, and the region that `details` go to."""
 
     control: ControlPoints
@@ -25,10 +25,10 @@ class Rig:
 
 def rig_target(
     target: TargetFace, layers: Layers, details: DetailRegion | None = None, smoothing: str = "confidence"
-) -> Rig:
+) -> FaceRig:
     """Section 4 as far as it does not depend on the driver; `smoothing` as `build_warp_mesh` takes it, `details` the region
     if it is known already."""
     person = layers.person[..., 3] / np.float32(255)
     control = place_control_points(target.mesh, person, layers.inner, target.rgb)
     mesh = build_warp_mesh(control.points, target.mesh, target.rgb.shape[:2], smoothing, control.usable)
-    return Rig(control, mesh, details or detail_region(target.rgb, target.mesh))
+    return FaceRig(control, mesh, details or detail_region(target.rgb, target.mesh))
