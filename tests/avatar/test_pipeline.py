@@ -108,7 +108,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Made:
         "driver": write_frames(folder / "driver.mp4", frames, fps=5),
         "motion": folder / "arms.bvh",
     }
-    settings = {"worker_kinds": "avatar", "job_niceness": 0, "lease_seconds": 5, "sweep_seconds": 0.5}
+    settings = {"worker_kinds": "avatar", "lease_seconds": 5, "sweep_seconds": 0.5}
     with Running(folder / "data", kinds="engine.kinds:KINDS", **settings) as service:
         files = {name: (path.name, path.read_bytes()) for name, path in inputs.items()}
         asked = {"kind": "avatar", "options": json.dumps(OPTIONS)}

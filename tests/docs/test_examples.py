@@ -28,7 +28,7 @@ ADDRESS = "http://127.0.0.1:8000"
 def shared_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
     served = "portrait,moments,character,motion"  # what the guides order
     data = tmp_path_factory.mktemp("data") / "data"
-    service = Running(data, kinds="engine.kinds:KINDS", worker_kinds=served, wait_seconds=200)
+    service = Running(data, kinds="engine.kinds:KINDS", worker_kinds=served, wait_seconds=900)
     yield service
     service.stop()
 
@@ -50,14 +50,14 @@ def blocks(name: str, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", (ROOT / "docs" / name).read_text(), re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.timeout(1200)  # half a dozen jobs, one after the other
+@pytest.mark.timeout(1800)  # half a dozen jobs, one after the other
 def test_the_rest_guide(running: Running, folder: Path) -> None:
     if shutil.which("jq") is None or shutil.which("curl") is None:
         message = "the guide's commands need curl and jq (make test installs them: scripts/setup.sh --for-tests)"
         missing(message)
     address = str(running.client.base_url).rstrip("/")
     script = "\n".join(["set -eu -o pipefail", *blocks("rest.md", "sh")]).replace(ADDRESS, address)
-    script = script.replace("wait=60", "wait=200")  # machines that run tests are busy
+    script = script.replace("wait=60", "wait=900")  # machines that run tests are busy
     done = subprocess.run(["bash", "-c", script], cwd=folder, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     assert json.loads((folder / "job.json").read_text())["status"] == "succeeded"

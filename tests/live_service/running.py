@@ -51,6 +51,7 @@ class Running:
             "GALATEA_DATA_DIR": str(self.data_dir),
             "GALATEA_KINDS": "tiny_kind:KIND",
             "GALATEA_DISK_RESERVE_MB": "1",
+            "GALATEA_JOB_NICENESS": "0",  # whoever waits for a job has no less of the machine than other tests
             "PYTHONPATH": os.pathsep.join([str(self.path), str(self.root)]),
             **{f"GALATEA_{name.upper()}": str(value) for name, value in self.settings.items()},
         }
@@ -130,7 +131,7 @@ class Running:
     def job(self, job_id: str) -> dict[str, Any]:
         return self.client.get(f"/v1/jobs/{job_id}").raise_for_status().json()
 
-    def until(self, job_id: str, *statuses: str, seconds: float = 180) -> dict[str, Any]:
+    def until(self, job_id: str, *statuses: str, seconds: float = 500) -> dict[str, Any]:
         """Wait until the job has one of these statuses; the job as it was then."""
         job: dict[str, Any] = {}
 
@@ -147,7 +148,7 @@ class Running:
         eventually(lambda: self.job(job_id)["progress"]["stage"] == "rest", "the job rests")
 
 
-def eventually(true: Callable[[], bool], what: str, seconds: float = 180) -> None:
+def eventually(true: Callable[[], bool], what: str, seconds: float = 500) -> None:
     """Wait until it is true. Who has waited long asks less often: asking takes from what is waited for."""
     began = time.monotonic()
     while not true():
