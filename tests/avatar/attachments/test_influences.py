@@ -50,3 +50,24 @@ def test_what_hangs_beside_an_arm_is_not_moved_by_it(skin: tuple[BodySurface, np
     none = np.zeros(3, np.bool_)
     found, shares = influences(vertices, np.array([[0, 1, 2]], np.int32), arm, weights, none)
     assert set(found[shares > 0]) == {SPINE}
+
+
+def test_what_reaches_over_a_border_of_the_skin_is_bent_and_not_folded(skin: tuple[BodySurface, np.ndarray]) -> None:
+    """A strip of 0.8 metres, half of it over each of two joints' skin."""
+    body, weights = skin
+    y = 0.1 + np.linspace(0, 0.8, 9)
+    vertices = np.concatenate([np.stack([np.full(9, x), y, np.full(9, 0.02)], 1) for x in (0.4, 0.5)])
+    first = np.arange(8)
+    triangles = np.concatenate([first[:, None] + [0, 9, 1], first[:, None] + [9, 10, 1]]).astype(np.int32)
+    found, shares = influences(vertices, triangles, body, weights, np.zeros(3, np.bool_))
+    lower = np.where(found[:9] == SPINE, shares[:9], 0).sum(1)
+    assert (np.diff(lower) < 0).all() and np.abs(np.diff(lower)).max() < 0.3
+
+
+def test_the_strongest_four_of_many_joints_move_it_whole(skin: tuple[BodySurface, np.ndarray]) -> None:
+    body, _ = skin
+    weights = np.tile([0.3, 0.25, 0.2, 0.15, 0.1], (len(body.vertices), 1))
+    vertices = np.array([[0.4, 0.7, 0.02], [0.5, 0.7, 0.02], [0.4, 0.9, 0.02]])
+    found, shares = influences(vertices, np.array([[0, 1, 2]], np.int32), body, weights, np.zeros(5, np.bool_))
+    np.testing.assert_array_equal(found, [[0, 1, 2, 3]] * 3)
+    np.testing.assert_allclose(shares, [np.array([0.3, 0.25, 0.2, 0.15]) / 0.9] * 3, atol=1e-6)

@@ -9,7 +9,7 @@ import pytest
 from known_person import sampled
 from numpy.typing import NDArray
 
-from engine.avatar.registration.head_shape import MAX_HEAD_DEVIATIONS, head_shape
+from engine.avatar.registration.head_shape import head_shape
 from engine.avatar.registration.models import HumanModels
 from engine.body.template import vertex_mask
 from engine.geometry.point_clouds.point_cloud import PointCloud
@@ -59,9 +59,30 @@ def test_a_head_under_hair_stays_one_among_people_s(models: HumanModels, own_hea
     head = found(models, own_head, cloud)
     for height, true in zip(heights_of_ears(models, head), heights_of_ears(models, own_head), strict=True):
         assert 0.75 < height / true < 1.35
+    bare = found(models, own_head, sampled(models, own_head, 20000, 0.0005, "head"))
+    face = models.skin.face_points
+    assert np.linalg.norm(head[face] - bare[face], axis=1).mean() < 0.004
+    assert deviations(models, head) < 6, "as most people"
+
+
+def deviations(models: HumanModels, head: NDArray[np.float64]) -> float:
+    """How far a skin's head (S, 3) is from the mean of heads, in standard deviations over all coefficients together."""
     space = models.heads
     own = models.skin.index_of(space.vertices)
     shape = fit_similarity(head[own], space.mean.astype(np.float64))
     away = (shape(head[own]) - space.mean).ravel()
     coefficients = np.linalg.lstsq(space.basis.reshape(len(space.basis), -1).T.astype(np.float64), away, rcond=None)[0]
-    assert np.linalg.norm(coefficients) < 1.1 * MAX_HEAD_DEVIATIONS
+    return float(np.linalg.norm(coefficients))
+
+
+def test_a_head_that_is_nobody_s_becomes_one_at_the_edge_of_people_s(
+    models: HumanModels, own_head: NDArray[np.float64]
+) -> None:
+    """A head twice as far from the mean as any among thousands."""
+    space, skin = models.heads, models.skin
+    nobody = models.space.mean[skin.vertices].astype(np.float64)
+    coefficients = np.random.default_rng(3).normal(size=len(space.basis))
+    coefficients *= 12 / np.linalg.norm(coefficients)
+    nobody[skin.index_of(space.vertices)] = space.mean + np.einsum("k,khc->hc", coefficients, space.basis)
+    head = found(models, nobody, sampled(models, nobody, 20000, 0.0005, "head"))
+    assert deviations(models, head) < 8, "and what its graft onto the neck adds"
