@@ -12,20 +12,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.eyes.eyeball import EYE_OUTLINE_IRIS_CORNERS, LASH_LINE_EYE_WIDTHS, Eyeball, white_light
+from engine.face_animation.smoothstep import smoothstep
 
 FULL_OPENING_CHANGE = 0.15
 """Change of the opening's area, as a share of it, from which the eyeball's layer is fully drawn."""
 FULL_GAZE_CHANGE = 0.03
 """Change of the gaze, in eye widths, from which the eyeball's layer is fully drawn."""
-SHUT_SHARE = 0.1
-"""Share of the picture's opening under which an eye is shut."""
+SHUT_OPENING_SHARES = (0.25, 0.1)
+"""Shares of the picture's opening at which what is below a lid's edge begins to be skin, and is."""
 LID_SOFTNESS_EYE_WIDTHS, MIN_LID_SOFTNESS_PIXELS = 0.02, 0.4
 """Eye widths over which the eyeball passes into the lids, which are wet and round; pixels below which that is not to be seen."""
 LASH_LINE_POLYNOMIAL_DEGREE, LASH_LINE_POINTS, MIN_LASH_LINE_PIXELS = 3, 25, 1.5
 """Of the curve from corner to corner that lashes are on, the points at which it is drawn, and how wide it is in its middle at least."""
 LASH_LINE_SAMPLES, MIN_LASH_SOFTNESS_PIXELS = 4, 0.4
 """To a pixel, along each axis, at which it is drawn, and pixels by which its edges are soft at least."""
-CLOSING_GAP_SHARES = (0.92, 0.5)
+CLOSING_OPENING_SHARES = (0.92, 0.5)
 """Shares of the picture's opening at which a lid begins to take its own colours, and has."""
 GLINT_MOTION_SHARE = 0.3
 """Of the iris' way, that the catch-light goes: it is a mirror image of what is before the face."""
@@ -68,15 +69,35 @@ def draw_eye(
     below = frame[low[1] : high[1], low[0] : high[0]].astype(np.float32)
     alpha = _departure(eye, opening, look) * cover[..., None].astype(np.float32) / 255
     drawn = below + alpha * (ball - below)
-    seam = lid_closing_share(eye, mesh, side) * _lash_line(opening - low, shape)[..., None]
-    drawn += seam * (eye.lashes - drawn)
     frame[low[1] : high[1], low[0] : high[0]] = np.clip(drawn + 0.5, 0, 255).astype(np.uint8)
+
+
+def draw_lashes(frame: NDArray[np.uint8], eye: Eyeball, mesh: NDArray[np.floating], side: int) -> None:
+    """Draw the line of lashes of an upper lid that closes in a frame (H, W, 3), in place, on the lid of a face at `mesh` (478, 2)."""
+    share = lid_closing_share(eye, mesh, side)
+    opening = mesh[list(EYE_OUTLINE_IRIS_CORNERS[side][0]), :2].astype(np.float32)
+    margin = LASH_LINE_EYE_WIDTHS * float(np.linalg.norm(opening[8] - opening[0])) + 2
+    low = np.maximum(np.floor(opening.min(axis=0) - margin).astype(int), 0)
+    high = np.minimum(np.ceil(opening.max(axis=0) + margin).astype(int), (frame.shape[1], frame.shape[0]))
+    if share == 0 or (high - low).min() < 2:
+        return
+    part = frame[low[1] : high[1], low[0] : high[0]]
+    line = share * _lash_line(opening - low, part.shape[:2])[..., None]
+    part[:] = np.clip(part + line * (eye.lashes - part) + 0.5, 0, 255).astype(np.uint8)
 
 
 def lid_closing_share(eye: Eyeball, mesh: NDArray[np.floating], side: int) -> float:
     """How far the upper lid of a face (478, 2) takes its own colours: 0 as long as it is open, 1 long before it is shut."""
-    by = _open_by(eye, mesh[list(EYE_OUTLINE_IRIS_CORNERS[side][0]), :2].astype(np.float32))
-    return float(np.clip((CLOSING_GAP_SHARES[0] - by) / (CLOSING_GAP_SHARES[0] - CLOSING_GAP_SHARES[1]), 0, 1))
+    return float(smoothstep(_open_by_of(eye, mesh, side), *CLOSING_OPENING_SHARES))
+
+
+def shut_share(eye: Eyeball, mesh: NDArray[np.floating], side: int) -> float:
+    """How far the eye of a face (478, 2) is shut: 1 where its lids meet, 0 as long as something of it is to be seen."""
+    return float(smoothstep(_open_by_of(eye, mesh, side), *SHUT_OPENING_SHARES))
+
+
+def _open_by_of(eye: Eyeball, mesh: NDArray[np.floating], side: int) -> float:
+    return _open_by(eye, mesh[list(EYE_OUTLINE_IRIS_CORNERS[side][0]), :2].astype(np.float32))
 
 
 def _lash_line(opening: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
@@ -100,11 +121,10 @@ def _lash_line(opening: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[
 
 
 def _departure(eye: Eyeball, opening: NDArray[np.float32], look: NDArray[np.floating]) -> float:
-    """How far the layer is drawn: 0 where lids and gaze are as in the picture, and 1 where they are not. It is 0 again
-    where the lids have met, so that nothing shines through their seam."""
+    """How far the layer is drawn: 0 where lids and gaze are as in the picture, and 1 where they are not."""
     open_by = _open_by(eye, opening)
     moved = max(abs(open_by - 1) / FULL_OPENING_CHANGE, float(np.hypot(*look)) / FULL_GAZE_CHANGE)
-    return min(moved, 1.0) * min(max((open_by - SHUT_SHARE) / SHUT_SHARE, 0.0), 1.0)
+    return min(moved, 1.0)
 
 
 def _open_by(eye: Eyeball, opening: NDArray[np.float32]) -> float:

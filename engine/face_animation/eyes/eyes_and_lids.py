@@ -6,9 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.eyes.eyeball import prepare_eyes
-from engine.face_animation.eyes.eyes import draw_eye, lid_closing_share
+from engine.face_animation.eyes.eyes import draw_eye, draw_lashes, lid_closing_share, shut_share
 from engine.face_animation.eyes.gaze import iris_shift
-from engine.face_animation.eyes.lid_skin import draw_lid, lid_skins
+from engine.face_animation.eyes.lid import draw_lid
+from engine.face_animation.eyes.socket_frame import socket_frame
+from engine.face_animation.eyes.socket_skin import socket_skin
 from engine.face_animation.target_face import TargetFace
 
 
@@ -17,11 +19,13 @@ class EyesAndLids:
 
     def __init__(self, target: TargetFace):
         self._eyeballs = prepare_eyes(target.rgb, target.mesh)
-        self._lids = lid_skins(target.rgb, target.mesh)
+        self._sockets = [socket_skin(target.rgb, target.mesh, side) for side in range(2)]
 
     def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], look: NDArray[np.float32]) -> None:
         """Draw them in place where a `face` (478, 2) of the frame (H, W, 3) has them, pixels; `look` (2, 2) as `gaze.gaze`."""
         for side, eyeball in enumerate(self._eyeballs):
             if eyeball is not None:
-                draw_lid(frame, self._lids[side], face, side, lid_closing_share(eyeball, face, side))
                 draw_eye(frame, eyeball, face, side, iris_shift(eyeball, look[side]))
+                closing, shut = (share(eyeball, face, side) for share in (lid_closing_share, shut_share))
+                draw_lid(frame, self._sockets[side], socket_frame(face, side), closing, shut)
+                draw_lashes(frame, eyeball, face, side)

@@ -13,7 +13,7 @@ from made_face import BROWN, SKIN, WHITE, painted, placed, shut
 from numpy.typing import NDArray
 
 from engine.face_animation.eyes.eyeball import MIN_EYE_WIDTH_PIXELS, prepare_eyes, white_light
-from engine.face_animation.eyes.eyes import draw_eye
+from engine.face_animation.eyes.eyes import draw_eye, draw_lashes
 from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS
 from engine.perception.face.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
@@ -103,7 +103,7 @@ def test_closing_lids_move_over_the_eyeball(picture: NDArray, mesh: NDArray) -> 
         assert np.abs(out[still].astype(int) - picture[still]).mean() < 6
 
 
-def test_a_shut_eye_shows_its_lashes_and_nothing_of_the_eye(mesh: NDArray) -> None:
+def test_a_shut_eye_shows_its_lashes(mesh: NDArray) -> None:
     """With the lids on each other a line in the colour of the upper lid's edge covers their seam."""
     closed = shut(mesh, 0.0)
     skin = np.full((SIZE[1], SIZE[0], 3), SKIN, np.uint8)
@@ -111,7 +111,7 @@ def test_a_shut_eye_shows_its_lashes_and_nothing_of_the_eye(mesh: NDArray) -> No
     lashes = np.array([90, 60, 50], np.float32)
     for side, eye in enumerate(prepare_eyes(painted(mesh, SIZE), mesh)):
         assert eye is not None
-        draw_eye(out, replace(eye, lashes=lashes), closed, side, REST)
+        draw_lashes(out, replace(eye, lashes=lashes), closed, side)
     share = (out.astype(float) - SKIN) @ (lashes - SKIN) / float((lashes - SKIN) @ (lashes - SKIN))
     np.testing.assert_allclose(out, SKIN + share[..., None] * (lashes - SKIN), atol=2)
     assert share.max() > 0.8
