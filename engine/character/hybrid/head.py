@@ -39,7 +39,7 @@ MAX_LOOSE_HAIR_SHARE, MAX_UNCOVERED_SHARE = 0.02, 0.13
 beside the person, for it to be a head of that shape. Beyond, hair is loose, or the head is not where it is taken to
 be."""
 MAX_UNKNOWN_SHARE = 0.22
-"""Share of the template's head that may lie beside the person where it is displaced to the outline, hair apart."""
+"""Share of the template's head that may lie beside the person where it is displaced to the outline, hair apart, or beyond the picture."""
 NECK_SURROUND_SHARE, COLLAR_DEPTH_SHARE, MAX_FALLEN_HAIR_SHARE = 0.25, 0.03, 0.22
 """How far about jaw and neck falling hair is looked for, and how far off them it is at least, both in heights of the
 head. And how much of it there may be, as a share of what jaw and neck cover."""
@@ -124,12 +124,13 @@ def hair_beside_the_head(
 def _turned_to_the_viewer(
     figure: Figure, silhouette: Silhouette, mesh: TemplateMesh, template: NDArray[np.float64]
 ) -> bool:
-    """Whether a face is seen, not in profile, and the picture has all of the `template`'s head (V, 3)."""
+    """Whether a face is seen, not in profile, and the picture cuts off no more of the `template`'s head (V, 3) than a crown."""
     if figure.face is None or in_profile(figure):
         return False
     places = (template[mesh.head > 0.5, :2] - silhouette.to_grid[:, 2]) / np.diag(silhouette.to_grid)
     height, width = silhouette.alpha.shape
-    return bool((places >= 0).all() and (places <= [width - 1, height - 1]).all())
+    within = ((places >= 0) & (places <= [width - 1, height - 1])).all(1)
+    return bool(within.mean() > 1 - MAX_UNKNOWN_SHARE)
 
 
 def _covered(

@@ -89,6 +89,14 @@ def test_without_a_face_or_cut_off_nothing_is_known_of_a_head(found: Found, temp
     assert not hair_keeps_to_the_head(figure, replace(silhouette, to_grid=up), labels, mesh, template)
 
 
+def test_a_picture_that_cuts_a_crown_off_has_the_head(found: Found, template: NDArray[np.float64]) -> None:
+    figure, _, silhouette, labels = found
+    rows = np.nonzero((labels.labels == HEAD).any(1))[0]
+    up = silhouette.to_grid.copy()
+    up[1, 2] += rows[0] + 0.1 * (rows[-1] - rows[0])
+    assert hair_keeps_to_the_head(figure, replace(silhouette, to_grid=up), labels, template_mesh(), template)
+
+
 def test_labels_without_a_head_have_its_neck_beneath(found: Found) -> None:
     labels = found[3].labels
     headless = without_head(found[3]).labels
