@@ -114,7 +114,7 @@ class CharacterOptions(BaseModel):
     )
     back_texture: Literal["see_through", "mirror", "inpaint"] = Field(
         "see_through",
-        description="The back: the front seen through, without what the sides of the trunk have not (ties, prints, collars); a mirrored copy of the front; or filled by what the sides of each part of the body show.",
+        description="The back: plain cloth as the sides of the trunk have it at each height, without what only fronts have (ties, prints, pockets, collars); a mirrored copy of the front; or filled by what the sides of each part of the body show.",
     )
 
     surface: Literal["auto", "hybrid", "relief", "shell"] = Field(

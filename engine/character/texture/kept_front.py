@@ -1,7 +1,6 @@
-"""What of the front is on the back as well: cloth that is like what its rows have at their sides.
+"""What of the front is on the back as well: cloth with a pattern that is all over.
 
-Real cloth with its weave, folds and pattern is better than any made of it. Whatever the sides say nothing of (ties,
-zips, words, openings) is not kept, nor is anything in the middle, where plackets, seams and creases of the front are.
+Real checks and flowers are better than any made of them. Of plain cloth nothing is kept: its pockets, folds and seams would be the front's again.
 """
 
 from __future__ import annotations
@@ -11,27 +10,25 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
-from engine.character.texture.behind import (
-    LIGHT_WINDOW_METRES,
-    MIN_DIFFERENCE_LEVELS,
-    MIN_DIFFERENCE_RATIO,
-    SIDE_END_RADIANS,
-    patterned_rows,
-)
+from engine.character.texture.plain_cloth import TRUNK_SIDE_RADIANS
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
 
-MIDDLE_RADIANS = np.radians(12.0)
-"""Radians to each side of the middle in which nothing of the front is kept."""
-ROW_COLOUR_METRES = 0.06, 0.005
-"""Metres across and along over which what is behind is one colour, to which the front is compared."""
+USUAL_WINDOW_METRES = 0.2
+"""Metres of rows to each side over which it is told what is usual."""
+MIN_DIFFERENCE_RATIO, MIN_DIFFERENCE_LEVELS = 3.0, 24.0
+"""How many times as far as is usual, and how many sRGB levels at least, something is off that is no part of a pattern."""
+ALL_OVER_QUANTILE, MIN_ALL_OVER_SHARE, PATTERN_REPEAT_METRES = 0.2, 0.1, 0.06
+"""A pattern is in a row where, of all columns but the poorest, so much is unlike theirs within its repeat, metres."""
+MIN_PATTERNED_ROWS_SHARE, PATTERN_EXTENT_METRES = 0.45, 0.5
+"""A pattern is all over where it is in such a share of the rows within so many metres: a word is in fewer."""
+MIN_KNOWN_CELLS_SHARE = 0.5
+"""Share of the cells about one that are known, below which it does not tell of a pattern."""
 THREAD_METRES = 0.0025
 """Metres over which the front's colours are one for that."""
-CLOTH_METRES, FOLD_METRES, MOTIF_METRES = 0.015, 0.006, 0.03
-"""Metres about a cell whose mean its fine detail is off; about which plain cloth is one colour; and about which a pattern is."""
+CLOTH_METRES, MOTIF_METRES = 0.015, 0.03
+"""Metres about a cell whose mean its fine detail is off, and about which a pattern, or what is behind, is one colour."""
 SHADE_DISCOUNT = 0.5
 """Share of what is lighter or darker that does not count: cloth has folds."""
-MIN_UNLIKE_LEVELS = 14.0
-"""sRGB levels by which fine detail is off at least where it is unlike."""
 MIN_PATTERN_CONTRAST, DARK_LEVELS = 0.2, 20.0
 """Contrast of a pattern in the shade: share of what it is on, with so many levels added."""
 UNLIKE_MARGIN_METRES = 0.015
@@ -50,7 +47,6 @@ def kept_front(
     known: NDArray[np.bool_],
     behind: NDArray[np.float32],
     angle: NDArray[np.floating],
-    yoke: int,
     step: float,
 ) -> NDArray[np.float32]:
     """The share (A, N) of each cell's front that is on the back, from 0 to 1.
@@ -58,28 +54,20 @@ def kept_front(
     Parameters
     ----------
     front, known : (A, N, 3), levels, rows of something round from before, and (A, N) which of it is shown.
-    behind : (A, N, 3), levels, what the sides say is behind it (`seen_through`).
+    behind : (A, N, 3), levels, the plain cloth that is behind it (`cloth_behind`).
     angle : (N,) radians from the middle.
-    yoke : the first row whose sides are those of cloth; of those above, a neck's and shoulders', nothing is kept.
     step : metres from row to row.
     """
-    across, along = (one / step for one in ROW_COLOUR_METRES)
-    side = np.abs(angle) > SIDE_END_RADIANS
-    sides = known & side & (np.arange(len(known)) >= yoke)[:, None]
-    row = _soft(behind, across, along)
+    side = np.abs(angle) > TRUNK_SIDE_RADIANS[0]
+    sides = known & side
     cloth = _mean_of(front, known, CLOTH_METRES / step)
     fine = _weighed(cv2.GaussianBlur(front, (0, 0), THREAD_METRES / step) - cloth, cloth)
     contrast = np.minimum(MIN_DIFFERENCE_LEVELS, MIN_PATTERN_CONTRAST * (cloth.mean(-1) + DARK_LEVELS))
-    patterned = patterned_rows((sides & (fine > contrast))[:, side].astype(np.float32), sides[:, side], step)[:, None]
+    patterned = patterned_rows((known & (fine > contrast)).astype(np.float32), known, step)[:, None]
 
-    def off(what: NDArray[np.float32], least: float) -> NDArray[np.bool_]:
-        return what > _most_off(what, least, sides, step)[:, None]
-
-    motif = off(_weighed(_mean_of(front, known, MOTIF_METRES / step) - row, row), MIN_DIFFERENCE_LEVELS)
-    plain = off(_weighed(_mean_of(front, known, FOLD_METRES / step) - row, row), MIN_DIFFERENCE_LEVELS)
-    plain |= off(fine, MIN_UNLIKE_LEVELS) | (np.abs(angle) < MIDDLE_RADIANS)
-    unlike = np.where(patterned, motif, plain)
-    unlike[:yoke] = True
+    row = _mean_of(behind, known, MOTIF_METRES / step)
+    motif = _weighed(_mean_of(front, known, MOTIF_METRES / step) - row, row)
+    unlike = ~patterned | (motif > _most_off(motif, MIN_DIFFERENCE_LEVELS, sides, step)[:, None])
     kept = known & ~dilate_mask(unlike & known, max(1, round(UNLIKE_MARGIN_METRES / step)))
     wide = KEPT_BLEND_METRES / step
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * round(MIN_KEPT_METRES / 2 / step) + 1,) * 2)
@@ -87,6 +75,25 @@ def kept_front(
     way = np.clip(distance_inside(np.pad(kept, ((0, 0), (round(wide),) * 2), mode="edge")) / wide, 0, 1)
     way = way[:, round(wide) : way.shape[1] - round(wide)]
     return np.asarray(way * way * (3 - 2 * way), np.float32)
+
+
+def patterned_rows(odd: NDArray[np.float32], known: NDArray[np.bool_], step: float) -> NDArray[np.bool_]:
+    """Which rows (A,) are of a pattern that is all over: what is `odd` (A, n), 1, in its row comes again in nearly every column of which
+    enough is `known` (A, n)."""
+    size = (2 * round(PATTERN_REPEAT_METRES / 4 / step) + 1, 2 * round(PATTERN_REPEAT_METRES / 2 / step) + 1)
+    there = cv2.blur(known.astype(np.float32), size, borderType=cv2.BORDER_REPLICATE)
+    share = cv2.blur(odd * known, size, borderType=cv2.BORDER_REPLICATE) / np.maximum(there, MIN_KNOWN_CELLS_SHARE)
+    told = there >= MIN_KNOWN_CELLS_SHARE
+    patterned = np.zeros(len(odd), np.float32)
+    rows = np.flatnonzero(told.any(1))
+    if len(rows):
+        least = np.nanquantile(np.where(told, share, np.nan)[rows], ALL_OVER_QUANTILE, axis=1)
+        patterned[rows] = least > MIN_ALL_OVER_SHARE
+    telling = np.zeros(len(odd), np.float32)
+    telling[rows] = 1
+    size = (1, 2 * round(PATTERN_EXTENT_METRES / 2 / step) + 1)
+    far, most = (cv2.blur(one[:, None], size)[:, 0] for one in (patterned, telling))
+    return np.asarray(far > MIN_PATTERNED_ROWS_SHARE * np.maximum(most, 1 / len(odd)))
 
 
 def levelled_to(
@@ -131,5 +138,5 @@ def _most_off(off: NDArray[np.float32], least: float, sides: NDArray[np.bool_], 
     if not len(told):
         return np.full(len(off), least, np.float32)
     usual = np.interp(np.arange(len(off)), told, np.nanmedian(np.where(sides, off, np.nan)[told], 1))
-    size = 2 * round(LIGHT_WINDOW_METRES / step) + 1
+    size = 2 * round(USUAL_WINDOW_METRES / step) + 1
     return np.asarray(np.maximum(MIN_DIFFERENCE_RATIO * median_filter(usual, size, mode="nearest"), least), np.float32)

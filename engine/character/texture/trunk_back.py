@@ -8,8 +8,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.texture.behind import seen_through
 from engine.character.texture.kept_front import kept_front, levelled_to
+from engine.character.texture.plain_cloth import cloth_behind
 from engine.imaging.masks.mask_distance import dilate_mask
 
 USUAL_HEIGHT_METRES = 1.7
@@ -110,17 +110,20 @@ def with_trunk_back(
     below = max(1, round(YOKE_SOURCE_METRES / step))
     away = (yoke - source[:yoke]) % (2 * below)
     source[:yoke] = np.minimum(yoke + np.minimum(away, 2 * below - away), rows - 1)
-    behind = seen_through(seen[source], known[source], angle, step)
-    share = kept_front(seen, known, behind, angle, yoke, step)
-    behind = np.concatenate([levelled_to(behind, seen, share, step), share[..., None]], -1)
+    seen, known = seen[source], known[source]
+    behind = cloth_behind(seen, known, angle, step)
+    mirrored = ~known & known[:, ::-1]  # of a pattern, what an arm hides is as it is on the other side
+    front = np.where(mirrored[..., None], seen[:, ::-1], seen)
+    share = kept_front(front, known | mirrored, behind, angle, step)
+    behind = levelled_to(behind, front, share, step)
+    behind += share[..., None] * (front - behind)
     left, right = axis.outline(trunk, rows, OUTLINE_SMOOTHING_PIXELS * scale)
     left, right = (np.interp(along, np.arange(rows), one) for one in (left, right))
     place = np.clip(2 * (aside - left) / np.maximum(right - left, 1) - 1, -1, 1)
     column = (np.arcsin(place) / np.pi + 0.5) * columns - 0.5
     out = rgb.copy()
     found = _at(behind, column.astype(np.float32), along.astype(np.float32))
-    kept = found[:, 3:] * shown[y, x, None]
-    out[y, x] = np.clip(kept * rgb[y, x] + (1 - kept) * found[:, :3] + 0.5, 0, 255).astype(np.uint8)
+    out[y, x] = np.clip(found + 0.5, 0, 255).astype(np.uint8)
     return out
 
 
