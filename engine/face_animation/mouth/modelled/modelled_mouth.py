@@ -40,9 +40,9 @@ from engine.render.textures.mipmap import build_mipmap
 
 LIP_SOFTNESS_EYE_DISTANCES, MIN_LIP_SOFTNESS_PIXELS = 0.012, 0.8
 """Eye distances, and pixels, over which the inside passes into the lips: their edges are round, and the mesh's have corners."""
-AMBIENT_LIGHT_SHARE, TEETH_AMBIENT_LIGHT_SHARE = 0.75, 0.66
+AMBIENT_LIGHT_SHARE, TEETH_AMBIENT_LIGHT_SHARE = 0.75, 0.5
 """Of the light on a surface, that it has wherever it faces; and on teeth, whose crowns are told apart by it."""
-TEETH_FALLOFF_EYE_DISTANCES = 0.8
+TEETH_FALLOFF_EYE_DISTANCES = 0.35
 """Eye distances behind the upper teeth at which a third of the light is left on teeth: cheeks are beside them. Ramps of the other parts have theirs."""
 LIT_GAP_EYE_DISTANCES, MIN_INSIDE_LIGHT_SHARE = (0.05, 0.55), 0.3
 """Eye distances between the lips up to which hardly any light falls on the tongue and what is around it, and from which on all; and what is left of it. Teeth are

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.face_animation.mouth.lip_contours import LOWER_INNER_LIP, UPPER_INNER_LIP
 
-BEHIND_SLOT_MOUTH_WIDTHS, BEHIND_CORNERS_MOUTH_WIDTHS = 0.022, 0.06
+BEHIND_SLOT_MOUTH_WIDTHS, BEHIND_CORNERS_MOUTH_WIDTHS = 0.03, 0.14
 """Widths of the mouth by which what is lit lies behind the lips, and behind the corners, from which rows of teeth go back."""
 FULL_LIGHT_VISIBILITY = 0.8
 """Of what is before the face, that is seen from where all of the light falls: the middle of a mouth that smiles."""

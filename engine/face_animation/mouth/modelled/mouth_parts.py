@@ -45,10 +45,10 @@ BAG_BOTTOM_EYE_DISTANCES = 0.05
 """Eye distances behind the last ring at which the bag ends."""
 CROWN_SHADE_FACTORS = (0.9, 1.1)
 """Of single crowns, the darkest and the lightest."""
-BACKING_DEPTH_METRES, BACKING_HEIGHT_SHARES, BACKING_LIGHT_SHARE = 0.0022, (-0.2, 0.93), 0.75
+BACKING_DEPTH_METRES, BACKING_HEIGHT_SHARES, BACKING_LIGHT_SHARE = 0.0022, (-0.2, 0.93), 0.45
 """The wall that closes the gaps between crowns: metres behind the front of the arch, the shares of the crowns' heights
 from and up to which it is there, and its share of their light. Without it the dark of the throat stands between teeth
-as lines."""
+as lines; as light as they it makes one bar of the row."""
 BACKING_COLUMNS = 48
 
 

@@ -296,6 +296,25 @@ def test_crowns_are_told_apart_by_their_shade(mouth: ModelledMouth) -> None:
     assert any(abs(k - 16) <= 2 for k in dips), "between the two in the middle"
 
 
+def test_a_row_of_teeth_is_round_and_no_bar(mouth: ModelledMouth) -> None:
+    """Towards the corners it loses a quarter of its light and more, and between teeth beside the incisors there are gaps, too."""
+    rest, face = front(0.0), seen(front(0.25))
+    frame = np.full((*SHAPE, 3), WALL, np.uint8)
+    mouth.draw(frame, face, 0)
+    crown = mouth.places(face)[: len(modelled_teeth(resting_mouth(rest, rest), True).vertices), 1]
+    line = frame[int(crown.max()) - 5].astype(float).sum(axis=1)
+    middle, half = float(face[13, 0]), float(np.ptp(face[list(LIPS_INNER), 0])) / 2
+    for side in (-1, 1):
+        near, aside = (
+            line[np.rint(middle + side * half * np.linspace(*shares, 20)).astype(int)].max()
+            for shares in ((0.3, 0.5), (0.72, 0.85))
+        )
+        assert aside < 0.78 * near
+    x = np.arange(int(middle - 0.9 * half), int(middle + 0.9 * half))
+    gaps = (line[x] < line[x - 1]) & (line[x] <= line[x + 1]) & (line[x] < 0.9 * (line[x - 2] + line[x + 2]) / 2)
+    assert (np.abs(x[gaps] - middle) > 0.4 * half).sum() >= 3
+
+
 def test_a_tongue_is_arched_and_ends_in_the_dark() -> None:
     """The middle of its back is higher than what is halfway to its sides; and there it is as dark as the bag behind."""
     part = tongue(resting_mouth(front(0.0), front(0.0)))
