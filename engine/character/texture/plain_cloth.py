@@ -7,17 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
-from engine.imaging.filling.between_steps import smoothed_between, steps_of_all
+from engine.character.shell.colours.between_hems import between_hems
 
 TRUNK_SIDE_RADIANS = np.radians(34.0), np.radians(72.0)
 """Radians from the middle between which the sides are seen: beyond, a pixel is drawn out over more than three times its width."""
 SIDE_ROW_METRES = 0.0025
 """Metres of a row in which sides are told."""
-STEP_METRES, MIN_STEP_LEVELS, STEP_SHADE_SHARE = 0.0125, 18.0, 0.5
-"""Metres before and after a row over which its sides are compared, sRGB levels by which they step where one garment or stripe goes over
-into the next, and the share in that of what is lighter or darker: cloth has folds."""
-FOLD_METRES = 0.05
-"""Metres over which folds average out between steps."""
 LIGHT_METRES = 0.2
 """Metres of rows to each side over which the light is one."""
 ODD_METRES = 0.4
@@ -44,11 +39,7 @@ def cloth_behind(
     if not sure.any():
         return np.asarray(seen, np.float32)
     whole = _without_the_odd(*_both(sides, sure))
-    hues = whole - (1 - STEP_SHADE_SHARE) * whole.mean(-1, keepdims=True)
-    steps = steps_of_all(
-        hues, sure | ~sure.any(1, keepdims=True), round(STEP_METRES / SIDE_ROW_METRES), MIN_STEP_LEVELS
-    )
-    plain = smoothed_between(whole, steps, FOLD_METRES / SIDE_ROW_METRES)
+    plain = between_hems(whole, sure, SIDE_ROW_METRES)
     tall = plain[((np.arange(len(seen)) + 0.5) * rows / len(seen)).astype(np.intp)]  # what steps there steps here
     share = (0.5 + 0.5 * np.clip(np.sin(angle) / np.sin(np.mean(TRUNK_SIDE_RADIANS)), -1, 1)).astype(np.float32)[
         None, :, None

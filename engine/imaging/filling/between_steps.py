@@ -28,12 +28,18 @@ def steps_of_all(values: NDArray[np.floating], sure: NDArray[np.bool_], window: 
     return np.asarray(row[(strength >= max(least, 1e-6)) & (strength == largest)], np.intp)
 
 
-def smoothed_between(values: NDArray[np.floating], steps: NDArray[np.integer], sigma: float) -> NDArray[np.float32]:
-    """Values (A, ...) averaged over rows, `sigma` as a standard deviation, but over none of the `steps` (N,)."""
+def smoothed_between(
+    values: NDArray[np.floating], steps: NDArray[np.integer], sigma: float, soft: int = 0
+) -> NDArray[np.float32]:
+    """Values (A, ...) averaged over rows, `sigma` as a standard deviation, but over none of the `steps` (N,). The `soft` rows on either side of a
+    step, in which both are mixed, do not count: they are as the next ones."""
     ends = [0, *steps.tolist(), len(values)]
-    pieces = [
-        gaussian_filter1d(np.asarray(values[first:last], np.float32), sigma, axis=0, mode="reflect")
-        for first, last in pairwise(ends)
-        if last > first
-    ]
-    return np.concatenate(pieces) if pieces else np.asarray(values, np.float32)
+    pieces = []
+    for first, last in pairwise(ends):
+        stepped = (first > 0, last < len(values))
+        margin = min(soft, (last - first - 1) // max(sum(stepped), 1))
+        before, after = (margin * side for side in stepped)
+        piece = np.asarray(values[first + before : last - after], np.float32)
+        smooth = gaussian_filter1d(piece, sigma, axis=0, mode="reflect")
+        pieces.append(np.pad(smooth, ((before, after), *[(0, 0)] * (smooth.ndim - 1)), mode="edge"))
+    return np.concatenate(pieces)

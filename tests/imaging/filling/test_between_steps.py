@@ -47,3 +47,10 @@ def test_nothing_is_averaged_over_a_step() -> None:
     np.testing.assert_allclose(found[:25], 0, atol=3)
     np.testing.assert_allclose(found[25:], 255, atol=3)
     assert smoothed_between(values, np.array([], int), 6.0)[24:26].mean() < 200
+
+
+def test_rows_that_a_step_mixes_do_not_count() -> None:
+    values = sides(25, 25)
+    values[24:26] = 127
+    found = smoothed_between(values, np.array([25]), 6.0, soft=1)
+    np.testing.assert_allclose(found, sides(25, 25), atol=1e-3)

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
+from engine.character.shell.colours.between_hems import between_hems
 from engine.character.shell.colours.unrolled import ROW_METRES, UNROLLED_COLUMNS
 from engine.imaging.filling.pull_push import pull_push
 
@@ -104,7 +105,7 @@ def coloured_round(
     weight = (
         known.astype(np.float32) if ring else known * np.maximum(near, 0) * COLUMN_SINES**2
     )  # sides, as far as they are well seen
-    model = row_model(seen, weight, 0.0 if ring else TRUNK_CROSSING_METRES)
+    model = row_model(seen, weight, 0.0 if ring else TRUNK_CROSSING_METRES, folds=False)
     kind = _of_the_kind(seen, model, known)
     through = {"mirror": known.astype(np.float32), "inpaint": 0 * kind, "see_through": kind}[back]
     rows = np.arange(len(seen))
@@ -183,16 +184,24 @@ def turned_rows(values: NDArray, by: NDArray[np.intp]) -> NDArray:
 
 
 def row_model(
-    seen: NDArray[np.floating], weight: NDArray[np.floating], across: float = TRUNK_CROSSING_METRES
+    seen: NDArray[np.floating],
+    weight: NDArray[np.floating],
+    across: float = TRUNK_CROSSING_METRES,
+    *,
+    folds: bool = True,
 ) -> RowModel:
     """What is `seen` (A, `UNROLLED_COLUMNS`, 3) of the sides of each row, the middle column facing the viewer. `weight`
     (A, `UNROLLED_COLUMNS`) is how well it is seen. `across` is how many metres along the part are as far as the other
-    side."""
+    side. Without `folds`, what is lighter or darker along it is averaged between hems."""
     sides = [_side(seen, weight * (side * COLUMN_SINES > 0)) for side in (-1, 1)]
     values, counts = (np.stack(each, 1) for each in zip(*sides, strict=True))  # (A, 2, 3 + 1), (A, 2)
     known, other = counts[..., None], OTHER_SIDE_WEIGHT * counts[:, ::-1, None]
     values = (known * values + other * values[:, ::-1]) / np.maximum(known + other, 1e-6)
     values = _on_both_sides(_nearest_rows(values, (known + other)[..., 0], across))
+    if not folds:
+        values = between_hems(
+            values, counts >= min(MIN_ROW_CELLS, float(counts.max())), ROW_METRES, 2 * ROW_SMOOTHING_METRES
+        )
     share = (np.clip(COLUMN_SINES / BEST_SEEN_HALF_WIDTHS, -1, 1) * 0.5 + 0.5)[None, :, None]
     between = np.asarray((1 - share) * values[:, :1] + share * values[:, 1:], np.float32)
     sure = np.clip(counts.max(1) / MIN_ROW_CELLS, 0, 1).astype(np.float32)

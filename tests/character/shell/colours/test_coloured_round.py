@@ -111,6 +111,15 @@ def test_what_is_seen_of_a_sleeve_is_its_own() -> None:
         assert (found == before).all()
 
 
+def test_folds_of_a_sleeve_make_no_rings() -> None:
+    """Shadows of folds, 1 cm high, across all that is seen, and a cuff."""
+    cloth = roll((slice(0, 20), WHITE), *((slice(row, row + 4), NAVY + 24) for row in range(50, ROWS, 30)))
+    found = coloured_round(np.where(SOURCE[..., None], cloth, 0), SOURCE, FACING, "inpaint", ring=True)[0]
+    behind = found[:, 0].mean(-1)
+    assert np.ptp(behind[30:]) < 12
+    assert np.abs(found[:14, 0] - WHITE).max() < 6
+
+
 def test_a_limb_of_which_one_side_is_seen_is_a_ring_of_that() -> None:
     cloth = roll((slice(0, 80), WHITE))
     left = np.broadcast_to(COLUMN_RADIANS < 0, SOURCE.shape) & SOURCE
