@@ -26,7 +26,7 @@ LASH_LINE_POLYNOMIAL_DEGREE, LASH_LINE_POINTS, MIN_LASH_LINE_PIXELS = 3, 25, 1.5
 """Of the curve from corner to corner that lashes are on, the points at which it is drawn, and how wide it is in its middle at least."""
 LASH_LINE_SAMPLES, MIN_LASH_SOFTNESS_PIXELS = 4, 0.4
 """To a pixel, along each axis, at which it is drawn, and pixels by which its edges are soft at least."""
-CLOSING_OPENING_SHARES = (0.92, 0.5)
+CLOSING_OPENING_SHARES = (0.95, 0.7)
 """Shares of the picture's opening at which a lid begins to take its own colours, and has."""
 GLINT_MOTION_SHARE = 0.3
 """Of the iris' way, that the catch-light goes: it is a mirror image of what is before the face."""
