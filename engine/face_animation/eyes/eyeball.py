@@ -14,6 +14,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.eyes.lash_line import Lashes, upper_lashes
+from engine.face_animation.eyes.socket_frame import socket_frame
 from engine.face_animation.whites import eye_whites, white_tint
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.perception.face.landmarks import (
@@ -33,8 +35,6 @@ CHEEK_BELOW_EYE_VERTICES = ((117, 118, 119, 120, 100, 101), (346, 347, 348, 349,
 """Vertices of the cheek below each eye."""
 LAYER_MARGIN_EYE_WIDTHS = 0.5
 """Around the opening, in eye widths: how far the eyeball's layer reaches behind the lids."""
-LASH_LINE_EYE_WIDTHS = 0.05
-"""Width of the line of lashes in the middle of a lid that closes, in eye widths."""
 MIN_EYE_WIDTH_PIXELS = 14.0
 """Pixels; smaller eyes move with the face's warp alone."""
 WHITE_LIGHT_RANGE = (0.8, 1.5)
@@ -74,7 +74,7 @@ class Eyeball:
     ends : (2, 2) float32, the corners of the eye in the picture (x, y).
     width : pixels between them.
     opening : area between the lids, in squares of the width.
-    lashes : (3,) float32, the colour of the upper lid's edge.
+    lashes : of the upper lid.
     lid_shade : share of the light that the upper lid keeps from the white at its edge.
     centre : (2,) float64, where the iris is, from the middle between the corners, in eye widths along and across.
     radius : of the iris, in eye widths.
@@ -88,7 +88,7 @@ class Eyeball:
     ends: NDArray[np.float32]
     width: float
     opening: float
-    lashes: NDArray[np.float32]
+    lashes: Lashes
     lid_shade: float
     centre: NDArray[np.float64]
     radius: float
@@ -138,7 +138,7 @@ def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> E
         ends,
         width,
         area / width**2,
-        _lashes(rgb, opening),
+        upper_lashes(rgb, socket_frame(mesh, side)),
         lid_shade,
         np.array([off @ along, off @ (-along[1], along[0])]) / width,
         radius / width,
@@ -220,21 +220,6 @@ def _lid_shade(patch: NDArray[np.float32], beside: NDArray[np.bool_], depth: NDA
     if len(near) < 3 or len(far) < 3:
         return MAX_LID_SHADE / 2
     return float(np.clip(1 - np.median(near) / max(float(np.median(far)), 1.0), 0, MAX_LID_SHADE))
-
-
-def _lashes(rgb: NDArray[np.uint8], opening: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The darker half of the colours along the upper lid's edge, their mean (3,): there, or as far outside of it as lashes
-    are wide, for a drawn eye may end beyond the mesh's."""
-    middle, width = (opening[0] + opening[8]) / 2, np.linalg.norm(opening[8] - opening[0])
-    away = opening[1:8] - middle
-    outside = opening[1:8] + LASH_LINE_EYE_WIDTHS * width * away / np.maximum(
-        np.linalg.norm(away, axis=1, keepdims=True), 1
-    )
-    edge = np.clip(np.round([opening[1:8], outside]).astype(int), 0, (rgb.shape[1] - 1, rgb.shape[0] - 1))
-    colours = rgb[edge[..., 1], edge[..., 0]].astype(np.float32)
-    darker = colours.sum(axis=-1).argmin(axis=0)
-    colours = colours[darker, np.arange(7)]
-    return np.asarray(colours[np.argsort(colours.sum(axis=1))[:4]].mean(axis=0), np.float32)
 
 
 def _fill(points: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.uint8]:

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes.eyeball import EYE_OUTLINE_IRIS_CORNERS, LASH_LINE_EYE_WIDTHS, Eyeball, white_light
+from engine.face_animation.eyes.eyeball import EYE_OUTLINE_IRIS_CORNERS, Eyeball, white_light
 from engine.face_animation.smoothstep import smoothstep
 
 FULL_OPENING_CHANGE = 0.15
@@ -22,10 +22,6 @@ SHUT_OPENING_SHARES = (0.25, 0.1)
 """Shares of the picture's opening at which what is below a lid's edge begins to be skin, and is."""
 LID_SOFTNESS_EYE_WIDTHS, MIN_LID_SOFTNESS_PIXELS = 0.02, 0.4
 """Eye widths over which the eyeball passes into the lids, which are wet and round; pixels below which that is not to be seen."""
-LASH_LINE_POLYNOMIAL_DEGREE, LASH_LINE_POINTS, MIN_LASH_LINE_PIXELS = 3, 25, 1.5
-"""Of the curve from corner to corner that lashes are on, the points at which it is drawn, and how wide it is in its middle at least."""
-LASH_LINE_SAMPLES, MIN_LASH_SOFTNESS_PIXELS = 4, 0.4
-"""To a pixel, along each axis, at which it is drawn, and pixels by which its edges are soft at least."""
 CLOSING_OPENING_SHARES = (0.95, 0.7)
 """Shares of the picture's opening at which a lid begins to take its own colours, and has."""
 GLINT_MOTION_SHARE = 0.3
@@ -72,20 +68,6 @@ def draw_eye(
     frame[low[1] : high[1], low[0] : high[0]] = np.clip(drawn + 0.5, 0, 255).astype(np.uint8)
 
 
-def draw_lashes(frame: NDArray[np.uint8], eye: Eyeball, mesh: NDArray[np.floating], side: int) -> None:
-    """Draw the line of lashes of an upper lid that closes in a frame (H, W, 3), in place, on the lid of a face at `mesh` (478, 2)."""
-    share = lid_closing_share(eye, mesh, side)
-    opening = mesh[list(EYE_OUTLINE_IRIS_CORNERS[side][0]), :2].astype(np.float32)
-    margin = LASH_LINE_EYE_WIDTHS * float(np.linalg.norm(opening[8] - opening[0])) + 2
-    low = np.maximum(np.floor(opening.min(axis=0) - margin).astype(int), 0)
-    high = np.minimum(np.ceil(opening.max(axis=0) + margin).astype(int), (frame.shape[1], frame.shape[0]))
-    if share == 0 or (high - low).min() < 2:
-        return
-    part = frame[low[1] : high[1], low[0] : high[0]]
-    line = share * _lash_line(opening - low, part.shape[:2])[..., None]
-    part[:] = np.clip(part + line * (eye.lashes - part) + 0.5, 0, 255).astype(np.uint8)
-
-
 def lid_closing_share(eye: Eyeball, mesh: NDArray[np.floating], side: int) -> float:
     """How far the upper lid of a face (478, 2) takes its own colours: 0 as long as it is open, 1 long before it is shut."""
     return float(smoothstep(_open_by_of(eye, mesh, side), *CLOSING_OPENING_SHARES))
@@ -98,26 +80,6 @@ def shut_share(eye: Eyeball, mesh: NDArray[np.floating], side: int) -> float:
 
 def _open_by_of(eye: Eyeball, mesh: NDArray[np.floating], side: int) -> float:
     return _open_by(eye, mesh[list(EYE_OUTLINE_IRIS_CORNERS[side][0]), :2].astype(np.float32))
-
-
-def _lash_line(opening: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
-    """The upper lid's edge, (h, w) in [0, 1], as wide as lashes are in its middle and tapered to both corners. It is
-    the smooth curve through most of its points, since each is tracked by itself."""
-    across = (opening[8] - opening[0]).astype(float)
-    width = max(float(np.linalg.norm(across)), 1.0)
-    axes = np.array([across, (-across[1], across[0])]) / width
-    along, height = ((opening[:9] - opening[0]) @ axes.T / width).T
-    curve = np.polynomial.Polynomial.fit(along, height, LASH_LINE_POLYNOMIAL_DEGREE)
-    t = np.linspace(0, 1, LASH_LINE_POINTS)
-    half = max(LASH_LINE_EYE_WIDTHS * width, MIN_LASH_LINE_PIXELS) / width / 2 * np.sin(np.pi * t)
-    band = np.concatenate([np.stack([t, curve(t) + half], axis=1), np.stack([t, curve(t) - half], axis=1)[::-1]])
-    finer = LASH_LINE_SAMPLES
-    places = finer * (opening[0] + width * band @ axes) + (finer - 1) / 2
-    mask = np.zeros((finer * shape[0], finer * shape[1]), np.uint8)
-    cv2.fillPoly(mask, [np.round(places * 16).astype(np.int32)], 255, cv2.LINE_8, 4)
-    mask = np.asarray(cv2.resize(mask, shape[::-1], interpolation=cv2.INTER_AREA), np.uint8)
-    soft = cv2.GaussianBlur(mask, (0, 0), max(LASH_LINE_EYE_WIDTHS * width / 4, MIN_LASH_SOFTNESS_PIXELS))
-    return np.asarray(soft, np.float32) / np.float32(255)
 
 
 def _departure(eye: Eyeball, opening: NDArray[np.float32], look: NDArray[np.floating]) -> float:

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.eyes.eyeball import prepare_eyes
-from engine.face_animation.eyes.eyes import draw_eye, draw_lashes, lid_closing_share, shut_share
+from engine.face_animation.eyes.eyes import draw_eye, lid_closing_share, shut_share
 from engine.face_animation.eyes.gaze import iris_shift
+from engine.face_animation.eyes.lash_line import draw_lashes
 from engine.face_animation.eyes.lid import draw_lid
 from engine.face_animation.eyes.socket_frame import socket_frame
 from engine.face_animation.eyes.socket_skin import socket_skin
@@ -27,5 +28,6 @@ class EyesAndLids:
             if eyeball is not None:
                 draw_eye(frame, eyeball, face, side, iris_shift(eyeball, look[side]))
                 closing, shut = (share(eyeball, face, side) for share in (lid_closing_share, shut_share))
-                draw_lid(frame, self._sockets[side], socket_frame(face, side), closing, shut)
-                draw_lashes(frame, eyeball, face, side)
+                socket = socket_frame(face, side)
+                draw_lid(frame, self._sockets[side], socket, closing, shut)
+                draw_lashes(frame, eyeball.lashes, socket, closing)

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
-from made_face import BROWN, SKIN, WHITE, painted, placed, shut
+from made_face import BROWN, WHITE, painted, placed, shut
 from numpy.typing import NDArray
 
 from engine.face_animation.eyes.eyeball import MIN_EYE_WIDTH_PIXELS, prepare_eyes, white_light
-from engine.face_animation.eyes.eyes import draw_eye, draw_lashes
+from engine.face_animation.eyes.eyes import draw_eye
 from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS
 from engine.perception.face.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
@@ -101,21 +100,6 @@ def test_closing_lids_move_over_the_eyeball(picture: NDArray, mesh: NDArray) -> 
         cv2.fillPoly(opening, [half[list(CONTOURS[side]), :2].round().astype(np.int32)], 1)
         still = cv2.erode(opening, np.ones((3, 3))) > 0
         assert np.abs(out[still].astype(int) - picture[still]).mean() < 6
-
-
-def test_a_shut_eye_shows_its_lashes(mesh: NDArray) -> None:
-    """With the lids on each other a line in the colour of the upper lid's edge covers their seam."""
-    closed = shut(mesh, 0.0)
-    skin = np.full((SIZE[1], SIZE[0], 3), SKIN, np.uint8)
-    out = skin.copy()
-    lashes = np.array([90, 60, 50], np.float32)
-    for side, eye in enumerate(prepare_eyes(painted(mesh, SIZE), mesh)):
-        assert eye is not None
-        draw_lashes(out, replace(eye, lashes=lashes), closed, side)
-    share = (out.astype(float) - SKIN) @ (lashes - SKIN) / float((lashes - SKIN) @ (lashes - SKIN))
-    np.testing.assert_allclose(out, SKIN + share[..., None] * (lashes - SKIN), atol=2)
-    assert share.max() > 0.8
-    assert (share > 0.1).sum() < 0.12 * 2 * width(mesh, 0) ** 2
 
 
 def test_what_lids_hide_of_the_iris_is_completed(mesh: NDArray) -> None:
