@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.coarse import CoarseFit, fit_to_landmarks, fit_to_points
+from engine.avatar.registration.ears_seen import with_ears_seen
 from engine.avatar.registration.eyes.fitted_eyes import with_eyes, with_sockets
 from engine.avatar.registration.eyes.tucked_lids import with_tucked_lids
 from engine.avatar.registration.face.expressions import transferred_units
@@ -102,7 +103,7 @@ def register(
     if head is not None and len(head.cloud) >= MIN_CLOUD_POINTS:
         placed = head_to_body(models.skin, fitted, body.cloud, head.cloud, head.landmarks, head.sized)
         if placed is not None:
-            fitted = _with_head(models, fitted, cloud, head, placed)
+            fitted = _with_head(models, fitted, cloud, believed, head, placed)
             hair = facial_hair(models.skin, fitted, head.cloud.moved(placed)) if faced else hair
     check()
     person = _person(
@@ -118,13 +119,20 @@ def register(
 
 
 def _with_head(
-    models: HumanModels, fitted: NDArray[np.float64], cloud: PointCloud, head: Scan, placed: Similarity
+    models: HumanModels,
+    fitted: NDArray[np.float64],
+    cloud: PointCloud,
+    landmarks: SpatialLandmarks,
+    head: Scan,
+    placed: Similarity,
 ) -> NDArray[np.float64]:
-    """The skin (S, 3) of the body's fit with the head laid on its own cloud."""
+    """The skin (S, 3) of the body's fit, of whose `landmarks` the ears' are used, with the head laid on its own cloud."""
     near = thinned(head.cloud.moved(placed), HEAD_SPACING_METRES)
     face = placed(head.landmarks.face)
     both = one_cloud(models.skin, fitted, cloud, near)
     shaped = head_shape(models.skin, models.heads, fitted, near, face)
+    turned = head_change(models.skin, models.template.vertices[models.skin.vertices].astype(np.float64), shaped)
+    shaped = with_ears_seen(models.skin, shaped, landmarks.body, turned.rotation[:, 2])
     return fit_head(models.skin, shaped, both, face)
 
 

@@ -60,7 +60,7 @@ class Skin:
         within: `engine.avatar.registration.template_skin.lip_sides`), `lids`, `hands`, `whole_hands` (those that no forearm moves), `feet`, `lower_feet` (what a shoe covers at least), `inner` (part of no visible
         triangle), `hidden_by_cloth` (nipples, navel). `left_eye_rim` and `right_eye_rim` are where lids end before the
         eyeball (`engine.avatar.registration.template_skin.lid_rims`), `left_eye_lids` and `right_eye_lids` what is
-        close to there.
+        close to there. `left_ear` and `right_ear` are the person's own.
     face_points : (68,) the face landmarks, all of them vertices that are seen from the front.
     lip_contact : (C, S) the lips' contact (`engine.avatar.registration.template_skin.lip_contact`).
     """
@@ -105,6 +105,8 @@ def load_skin(template: Template, space: BodySpace, rig: Rig) -> Skin:
         regions[f"{part}_rim"] = rim
         regions[f"{part}_lids"] = grown(rim, triangles, CLOSE_LID_RINGS) & shown
         regions["lids"] |= regions[f"{part}_lids"]
+    ears = vertex_mask(template, "ears")[vertices] > 0.5
+    regions["left_ear"], regions["right_ear"] = ears & (mean[:, 0] > 0), ears & (mean[:, 0] < 0)
     upper, lower = lip_sides(mean, triangles, *lip_rims(mean, triangles, inside))
     regions["upper_lip"], regions["lower_lip"] = upper, lower
     contact = lip_contact(mean, triangles, regions["lips"] & shown & (upper | lower), lower)
