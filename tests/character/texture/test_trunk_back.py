@@ -82,18 +82,16 @@ def test_checks_are_on_the_back() -> None:
     assert back(rgb)[INSIDE].std() > 0.75 * rgb[INSIDE].std()
 
 
-def test_of_a_pattern_what_an_arm_hides_is_as_on_the_other_side() -> None:
+def test_of_a_pattern_what_a_hand_hides_is_as_on_the_other_side() -> None:
     rgb = dressed()
     y, x = np.indices(TRUNK.shape)
-    rgb[TRUNK & ((x // 6 + y // 6) % 2 == 0)] = WHITE
-    arm = np.zeros_like(TRUNK)
-    arm[90:130, 30:55] = True
-    rgb[arm] = RED
-    hidden = np.zeros_like(TRUNK)
-    hidden[94:126, 36:50] = True
-    found = back(rgb, TRUNK & ~arm, arm)
-    assert found[hidden].std() > 0.6 * rgb[INSIDE & ~arm].std()
-    assert (np.abs(found[hidden].astype(int) - RED).max(-1) > 60).all()
+    rgb[TRUNK & ((x // 8 + y // 8) % 2 == 0)] = WHITE
+    hand = np.zeros_like(TRUNK)
+    hand[100:124, 42:66] = True
+    rgb[hand] = RED
+    found = back(rgb, TRUNK & ~hand, hand)
+    dark, light = (off(found, colour)[104:120, 46:62] < 60 for colour in (CLOTH, WHITE))
+    assert dark.mean() > 0.25 and light.mean() > 0.25
 
 
 def test_a_neckline_is_the_front_s_alone() -> None:
@@ -167,11 +165,13 @@ def test_pockets_and_seams_are_the_fronts_alone() -> None:
 
 
 def test_folds_at_the_sides_make_no_bands_behind() -> None:
-    """Creases, 2 cm high, at other heights on either side."""
+    """Creases, 2 cm high: dark ones at other heights on either side, faint ones at the same."""
     seen, angle = round_trunk()
     for first in (40, 90, 140):
         seen[first : first + 4, :50] += 40
         seen[first + 20 : first + 24, 70:] += 40
+        seen[first + 35 : first + 39, :50] += 12
+        seen[first + 35 : first + 39, 70:] += 12
     behind = cloth_behind(seen, np.ones((200, 120), np.bool_), angle, 0.005)
     assert np.ptp(behind[10:190, 60].mean(-1)) < 5
 
