@@ -68,7 +68,7 @@ def main() -> None:
     ratio = _shown_ratio(ratios[frame])
     crops = [_square(track.crop(one)) for one in (neutral, frame)]
     _write("method-ratio", *crops, _square(ratio))
-    plain = Parts(hidden=False, details=False, eyes=False)
+    plain = Parts(hidden=False, details=False, own_folds=False, eyes=False)
     face = _box(target)
     stages = [target.rgb, drawn(plain), drawn(Parts(hidden=False, eyes=False)), drawn(ALL_PARTS)]
     _write("method-parts", *(_square(one[face]) for one in stages))

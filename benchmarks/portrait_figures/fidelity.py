@@ -31,7 +31,7 @@ MAX_CLIP_FRAMES, COMPARED_FRAME_STEP = 240, 8
 """As the yardsticks were taken: every 8th of the first 240 frames."""
 PICTURE_REGIONS = ("face", "mouth", "eyes", "hair", "background")
 """`hair` is the person outside the face: hair, ears, neck and shoulders."""
-WARP_ALONE = Parts(layers=False, hidden=False, details=False, eyes=False)
+WARP_ALONE = Parts(layers=False, hidden=False, details=False, own_folds=False, eyes=False)
 IN_PLANE, IN_SPACE = False, True
 """Whether heads turn in 3D."""
 SMOOTHING_MODES = {"warp, no smoothing": "none", "warp, constant smoothing": "constant"}
@@ -42,9 +42,9 @@ ABLATION_ROWS: tuple[tuple[str, Parts, bool], ...] = (
     ("warp, constant smoothing", WARP_ALONE, IN_PLANE),
     ("warp, confidence-aware", WARP_ALONE, IN_PLANE),
     ("+ hidden regions", replace(WARP_ALONE, hidden=True), IN_PLANE),
-    (FULL_RATIO_TITLE, replace(WARP_ALONE, hidden=True, details=True), IN_PLANE),
-    ("+ refined ratio image", replace(WARP_ALONE, hidden=True, details=True), IN_PLANE),
-    ("+ layers", replace(WARP_ALONE, hidden=True, details=True, layers=True), IN_PLANE),
+    (FULL_RATIO_TITLE, replace(WARP_ALONE, hidden=True, details=True, own_folds=True), IN_PLANE),
+    ("+ refined ratio image", replace(WARP_ALONE, hidden=True, details=True, own_folds=True), IN_PLANE),
+    ("+ layers", replace(WARP_ALONE, hidden=True, details=True, own_folds=True, layers=True), IN_PLANE),
     ("+ eyes", Parts(), IN_PLANE),
     ("+ 3D head", Parts(), IN_SPACE),
     (ALL_TITLE, Parts(), IN_SPACE),

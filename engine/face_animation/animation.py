@@ -52,11 +52,13 @@ MIN_FOLD_DISTANCE_PIXELS = 8.0
 
 @dataclass(frozen=True)
 class Parts:
-    """Which parts of the method are on; switched off for comparisons alone (see `benchmarks`)."""
+    """Which parts of the method are on. `details` are the driver's creases, `own_folds` says that the picture's go as its face does not
+    make them. Others are switched off for comparisons alone (see `benchmarks`)."""
 
     layers: bool = True
     hidden: bool = True
     details: bool = True
+    own_folds: bool = True
     eyes: bool = True
 
 
@@ -128,7 +130,7 @@ class FaceAnimation:
         moves = set(options.follow) - {"head"}
         self._creases = min(options.strength, 1.0) if parts.details and moves else 0.0
         self._eased: list[OwnFolds | CornerSeams] = []
-        if parts.details and "mouth" in options.follow:
+        if parts.own_folds and "mouth" in options.follow:
             folds = OwnFolds(face.rgb, face.mesh)
             self._eased = [folds, CornerSeams(face.rgb, face.mesh, folds)]
 
