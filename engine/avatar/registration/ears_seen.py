@@ -11,7 +11,7 @@ from engine.avatar.registration.template_skin.skin import Skin
 from engine.avatar.registration.template_skin.smooth_field import smooth_field
 from engine.geometry.rigging.joint_names import SIDE_NAMES
 
-EAR_LANDMARK_SIGMA_METRES = 0.006
+EAR_LANDMARK_SIGMA_METRES = 0.008
 """Metres by which the landmark of an ear is off along the way that the face looks, usually: -1, 0, 3 and 8 mm of four ears in films of
 360x640. It lies 15 mm above the ear's middle, and 20 mm within the head."""
 EAR_SURROUNDINGS_METRES = 0.04
