@@ -22,7 +22,7 @@ from engine.face_animation.mouth.modelled.mouth_parts import (
     tongue,
 )
 from engine.face_animation.mouth.modelled.resting_mouth import RestingMouth
-from engine.face_animation.mouth.modelled.skull import skull_camera
+from engine.face_animation.mouth.modelled.skull import from_before, skull_camera
 from engine.face_animation.smoothstep import smoothstep
 from engine.geometry.mesh.adjacency import edge_table
 from engine.geometry.mesh.surface import vertex_normals
@@ -139,7 +139,7 @@ class ModelledMouth:
         scale = float(np.linalg.norm(matrix[0]))
         camera = np.vstack([matrix, np.cross(matrix[0], matrix[1]) / scale])
         depths = self._at.front[:, 2]
-        front = (np.asarray(face, np.float64) - shift - depths[:, None] * matrix[:, 2]) @ np.linalg.inv(matrix[:, :2]).T
+        front = from_before(self._at.front, face, matrix, shift)
         jaw = jaw_behind_lips(self._at, front)
         lips = np.column_stack([front, depths])[list(LIPS_INNER)]
         tongue_jaw = jaw._replace(angle=TONGUE_JAW_SHARE * jaw.angle)

@@ -16,3 +16,11 @@ def skull_camera(
     `places` (478, 2). They are those of the skull: of vertices that expressions hardly move."""
     chosen = list(RIGID_VERTICES)
     return scaled_orthographic(front[chosen], places[chosen, :2])
+
+
+def from_before(
+    front: NDArray[np.floating], face: NDArray[np.floating], matrix: NDArray[np.floating], shift: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """(478, 2) where the points of a `face` (478, 2 or 3) are from before, in eye distances, by its `skull_camera`; as deep as those of `front` (478, 3)."""
+    away = np.asarray(face, np.float64)[:, :2] - shift - front[:, 2:] * matrix[:, 2]
+    return np.asarray(away @ np.linalg.inv(matrix[:, :2]).T)

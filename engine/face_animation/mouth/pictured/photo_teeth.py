@@ -15,6 +15,7 @@ from engine.face_animation.mouth.lip_contours import box_around, inner_lip_outli
 from engine.face_animation.mouth.modelled.modelled_mouth import (
     LIP_SOFTNESS_EYE_DISTANCES,
     MIN_LIP_SOFTNESS_PIXELS,
+    covered_crown,
     shown_share,
 )
 from engine.face_animation.mouth.modelled.mouth_colours import mouth_albedo
@@ -24,7 +25,7 @@ from engine.face_animation.mouth.modelled.resting_mouth import (
     UPPER_LIP_MIDDLE_VERTICES,
     RestingMouth,
 )
-from engine.face_animation.mouth.modelled.skull import skull_camera
+from engine.face_animation.mouth.modelled.skull import from_before, skull_camera
 from engine.face_animation.mouth.mouth_interior import MouthInterior
 from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
 from engine.face_animation.mouth.pictured.teeth_strip import ARCH_CURVATURE_PER_EYE_DISTANCE, TeethStrip, teeth_strip
@@ -112,14 +113,15 @@ class PhotoTeeth:
         self, face: NDArray[np.floating], corner: NDArray[np.floating], shape: tuple[int, int]
     ) -> NDArray[np.float64]:
         """(h, w, 2) where on the arch of the teeth each pixel is, as the target's skull has it from the front, in eye distances from
-        the middle of where the upper teeth end."""
+        the middle of where the upper teeth end. Lips that are rounded are before them: they end higher by what those cover."""
         matrix, shift = skull_camera(self.at.front, face)
+        covered = covered_crown(self.at, from_before(self.at.front, face, matrix, shift))
         back = np.linalg.inv(matrix[:, :2]).T
         rows, columns = np.ogrid[: shape[0], : shape[1]]
         across, down = columns + (corner[0] - shift[0]), rows + (corner[1] - shift[1])
         further = matrix[:, 2] @ back  # by how much a place is moved for each eye distance that it is further back
         x0 = across * back[0, 0] + down * back[1, 0] - self.at.depth * further[0] - self.at.middle
-        y0 = across * back[0, 1] + down * back[1, 1] - self.at.depth * further[1] - self.at.edge
+        y0 = across * back[0, 1] + down * back[1, 1] - self.at.depth * further[1] - self.at.edge + covered
         x = x0
         for _ in range(ARCH_ROUNDS - 1):  # the arch goes back to both sides
             x = x0 - ARCH_CURVATURE_PER_EYE_DISTANCE * further[0] * x**2

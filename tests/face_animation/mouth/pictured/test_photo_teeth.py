@@ -74,6 +74,18 @@ def test_upper_teeth_stay_in_the_skull_where_the_mouth_opens(mouth: PhotoTeeth) 
     np.testing.assert_allclose(before, after, atol=0.002)
 
 
+def test_rounded_lips_cover_what_they_are_pushed_before(mouth: PhotoTeeth) -> None:
+    """A mouth that is 0.3 narrower than at rest covers 0.6 of what that is beyond a twentieth."""
+    corner, shape = np.array([130.0, 170.0]), (60, 60)
+    said = face(0.2)
+    before = mouth.places(said, corner, shape)
+    lips = sorted({*LIPS_INNER, *LIPS_OUTER})
+    said[lips, 0] = said[lips, 0].mean() + 0.7 * (said[lips, 0] - said[lips, 0].mean())
+    after = mouth.places(said, corner, shape)
+    np.testing.assert_allclose(after[..., 0], before[..., 0], atol=0.002)
+    np.testing.assert_allclose(after[..., 1] - before[..., 1], 0.6 * (0.3 - 0.05), atol=0.006)
+
+
 @pytest.mark.parametrize(("degrees", "scale"), [(0, 1.0), (20, 1.0), (-15, 1.3)])
 def test_teeth_go_where_the_head_goes(mouth: PhotoTeeth, degrees: float, scale: float) -> None:
     angle = np.radians(degrees)
