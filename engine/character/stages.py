@@ -24,10 +24,10 @@ from engine.character.fit.head import turn_head
 from engine.character.fit.repeated_detection import detect_again
 from engine.character.fit.template_fit import FittedBody, fit_best, load_human, pose_template
 from engine.character.hybrid.behind_limbs import mirrored_behind
+from engine.character.hybrid.cut_off import cut_off
 from engine.character.hybrid.headed import HeadedRelief, make_headed_relief
 from engine.character.hybrid.hybrid import Hybrid, limbs_alone
 from engine.character.hybrid.joined_characters import joined
-from engine.character.hybrid.limbs import cut_off
 from engine.character.hybrid.seam import with_the_trunks_colours
 from engine.character.hybrid.under_cloth import bare_under_cloth
 from engine.character.options import LabelStroke

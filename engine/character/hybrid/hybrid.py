@@ -16,6 +16,7 @@ from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
 from engine.character.hair.volume import hair_volume
+from engine.character.hybrid.cut_off import cut_off
 from engine.character.hybrid.head import (
     hair_beside_the_head,
     head_is_known,
@@ -24,7 +25,7 @@ from engine.character.hybrid.head import (
     with_head,
     without_head,
 )
-from engine.character.hybrid.limbs import Limbs, cut_off, joined_in_depth, limbs_of
+from engine.character.hybrid.limbs import Limbs, joined_in_depth, limbs_of
 from engine.character.hybrid.neck_cloth import with_neck_cloth
 from engine.character.hybrid.outline_warp import drawn_to_the_outline
 from engine.character.hybrid.trunk import soft_beside_limbs, trunk_labels, trunk_layer

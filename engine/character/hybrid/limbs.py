@@ -7,7 +7,6 @@ what comes out of the trunk where a joint bends has been in it.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import cv2
 import numpy as np
@@ -28,6 +27,7 @@ from engine.character.surface.part_surface import Surface
 from engine.character.surface.rim import open_edges
 from engine.geometry.mesh.adjacency import neighbours
 from engine.geometry.mesh.surface import area_vectors
+from engine.imaging.filling.nearest import nearest_in
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
 from engine.imaging.masks.mask_pieces import rows_apart
 from engine.render.rasterisation.attributes import interpolate
@@ -53,6 +53,10 @@ FULL_DEPTH_NEARNESS, DEPTH_SMOOTHING_PIXELS = 0.4, 4.0
 """How near to a joint, from 0 to 1 there, the trunk is as deep as the shell, and pixels over which that is smoothed."""
 WEIGHT_SMOOTHING_ROUNDS = 4
 """Times that what moves a limb's vertices into the trunk is spread to their neighbours."""
+
+
+LIMB_KINDS = (ARM_LABELS, LEG_LABELS)
+"""Limbs that leave the trunk in one place: a hand that hangs before a hip cuts no leg from it."""
 
 
 @dataclass(frozen=True)
@@ -160,16 +164,35 @@ def _beneath_at_the_cut(
 ) -> Layer:
     """The trunk with front and back bent beneath the shell's where it is cut from a limb. Both show the same picture
     there, so where they cross nothing is to be seen; a border of the trunk that stood off would be a step."""
-    joint = mesh.triangles[((limbs.near > 0) & (limbs.limb >= 0))[mesh.triangles].all(1)]
+    seen = [
+        (labels.labels == limb, _limb_layer(mesh, vertices, limbs, limb, labels.labels.shape)) for limb in LIMB_LABELS
+    ]
+    for kind in LIMB_KINDS:
+        trunk = _beneath_one_kind(mesh, vertices, limbs, trunk, kind, seen, distance_to(np.isin(labels.labels, kind)))
+    return trunk
+
+
+def _beneath_one_kind(
+    mesh: TemplateMesh,
+    vertices: NDArray[np.float64],
+    limbs: Limbs,
+    trunk: Layer,
+    kind: tuple[int, ...],
+    seen: list[tuple[NDArray[np.bool_], Layer]],
+    from_cut: NDArray[np.float32],
+) -> Layer:
+    """The trunk bent beneath the limbs of a `kind`, so many pixels `from_cut` (h, w) where it is cut from them; `seen`: of all limbs
+    where each is (h, w), and its layer. It moves as the template's trunk does there, not as what lies beside it."""
+    joint = mesh.triangles[((limbs.near > 0) & np.isin(limbs.limb, kind))[mesh.triangles].all(1)]
     facing = -area_vectors(vertices, joint)[:, 2]  # y is down, so that the triangles turn the other way
-    from_cut = distance_to(np.isin(labels.labels, LIMB_LABELS))
     over = CUT_CURVATURE * from_cut**2 - INSET_PIXELS
-    seen = [(labels.labels == limb, _limb_layer(mesh, vertices, limbs, limb, from_cut.shape)) for limb in LIMB_LABELS]
     alike = np.clip(1 - from_cut / MOVED_ALIKE_PIXELS, 0, 1)
+    of_trunk = limbs.overlap[joint].any(1) if kind == ARM_LABELS else np.ones(len(joint), np.bool_)
     sides = []
     for side, towards in ((trunk.front, 1.0), (trunk.back, -1.0)):
-        shape = side.depth.shape
-        raster = rasterise(vertices * [1, 1, -towards], joint[towards * facing > 0], (shape[0], shape[1]))
+        shape = (side.depth.shape[0], side.depth.shape[1])
+        outer = towards * facing > 0
+        raster = rasterise(vertices * [1, 1, -towards], joint[outer], shape)
         there = (raster.triangle >= 0) & trunk.mask
         near = np.where(there, -raster.depth, 0)
         apart = towards * side.depth - near - MERGED_DEPTH_PIXELS
@@ -178,8 +201,11 @@ def _beneath_at_the_cut(
             for own, limb in seen:
                 limit = np.where(own & limb.mask & trunk.mask, np.fmin(limit, limb.front.depth - INSET_PIXELS), limit)
         depth = towards * np.minimum(towards * side.depth, limit)
+        carried = joint[outer & of_trunk]
+        raster = rasterise(vertices * [1, 1, -towards], carried, shape)
+        there = (raster.triangle >= 0) & trunk.mask
         share = cv2.GaussianBlur(np.where(there, alike, 0).astype(np.float32), (0, 0), DEPTH_SMOOTHING_PIXELS) * there
-        moves = interpolate(dense_weights(mesh, side.weights.shape[-1]), joint[towards * facing > 0], raster)
+        moves = interpolate(dense_weights(mesh, side.weights.shape[-1]), carried, raster)
         weights = side.weights + share[..., None] * (moves - side.weights)
         sides.append(Surface(depth.astype(np.float32), np.where(there[..., None], weights, side.weights)))
     return replace(trunk, front=sides[0], back=sides[1])
@@ -209,20 +235,27 @@ def _limb_layer(
 def _within(
     mesh: TemplateMesh, vertices: NDArray[np.float64], limbs: Limbs, trunk: Layer, labels: Labels
 ) -> NDArray[np.float64]:
-    """Vertices (V, 3) moved beneath the trunk's surface: from before where it is what is seen, and what overlaps from behind, too;
-    it bends, and is not torn."""
+    """Vertices (V, 3) moved beneath the trunk's surface: from before where it is what is seen, and what overlaps from behind, and from
+    beside its outline, too; it bends, and is not torn."""
     shape = trunk.mask.shape
     half = np.where(trunk.mask, (trunk.front.depth - trunk.back.depth) / 2, 0)
     middle = np.where(trunk.mask, (trunk.front.depth + trunk.back.depth) / 2, 0)
     beneath = np.minimum(INSET_PIXELS, half * (1 - MIN_LIMB_DEPTH_SHARE))
     inner = cv2.erode(trunk.mask.astype(np.uint8), np.ones((3, 3), np.uint8), borderValue=0) > 0
-    limb = limbs.limb >= 0
-    x, y = np.clip(np.rint(vertices[:, :2]), 0, [shape[1] - 1, shape[0] - 1]).astype(int).T
+    limb, moved = limbs.limb >= 0, vertices.copy()
+    x, y = _pixels(vertices, shape)
+    near, cut = np.zeros_like(limb), np.zeros_like(limb)
+    for kind in LIMB_KINDS:
+        own, seen = np.isin(limbs.limb, kind), np.isin(labels.labels, kind)
+        near |= own & dilate_mask(seen, LIMB_EDGE_TOLERANCE_PIXELS)[y, x]
+        cut |= own & (distance_to(seen) < np.sqrt(INSET_PIXELS / CUT_CURVATURE))[y, x]
+    if inner.any():
+        out = limbs.overlap & ~inner[y, x] & ~cut
+        rows, columns = nearest_in(inner)
+        moved[out, :2] = np.stack([columns[y, x], rows[y, x]], 1)[out]
+        x, y = _pixels(moved, shape)
     covered = inner[y, x] & limb
-    hidden = (
-        covered & ~dilate_mask(np.isin(labels.labels, LIMB_LABELS), LIMB_EDGE_TOLERANCE_PIXELS)[y, x] & ~limbs.overlap
-    )
-    cut = (distance_to(np.isin(labels.labels, LIMB_LABELS)) < np.sqrt(INSET_PIXELS / CUT_CURVATURE))[y, x]
+    hidden = covered & ~limbs.overlap & ~near
     front = (middle + half - beneath)[y, x]
     back = (middle - half + beneath)[y, x]
     z = vertices[:, 2]
@@ -241,9 +274,14 @@ def _within(
     for _ in range(WEIGHT_SMOOTHING_ROUNDS):
         spread = (beside @ spread) / degree
         spread = np.where(np.abs(change) > np.abs(spread), change, spread)
-    moved = vertices.copy()
     moved[limb, 2] += spread[limb]
     return moved
+
+
+def _pixels(vertices: NDArray[np.float64], shape: tuple[int, ...]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The columns and rows (V,) each of the pixels of a grid in which vertices (V, 3) are, or are nearest to."""
+    x, y = np.clip(np.rint(vertices[:, :2]), 0, [shape[1] - 1, shape[0] - 1]).astype(np.intp).T
+    return x, y
 
 
 def _ends_drawn_in(mesh: TemplateMesh, vertices: NDArray[np.float64], limbs: Limbs) -> NDArray[np.float64]:
@@ -268,60 +306,3 @@ def _at(values: NDArray[np.floating], places: NDArray[np.float64]) -> NDArray[np
     """Values (h, w) at places (N, 3) of the grid, 0 beside it."""
     x, y = (np.ascontiguousarray(places[:, k], np.float32)[:, None] for k in (0, 1))
     return np.asarray(cv2.remap(values.astype(np.float32), x, y, cv2.INTER_LINEAR)[:, 0], np.float64)
-
-
-def cut_off(mesh: TemplateMesh, limbs: Limbs) -> TemplateMesh:
-    """The mesh of the limbs alone, closed within the trunk. Its vertices are all that there were."""
-    kept = mesh.triangles[(limbs.limb >= 0)[mesh.triangles].all(1)]
-    charted = mesh.uv_triangles[(limbs.limb >= 0)[mesh.triangles].all(1)]
-    kept, charted = _closed(*_without_pinches(kept, charted))
-    used, again = np.unique(charted, return_inverse=True)
-    return replace(
-        mesh,
-        triangles=kept,
-        corners=mesh.corners[used],
-        uv=mesh.uv[used],
-        uv_triangles=again.reshape(charted.shape).astype(np.int32),
-    )
-
-
-def _without_pinches(
-    triangles: NDArray[np.int32], charted: NDArray[np.int32]
-) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Triangles (T, 3), and the same of the chart, without those around vertices that open border passes twice."""
-    while True:
-        passes = np.bincount(open_edges(triangles.astype(np.intp), int(triangles.max()) + 1).ravel())
-        kept = ~(passes > 2)[np.minimum(triangles, len(passes) - 1)].any(1)
-        if kept.all():
-            return triangles, charted
-        triangles, charted = triangles[kept], charted[kept]
-
-
-def _closed(triangles: NDArray[np.int32], charted: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Triangles (T, 3), and the same of the chart, with every loop of open border filled by a fan: it is within the trunk."""
-    ends = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]).astype(np.int64)
-    corners = np.concatenate([charted[:, [0, 1]], charted[:, [1, 2]], charted[:, [2, 0]]])
-    count = int(triangles.max()) + 1
-    back = np.isin(ends[:, 1] * count + ends[:, 0], ends[:, 0] * count + ends[:, 1])
-    following = {int(b): int(a) for a, b in ends[~back]}  # the other way round: the fan's triangles look outwards
-    corner = {int(a): int(c) for (a, _), (c, _) in zip(ends[~back], corners[~back], strict=True)}
-    there = set((np.sort(ends, 1) @ [count, 1]).tolist())
-    fans: list[tuple[int, int, int]] = []
-    while following:
-        at, loop = next(iter(following)), []
-        while at in following:
-            loop.append(at)
-            at = following.pop(at)
-        turned = (loop[k:] + loop[:k] for k in range(len(loop)))
-        hub = next((one for one in turned if not _meets(one, there, count)), loop)
-        fans += [(hub[0], b, c) for b, c in pairwise(hub[1:])]
-    if not fans:
-        return triangles, charted
-    more = np.array(fans, np.int32)
-    named = np.vectorize(corner.__getitem__)(more).astype(np.int32)
-    return np.concatenate([triangles, more]), np.concatenate([charted, named])
-
-
-def _meets(loop: list[int], edges: set[int], count: int) -> bool:
-    """Whether a fan from the first of a loop's vertices has an edge that the surface has, too."""
-    return any(min(loop[0], k) * count + max(loop[0], k) in edges for k in loop[2:-1])

@@ -14,6 +14,7 @@ from engine.body.parts import BODY_PARTS
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import GRID_HEIGHT_PIXELS, Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
+from engine.character.hybrid.cut_off import cut_off
 from engine.character.hybrid.head import (
     hair_keeps_to_the_head,
     joined_at_the_neck,
@@ -22,7 +23,6 @@ from engine.character.hybrid.head import (
     without_head,
 )
 from engine.character.hybrid.headed import make_headed_relief
-from engine.character.hybrid.limbs import cut_off
 from engine.character.hybrid.suited_surface import arm_raised, legs_pass, suited_surface
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import LEG_LABELS
