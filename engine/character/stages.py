@@ -341,7 +341,8 @@ def make_hybrid_character(
     shown = limbs_alone(hybrid)
     relief = _made_of(figure, alone, fitted, own, trunk, tiles, _left_for_a_relief(triangles, shown))
     filled: BackTexture = "inpaint" if back == "inpaint" else "mirror"
-    unlike = hybrid.strange | bare_under_cloth(own)
+    over_arms = held & np.isin(labels.bare.labels, ARM_LABELS)  # hair on a shoulder does not go with the arm
+    unlike = hybrid.strange | bare_under_cloth(own) | dilate_mask(over_arms, MIXED_BORDER_PIXELS)
     texture = paint_shell(
         figure.rgb, silhouette, labels.bare, hybrid.shell, filled, shown.mesh.triangles, unlike, hybrid.framed
     )

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.hybrid.hips import at_hips, hips_behind, within_the_outline
-from engine.character.hybrid.hybrid import Hybrid
+from engine.character.hybrid.hybrid import SHOULDER_NEARNESS, Hybrid
 from engine.character.hybrid.trunk import LIMB_LABELS
-from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, TRUNK_LABEL
+from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, LEG_LABELS, TRUNK_LABEL
 from engine.character.shell.colours.paint import texels
 from engine.character.texture.texture import Tiles
 from engine.geometry.mesh.surface import vertex_normals
@@ -59,7 +59,11 @@ def with_the_trunks_colours(
     mesh, to_grid = shell.mesh, silhouette.to_grid
     share = np.clip((mesh.parts[:, TRUNK_LABEL] - TRUNK_WEIGHT_THRESHOLD) / (1 - TRUNK_WEIGHT_THRESHOLD), 0, 1)
     facing = -vertex_normals(shell.pictured, mesh.triangles)[:, 2]
-    joint = (hybrid.limbs.near > 0).astype(np.float64)
+    joint = np.where(
+        np.isin(hybrid.limbs.limb, ARM_LABELS),
+        np.clip(hybrid.limbs.near / SHOULDER_NEARNESS, 0, 1),
+        hybrid.limbs.near > 0,
+    )
     values = np.column_stack([shell.pictured, facing, share, joint, at_hips(hybrid)]).astype(np.float32)
     shown = np.asarray((hybrid.limbs.limb >= 0)[mesh.triangles].all(1), np.bool_)
     y, x = np.nonzero((raster.triangle >= 0) & shown[raster.triangle])
@@ -112,6 +116,8 @@ def _shown(limb: int, hybrid: Hybrid, rgb: NDArray[np.uint8], silhouette: Silhou
         if other != limb:
             over = limb in LEG_LABELS and other in ARM_LABELS
             sure &= ~dilate_mask(labels == other, SURE_ARM_OVER_LEG_MARGIN_PIXELS if over else LIMB_MARGIN_PIXELS)
+    if limb in ARM_LABELS:  # it leaves, and takes none of the body's colours with it
+        sure &= ~dilate_mask(np.isin(labels, (TRUNK_LABEL, HEAD_LABEL)), LIMB_MARGIN_PIXELS)
     away = distance_to(sure)
     certain = np.clip((CONTINUED_PIXELS - away) / (CONTINUED_PIXELS - FULLY_CONTINUED_PIXELS), 0, 1)
     size = (rgb.shape[1], rgb.shape[0])

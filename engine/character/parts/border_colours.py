@@ -14,10 +14,12 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.imaging.masks.mask_distance import distance_inside, distance_to
 
-OWN, LIKE_THE_OTHER, LIKE_NEITHER = 0, 1, 2
-"""What is said of a pixel's colour."""
+OWN, LIKE_THE_OTHER, LIKE_NEITHER, UNLIKE_BOTH = 0, 1, 2, 3
+"""What is said of a pixel's colour. What is unlike both and no mixture may be a print, or light on an edge."""
 BAND_PIXELS, BAND_THICKNESS_SHARE = 8.0, 0.45
 """How far from another part a pixel is looked at: pixels of the grid, and as a share of half of the part's own thickness there, whichever is less."""
+LIMB_CORE_SHARE = 0.5
+"""Share of the way from its border to its middle from which on a part is surely itself."""
 THICKNESS_WINDOW_PIXELS = 21
 """Pixels of the window in which a part's thickness is taken."""
 COLOUR_SEARCH_RADIUS_PIXELS, COLOUR_SEARCH_STEP_PIXELS = 16, 2
@@ -47,10 +49,17 @@ def pixels_beside(own: NDArray[np.bool_], others: NDArray[np.bool_]) -> NDArray[
     return np.asarray(own & (distance_to(others) <= np.minimum(BAND_PIXELS, BAND_THICKNESS_SHARE * half)))
 
 
+def core_of(own: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The pixels (h, w) of a part, its `own` (h, w), that are its whatever border is drawn amiss: half of its thickness, in the middle."""
+    window = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (THICKNESS_WINDOW_PIXELS, THICKNESS_WINDOW_PIXELS))
+    depth = distance_inside(own)
+    return np.asarray(own & (depth > LIMB_CORE_SHARE * cv2.dilate(depth, window)))
+
+
 @njit(parallel=True, boundscheck=False, error_model="numpy")
 def judged_colours(lab: np.ndarray, asked: np.ndarray, inside: np.ndarray, beyond: np.ndarray) -> np.ndarray:
     """What the colours `lab` (h, w, 3) of the pixels `asked` (h, w) for are: `OWN`, as what is `inside` (h, w) their part;
-    `LIKE_THE_OTHER`, as what is `beyond` (h, w); `LIKE_NEITHER`, a mixture of both, or darker than all. (h, w) uint8."""
+    `LIKE_THE_OTHER`, as what is `beyond` (h, w); `LIKE_NEITHER`, a mixture of both, or darker than all; `UNLIKE_BOTH`. (h, w) uint8."""
     height, width = asked.shape
     found = np.zeros((height, width), np.uint8)
     for y in prange(height):
@@ -101,4 +110,6 @@ def judged_colours(lab: np.ndarray, asked: np.ndarray, inside: np.ndarray, beyon
                 found[y, x] = LIKE_THE_OTHER
             elif own_darker <= MIN_ALIKE_SHARE * own or (off < MAX_COLOUR_DISTANCE**2 and share > MIN_MIXED_SHARE):
                 found[y, x] = LIKE_NEITHER
+            else:
+                found[y, x] = UNLIKE_BOTH
     return found

@@ -9,8 +9,20 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.parts.border_colours import OWN, judged_colours, pixels_beside, smoothed_lab
+from engine.character.parts.border_colours import (
+    LIKE_NEITHER,
+    LIKE_THE_OTHER,
+    OWN,
+    core_of,
+    judged_colours,
+    pixels_beside,
+    smoothed_lab,
+)
 from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, TRUNK_LABEL
+from engine.imaging.masks.mask_distance import distance_inside
+
+WALL_MIXED_PIXELS = 2.0
+"""Pixels within the outline in which colours are mixed with the wall's, and are like nobody's."""
 
 
 def strange_colours(rgb: NDArray[np.uint8], labels: NDArray[np.integer]) -> NDArray[np.bool_]:
@@ -20,7 +32,7 @@ def strange_colours(rgb: NDArray[np.uint8], labels: NDArray[np.integer]) -> NDAr
     of these. Where a part has no inside nearby nothing is said; nor of heads, nor where legs come out of the trunk: a
     hem and a belt are seen always."""
     lab = smoothed_lab(rgb)
-    found = np.zeros(labels.shape, np.bool_)
+    found, within = np.zeros(labels.shape, np.bool_), distance_inside(labels >= 0) > WALL_MIXED_PIXELS
     for part in (TRUNK_LABEL, *ARM_LABELS, *LEG_LABELS):
         own = labels == part
         others = (labels >= 0) & ~own
@@ -29,6 +41,9 @@ def strange_colours(rgb: NDArray[np.uint8], labels: NDArray[np.integer]) -> NDAr
         if part == TRUNK_LABEL:
             others = np.isin(labels, ARM_LABELS)
         beside = pixels_beside(own, others)
-        if beside.any():
-            found |= judged_colours(lab, beside, own & ~beside, ~own) != OWN
+        if part in ARM_LABELS:
+            beside &= within
+            found |= judged_colours(lab, beside, core_of(own), ~own) != OWN
+        elif beside.any():
+            found |= np.isin(judged_colours(lab, beside, own & ~beside, ~own), (LIKE_THE_OTHER, LIKE_NEITHER))
     return found

@@ -24,6 +24,15 @@ def test_a_shadow_beside_an_arm_is_strange_and_a_print_is_not() -> None:
     assert not found[labels < 0].any() and not found[:, 20:60].any()
 
 
+def test_of_an_arm_that_leaves_nothing_is_its_own_that_its_middle_has_not() -> None:
+    """Light on the edge of a sleeve is neither like the sleeve nor like the trunk; a cuff is in the middle, too."""
+    rgb, labels = beside_an_arm(SKIN)
+    rgb[20:50, 80:84] = WHITE
+    rgb[70:90, 80:106] = WHITE
+    found = strange_colours(rgb, labels)
+    assert found[22:48, 80:82].mean() > 0.9 and not found[72:88, 82:106].any() and not found[:, 90:].any()
+
+
 def test_a_wall_between_two_legs_is_neithers() -> None:
     rgb, labels = np.full((120, 130, 3), WALL, np.uint8), np.full((120, 130), -1, np.int8)
     rgb[10:110, 20:60], rgb[10:110, 66:106] = BLUE, BLUE
