@@ -35,7 +35,7 @@ def draw_eye(
 
     Parameters
     ----------
-    mesh : (478, 2) the face in this frame. side : 0 right, 1 left. look : (2,) of the iris from where it rests, as `gaze.iris_shift` has it.
+    mesh : (478, 2) the face in this frame. side : 0 right, 1 left. look : (2,) of the iris from where it rests, as `gaze.iris_shifts` has it.
     """
     contour, _, outer, inner = EYE_OUTLINE_IRIS_CORNERS[side]
     opening = mesh[list(contour), :2].astype(np.float32)

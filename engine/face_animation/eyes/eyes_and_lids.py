@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.eyes.eyeball import prepare_eyes
 from engine.face_animation.eyes.eyes import draw_eye, lid_closing_share, shut_share
-from engine.face_animation.eyes.gaze import iris_shift
+from engine.face_animation.eyes.gaze import iris_shifts
 from engine.face_animation.eyes.lash_line import draw_lashes
 from engine.face_animation.eyes.lid import draw_lid
 from engine.face_animation.eyes.socket_frame import socket_frame
@@ -24,9 +24,9 @@ class EyesAndLids:
 
     def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], look: NDArray[np.float32]) -> None:
         """Draw them in place where a `face` (478, 2) of the frame (H, W, 3) has them, pixels; `look` (2, 2) as `gaze.gaze`."""
-        for side, eyeball in enumerate(self._eyeballs):
-            if eyeball is not None:
-                draw_eye(frame, eyeball, face, side, iris_shift(eyeball, look[side]))
+        for side, (eyeball, shift) in enumerate(zip(self._eyeballs, iris_shifts(self._eyeballs, look), strict=True)):
+            if eyeball is not None and shift is not None:
+                draw_eye(frame, eyeball, face, side, shift)
                 closing, shut = (share(eyeball, face, side) for share in (lid_closing_share, shut_share))
                 socket = socket_frame(face, side)
                 draw_lid(frame, self._sockets[side], socket, closing, shut)

@@ -1,9 +1,9 @@
-"""Where eyes look: how far each iris of a driver goes toward the corner of its eye, and how far that is in the target's.
+"""Where eyes look: how far the irises of a driver go, and how far those of the target do.
 
-Both eyes of a person turn together. In pictures their irises rest at different places of their openings, as heads are turned, eyes
-stand apart, or a hand drew them. The same way in eye widths then leads one iris to its corner and leaves the other in the
-middle: they look apart. So a look is told as a share of the way from where an iris rests to the corner. Both eyes go the same share, and
-come to their corners together.
+Both eyes of a person turn together, and people's irises are alike large, in whichever eye and however the face is turned. So a look is one
+way for both, told in radii of the iris: small irises do not make it longer. In pictures irises rest at different places of their openings, as
+heads are turned, eyes stand apart, or a hand drew them. The same way would then lead one to its corner and leave the other in the middle. So the
+target's both go the same share of their ways to the corners, which is as far in their mean as the driver's look is, and come there together.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from engine.face_animation.eyes.eyeball import EYE_OUTLINE_IRIS_CORNERS, Eyeball
 
-MIN_CORNER_DISTANCE_IRIS_RADII = 0.85
-"""Radii of the iris that are between its middle and a corner of the eye, at least."""
+MIN_CORNER_DISTANCE_IRIS_RADII = 1.1
+"""Radii of the iris that are between its middle and a corner of the eye, at least: two people who glance aside as far as they can have 1.05 to 1.2."""
 MIN_WAY_EYE_WIDTHS = 0.05
 """Eye widths from where an iris rests to where it may go, at least: irises that are large, or aside, still move."""
-MIN_VERGENCE_SHARE = 0.3
-"""Share of its way by which each iris has to go against the other's before eyes are taken to converge: a tracker errs by less."""
+MIN_VERGENCE_IRIS_RADII = 0.45
+"""Radii of the iris by which each has to go against the other before eyes are taken to converge: a tracker errs by less."""
 INWARD_SIGNS = np.array([1.0, -1.0])[:, None]
 """Of both eyes, right eye first: from the outer corner to the inner one, along the picture's right or against it."""
 
@@ -35,26 +35,23 @@ def gaze(
 
     Returns
     -------
-    (N, 2, 2), right eye first. Along the eye from its outer to its inner corner, the share of the way from where the iris rests to where it
-    comes to a corner, in [-1, 1]; across it, eye widths.
+    (N, 2, 2), right eye first: along the eye from its outer to its inner corner, and across it, radii of the iris from where it rests.
     """
-    rest = iris_positions(neutral[None])[0]
+    moved = iris_positions(meshes) - iris_positions(neutral[None])
     radii = iris_radii(neutral[None])[0]
-    moved = iris_positions(meshes) - rest
-    ways = np.array([ways_to_corners(*eye) for eye in zip(rest[:, 0], radii, strict=True)])
-    shares = np.where(moved[..., 0] < 0, moved[..., 0] / ways[:, 0], moved[..., 0] / ways[:, 1])
-    return conjugate(np.stack([np.clip(shares, -1, 1), moved[..., 1]], axis=-1), openness)
+    widths = np.array([np.linalg.norm(neutral[b, :2] - neutral[a, :2]) for *_, a, b in EYE_OUTLINE_IRIS_CORNERS])
+    return conjugate(moved * (widths / (radii * widths).mean())[:, None], openness)
 
 
 def conjugate(looks: NDArray[np.floating], openness: NDArray[np.floating]) -> NDArray[np.float64]:
     """Looks (N, 2, 2) of two eyes that move together, as `gaze` has them. Both go the mean of what each was seen to do, weighted by
-    their `openness` (N, 2). Only what they differ by along the eyes beyond `MIN_VERGENCE_SHARE` remains: whoever crosses their
+    their `openness` (N, 2). Only what they differ by along the eyes beyond `MIN_VERGENCE_IRIS_RADII` remains: whoever crosses their
     eyes means it."""
     across_picture = looks * INWARD_SIGNS
     weights = (openness + 1e-6)[..., None]
     together = (weights * across_picture).sum(axis=1, keepdims=True) / weights.sum(axis=1, keepdims=True)
     apart = across_picture - together
-    meant = np.sign(apart) * np.maximum(np.abs(apart) - MIN_VERGENCE_SHARE, 0) * (1.0, 0.0)
+    meant = np.sign(apart) * np.maximum(np.abs(apart) - MIN_VERGENCE_IRIS_RADII, 0) * (1.0, 0.0)
     shown = openness.max(axis=1)[:, None, None]
     return np.asarray(shown * (together + openness.min(axis=1)[:, None, None] * meant) * INWARD_SIGNS, float)
 
@@ -74,18 +71,28 @@ def iris_radii(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
     return np.stack(radii, axis=1)
 
 
-def ways_to_corners(rest: float, radius: float) -> tuple[float, float]:
-    """How far an iris of a `radius` that rests at `rest`, both in eye widths as in `iris_positions`, may go toward the outer and
-    toward the inner corner, eye widths."""
-    most = 0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * radius
-    return max(most + rest, MIN_WAY_EYE_WIDTHS), max(most - rest, MIN_WAY_EYE_WIDTHS)
+def iris_shifts(
+    eyes: tuple[Eyeball | None, Eyeball | None], looks: NDArray[np.floating]
+) -> list[NDArray[np.float64] | None]:
+    """How far the irises of both `eyes`, right one first, go for `looks` (2, 2) as `gaze` has them: (2,) each, in eye widths along
+    and across the eye."""
+    shifts: list[NDArray[np.float64] | None] = [None, None]
+    seen = [(side, eye) for side, eye in enumerate(eyes) if eye is not None]
+    if not seen:
+        return shifts
+    radius = float(np.mean([eye.radius * eye.width for _, eye in seen]))
+    ways = [_way(eye, looks[side, 0]) for side, eye in seen]
+    mean_way = float(np.mean([way * eye.width for way, (_, eye) in zip(ways, seen, strict=True)])) / radius
+    for way, (side, eye) in zip(ways, seen, strict=True):
+        share = float(np.clip(looks[side, 0] / mean_way, -1, 1))  # however strongly, no iris leaves its eye
+        shifts[side] = np.array([share * way, looks[side, 1] * radius / eye.width])
+    return shifts
 
 
-def iris_shift(eye: Eyeball, look: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(2,) how far the iris of an eyeball goes for a `look` (2,) as `gaze` has it, in eye widths along and across the eye."""
-    outward, inward = ways_to_corners(float(eye.centre[0]), eye.radius)
-    share = float(np.clip(look[0], -1, 1))  # a strength above 1 leads no iris out of its eye
-    return np.array([share * (outward if share < 0 else inward), look[1]], float)
+def _way(eye: Eyeball, inward: float) -> float:
+    """Eye widths from where the iris of an eye rests to where it may go toward its inner corner, or where `inward` is below 0, its outer one."""
+    rest = np.copysign(1.0, inward) * eye.centre[0]
+    return float(max(0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * eye.radius - rest, MIN_WAY_EYE_WIDTHS))
 
 
 def _position(meshes: NDArray[np.floating], side: tuple) -> NDArray[np.float64]:

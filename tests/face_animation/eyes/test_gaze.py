@@ -1,4 +1,4 @@
-"""Where eyes look: both go the same share of their ways, come to their corners together, and shut ones do not count."""
+"""Where eyes look: both one way, to their corners together and no further, and shut ones do not count."""
 
 from __future__ import annotations
 
@@ -14,17 +14,18 @@ from engine.face_animation.eyes.eyeball import Eyeball, prepare_eyes
 from engine.face_animation.eyes.eyes import draw_eye
 from engine.face_animation.eyes.gaze import (
     MIN_CORNER_DISTANCE_IRIS_RADII,
-    MIN_VERGENCE_SHARE,
+    MIN_VERGENCE_IRIS_RADII,
     conjugate,
     gaze,
     iris_positions,
     iris_radii,
-    iris_shift,
-    ways_to_corners,
+    iris_shifts,
 )
 from engine.perception.face.landmarks import LEFT_IRIS, RIGHT_IRIS
 
 SIZE = (360, 320)
+TO_THE_RIGHT = np.array([[1.0, 0.0], [-1.0, 0.0]])
+"""A look along the picture, of a radius of the iris."""
 OPEN = np.ones((1, 2))
 EYES = ((33, 133, RIGHT_IRIS), (263, 362, LEFT_IRIS))
 """Outer corner, inner corner and iris of both, right eye first."""
@@ -60,11 +61,27 @@ def test_radii_and_places_of_irises_in_eye_widths(mesh: NDArray) -> None:
     np.testing.assert_allclose((after - before)[:, 0] * width, [6, -6], rtol=0.05)  # outer to inner: right, and left
 
 
+def shifted(eyes: tuple[Eyeball, Eyeball], look: NDArray) -> list[NDArray[np.float64]]:
+    """How far both irises go, in eye widths."""
+    return [shift for shift in iris_shifts(eyes, look) if shift is not None]
+
+
 def test_the_target_looks_as_the_driver_does_where_both_are_alike(mesh: NDArray, eyes: tuple[Eyeball, Eyeball]) -> None:
-    look = gaze(irises_moved(mesh, 5, 5)[None], mesh, OPEN)[0]
-    for side, (outer, inner, _) in enumerate(EYES):
-        along = (mesh[inner, :2] - mesh[outer, :2]) * iris_shift(eyes[side], look[side])[0]
+    shifts = shifted(eyes, gaze(irises_moved(mesh, 5, 5)[None], mesh, OPEN)[0])
+    for shift, (outer, inner, _) in zip(shifts, EYES, strict=True):
+        along = (mesh[inner, :2] - mesh[outer, :2]) * shift[0]
         np.testing.assert_allclose(along, [5, 0], atol=0.8)  # irises of the made face rest unevenly
+
+
+def test_small_irises_go_less_far(mesh: NDArray, eyes: tuple[Eyeball, Eyeball]) -> None:
+    """A look is an angle: an iris half as large goes half as far before the same eye's white."""
+    look = gaze(irises_moved(mesh, 4, 4)[None], mesh, OPEN)[0]
+    small = (replace(eyes[0], radius=eyes[0].radius / 2), replace(eyes[1], radius=eyes[1].radius / 2))
+    np.testing.assert_allclose(
+        np.sum([abs(shift) for shift in shifted(small, look)], axis=0),
+        np.sum([abs(shift) for shift in shifted(eyes, look)], axis=0) / 2,
+        rtol=0.02,
+    )
 
 
 def test_gaze_does_not_see_the_head_move(mesh: NDArray) -> None:
@@ -74,52 +91,48 @@ def test_gaze_does_not_see_the_head_move(mesh: NDArray) -> None:
 
 
 def test_irises_that_rest_apart_come_to_their_corners_together(mesh: NDArray, eyes: tuple[Eyeball, Eyeball]) -> None:
-    """Of a face whose irises rest unevenly none looks at its corner while the other looks ahead."""
+    """Of a face whose irises rest unevenly none looks at its corner while the other looks ahead, and both go as far as they are told in their mean."""
     right, left = eyes
     uneven = (replace(right, centre=np.array([-0.1, 0.0])), replace(left, centre=np.array([-0.1, 0.0])))
-    for far in (1.0, -1.0):
-        for eye, sign in zip(uneven, (1, -1), strict=True):
-            at = eye.centre[0] + iris_shift(eye, np.array([sign * far, 0.0]))[0]
-            assert at == pytest.approx(sign * far * (0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * eye.radius))
-    half = [iris_shift(eye, np.array([sign * 0.5, 0.0]))[0] for eye, sign in zip(uneven, (1, -1), strict=True)]
-    assert half[0] > 0 > half[1]
-    assert half[0] / -half[1] == pytest.approx(
-        np.divide(*[ways_to_corners(-0.1, e.radius)[k] for e, k in zip(uneven, (1, 0), strict=True)])
+    for far in (9.0, -9.0):
+        for eye, shift, sign in zip(uneven, shifted(uneven, far * TO_THE_RIGHT), (1, -1), strict=True):
+            corner = np.sign(sign * far) * (0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * eye.radius)
+            assert eye.centre[0] + shift[0] == pytest.approx(corner)
+    little = [shift[0] for shift in shifted(uneven, 0.3 * TO_THE_RIGHT)]
+    ways = [
+        0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * eye.radius - sign * -0.1
+        for eye, sign in zip(uneven, (1, -1), strict=True)
+    ]
+    assert little[0] > 0 > little[1]
+    assert little[0] / -little[1] == pytest.approx(ways[0] / ways[1])
+    radius = np.mean([eye.radius * eye.width for eye in uneven])
+    assert np.mean([abs(way) * eye.width for way, eye in zip(little, uneven, strict=True)]) == pytest.approx(
+        0.3 * radius
     )
 
 
-def test_an_iris_stays_within_its_eye_however_far_it_is_told_to_look(
-    mesh: NDArray, eyes: tuple[Eyeball, Eyeball]
-) -> None:
-    for told in (-3.0, 3.0):
-        shift = iris_shift(eyes[0], np.array([told, 0.0]))[0]
-        assert abs(eyes[0].centre[0] + shift) <= 0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * eyes[0].radius + 1e-9
-    far = gaze(irises_moved(mesh, 60, 60)[None], mesh, OPEN)[0]
-    np.testing.assert_allclose(far[:, 0], [1, -1])
+def test_an_eye_without_an_eyeball_is_left_out(eyes: tuple[Eyeball, Eyeball]) -> None:
+    alone = iris_shifts((eyes[0], None), 0.3 * TO_THE_RIGHT)
+    assert alone[1] is None and alone[0] is not None
+    assert alone[0][0] == pytest.approx(0.3 * eyes[0].radius)
+    assert iris_shifts((None, None), TO_THE_RIGHT) == [None, None]
 
 
-@pytest.mark.parametrize("aside", [-6.0, 0.0, 6.0])
-def test_a_whole_share_is_the_corner_wherever_a_driver_rests(mesh: NDArray, aside: float) -> None:
-    rest = irises_moved(mesh, aside, aside)
-    places, radii = iris_positions(rest[None])[0, :, 0], iris_radii(rest[None])[0]
-    widths = [np.linalg.norm(rest[outer, :2] - rest[inner, :2]) for outer, inner, _ in EYES]
-    for way in (1, -1):  # to the picture's right, and left
-        most = 0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * radii
-        right, left = (most[0] * way - places[0]) * widths[0], -(-most[1] * way - places[1]) * widths[1]
-        half = gaze(irises_moved(rest, right / 2, left / 2)[None], rest, OPEN)[0]
-        np.testing.assert_allclose(half[:, 0], [way / 2, -way / 2], atol=0.02)
-
-
-def test_a_large_iris_that_rests_in_its_corner_still_moves() -> None:
-    assert min(ways_to_corners(0.4, 0.3)) > 0
+def test_a_large_iris_that_rests_in_its_corner_still_moves(eyes: tuple[Eyeball, Eyeball]) -> None:
+    large = (
+        replace(eyes[0], centre=np.array([0.4, 0.0]), radius=0.3),
+        replace(eyes[1], centre=np.array([-0.4, 0.0]), radius=0.3),
+    )
+    right, left = shifted(large, TO_THE_RIGHT)
+    assert right[0] > 0 > left[0]
 
 
 def test_eyes_look_the_same_way_but_where_they_are_crossed() -> None:
     """A tracker that has one iris go further than the other errs; irises that both go far inwards are meant."""
     one_errs = np.array([[[0.4, -0.04], [-0.2, 0.0]]])
     np.testing.assert_allclose(conjugate(one_errs, OPEN), [[[0.3, -0.02], [-0.3, 0.02]]], atol=1e-6)
-    crossed = np.array([[[0.6, 0.0], [0.6, 0.0]]])
-    np.testing.assert_allclose(conjugate(crossed, OPEN), crossed - np.array([MIN_VERGENCE_SHARE, 0.0]), atol=1e-6)
+    crossed = np.array([[[0.9, 0.0], [0.9, 0.0]]])
+    np.testing.assert_allclose(conjugate(crossed, OPEN), crossed - np.array([MIN_VERGENCE_IRIS_RADII, 0.0]), atol=1e-6)
 
 
 def test_nobody_looks_up_with_one_eye_and_down_with_the_other() -> None:
@@ -138,10 +151,10 @@ def test_an_eye_that_shuts_does_not_lead_the_other() -> None:
 def test_the_measured_gaze_is_the_drawn_one(mesh: NDArray, eyes: tuple[Eyeball, Eyeball]) -> None:
     """The iris of a drawn eye stands where the driver's does, measured in the picture: its brown is there."""
     picture = painted(mesh, SIZE)
-    look = gaze(irises_moved(mesh, 5, 5)[None], mesh, OPEN)[0]
+    shifts = shifted(eyes, gaze(irises_moved(mesh, 5, 5)[None], mesh, OPEN)[0])
     for side, (_, _, iris) in enumerate(EYES):
         out = picture.copy()
-        draw_eye(out, eyes[side], mesh, side, iris_shift(eyes[side], look[side]))
+        draw_eye(out, eyes[side], mesh, side, shifts[side])
         box = np.zeros(picture.shape[:2], np.uint8)
         centre = mesh[iris[0], :2]
         cv2.circle(box, tuple(int(v) for v in np.rint(centre)), 22, 1, -1)
