@@ -28,17 +28,16 @@ CLOSED_GAP_SHARE = 0.3
 """Share of its usual gap below which an eye counts as shut."""
 OPEN_GAP_SHARE = 0.6
 """Share of its usual gap above which an eye's gap is carried as it is."""
-BLINK_DIFFERENCE_SHARES = (0.25, 0.5)
-"""Differences between the two eyes' gaps, as shares of their usual ones, up to which both blink alike, and from which
-on one winks. Of eyes that close together a tracker sees one a frame behind the other."""
-BLINK_GAP_SHARES = (0.7, 0.9)
-"""Mean share of their usual gaps below which eyes are closing, and above which each is as open as it is seen to be."""
+LID_DIFFERENCE_SHARES = (0.25, 0.5)
+"""Differences between the two eyes' gaps, as shares of their usual ones, up to which both open and close alike, and from which
+on one winks. Lids are moved together (Hering's law); a tracker sees one of two that close a frame behind the other, and what
+lies before an eye, a reflection or hair, as its lid."""
 SHUT_GAP_SHARES = (0.2, 0.35)
 """How far the narrower eye is open, as a share of its usual gap. Below the first, each eye is as it is seen, so that one can
 shut alone. Above the second, both may be made alike."""
 MAX_GAP_RATIO = 1.5
 """An eye opens at most to this multiple of its gap in the picture."""
-MAX_GAP_IRIS_DIAMETERS = 1.0
+MAX_GAP_IRIS_DIAMETERS = 0.92
 """Diameters of its iris to which an eye opens at most: lids that are raised as far as they go bare some white above the
 iris, and no ring around it."""
 MIN_GAP_LIMIT = 1.08
@@ -60,9 +59,9 @@ def lid_ratio(
     # an eye is judged as a whole by its middle, so that the corners do not flutter
     ratio = gap / np.maximum(rest, 1e-6)
     seen = np.stack([ratio[:, 2:5].mean(axis=1), ratio[:, 9:12].mean(axis=1)], axis=1)
-    blinking = _blinking_alike(seen)
-    ratio = ratio * np.repeat(blinking / np.maximum(seen, 1e-6), 7, axis=1)
-    middle = np.repeat(blinking, 7, axis=1)
+    alike = _alike(seen)
+    ratio = ratio * np.repeat(alike / np.maximum(seen, 1e-6), 7, axis=1)
+    middle = np.repeat(alike, 7, axis=1)
     shut = np.clip((middle - CLOSED_GAP_SHARE) / (OPEN_GAP_SHARE - CLOSED_GAP_SHARE), 0, 1)
     if target is not None:
         ratio = np.minimum(ratio, np.repeat(gap_limits(target), 7))
@@ -80,11 +79,10 @@ def gap_limits(target: NDArray[np.floating]) -> NDArray[np.float64]:
     return np.asarray(np.clip(MAX_GAP_IRIS_DIAMETERS * iris / np.maximum(gaps, 1e-6), MIN_GAP_LIMIT, MAX_GAP_RATIO))
 
 
-def _blinking_alike(gaps: NDArray[np.floating]) -> NDArray[np.floating]:
-    """The gaps (N, 2) of right and left eyes, the same for both where they close together."""
+def _alike(gaps: NDArray[np.floating]) -> NDArray[np.floating]:
+    """The gaps (N, 2) of right and left eyes, the same for both where they open and close together."""
     mean = gaps.mean(axis=1, keepdims=True)
-    difference = np.abs(gaps[:, :1] - gaps[:, 1:])
-    alike = (1 - smoothstep(difference, *BLINK_DIFFERENCE_SHARES)) * (1 - smoothstep(mean, *BLINK_GAP_SHARES))
+    alike = 1 - smoothstep(np.abs(gaps[:, :1] - gaps[:, 1:]), *LID_DIFFERENCE_SHARES)
     alike *= smoothstep(gaps.min(axis=1, keepdims=True), *SHUT_GAP_SHARES)
     return gaps + alike * (mean - gaps)
 
