@@ -36,8 +36,8 @@ def white_tint(
 
 
 def teeth_tint(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], shares: tuple[float, float]) -> NDArray[np.float64]:
-    """As `white_tint`, for what stands in the light. Eyes do not, in the shade of lids. It has no more of the skin's
-    hue than the lightest of the whole picture, such as a collar or a veil.
+    """As `white_tint`, for what stands in the light. Eyes do not, in the shade of lids. It has the skin's hue half-way between theirs and that of the
+    lightest of the whole picture, such as a collar or a veil, where this has less: it may be in another light.
 
     Source: E. Land, J. McCann, Lightness and retinex theory, 1971: the lightest patch is white in the light of its
     scene.
@@ -45,7 +45,8 @@ def teeth_tint(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], shares: tuple
     whites = np.concatenate([eye_whites(rgb, mesh, side) for side in range(2)])
     light = rgb @ LUMINANCE_WEIGHTS
     lightest = rgb[light >= np.percentile(light, LIGHTEST_PATCH_PERCENTILE)].astype(np.float64)
-    return _tint(rgb, mesh, min(hue_share(rgb, mesh, one) for one in (whites, lightest)), shares)
+    eyes, other = (float(np.clip(hue_share(rgb, mesh, one), *shares)) for one in (whites, lightest))
+    return _tint(rgb, mesh, (eyes + min(eyes, other)) / 2, shares)
 
 
 def hue_share(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], colours: NDArray[np.floating]) -> float:

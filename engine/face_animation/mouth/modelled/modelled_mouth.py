@@ -40,8 +40,8 @@ from engine.render.textures.mipmap import build_mipmap
 
 LIP_SOFTNESS_EYE_DISTANCES, MIN_LIP_SOFTNESS_PIXELS = 0.012, 0.8
 """Eye distances, and pixels, over which the inside passes into the lips: their edges are round, and the mesh's have corners."""
-AMBIENT_LIGHT_SHARE, TEETH_AMBIENT_LIGHT_SHARE = 0.75, 0.5
-"""Of the light on a surface, that it has wherever it faces; and on teeth, whose crowns are told apart by it."""
+AMBIENT_LIGHT_SHARE, TEETH_AMBIENT_LIGHT_SHARE = 0.6, 0.5
+"""Of the light on a surface, that it has wherever it faces: a tongue is round by it; and on teeth, whose crowns are told apart by it."""
 TEETH_FALLOFF_EYE_DISTANCES = 0.35
 """Eye distances behind the upper teeth at which a third of the light is left on teeth: cheeks are beside them. Ramps of the other parts have theirs."""
 LIT_GAP_EYE_DISTANCES, MIN_INSIDE_LIGHT_SHARE = (0.05, 0.55), 0.3
@@ -70,6 +70,11 @@ ROUNDED_NARROWING_SHARE, ROUNDED_CROWN_EYE_DISTANCES = 0.05, 0.6
 """Share of its width by which a mouth is narrower than at rest from which on its lips are rounded, and eye distances of
 the upper row that they cover for all of it. Lips that say O are pushed forward over the teeth, though their edges are
 as high as in a smile."""
+STUB_EYE_DISTANCES = (0.035, 0.06)
+"""Eye distances of the upper row that would be seen below the upper lip, up to which it covers all of them, and from which on none, as at rest: of
+crowns that end just below it only stubs are left."""
+COVERED_ROW_EYE_DISTANCES = 0.04
+"""Eye distances by which a row that is covered ends above the lip's middle: the lip is higher beside it, and soft."""
 APPEARING_OPENING_RANGE = 0.03
 """By how much a mouth opens while its inside appears, slowly at first: a tracker has closed lips up to 0.024 apart for a frame."""
 CAMERA_DISTANCE_PIXELS = 4096.0
@@ -146,6 +151,7 @@ class ModelledMouth:
         raised = min(
             float(front[INNER_UPPER_LIP_VERTEX, 1]) + MAX_CROWN_EYE_DISTANCES - self._at.edge, 0.0
         ) - covered_crown(self._at, front)
+        raised -= stubs(float(self._at.edge + raised - front[INNER_UPPER_LIP_VERTEX, 1]))
         bag = mouth_bag(lips, BAG_DEPTH_FACTOR, self._at.width)
         moved = np.concatenate(
             [AFFINE_FRAME + np.array([0, raised, 0]), jaw.moved(AFFINE_FRAME), tongue_jaw.moved(AFFINE_FRAME), bag]
@@ -203,6 +209,11 @@ def covered_crown(at: RestingMouth, front: NDArray[np.floating]) -> float:
     """Eye distances of the upper row that the lips of a face that rests as `at` says and is `front` (478, 2 or 3) from the front cover, being rounded."""
     width = float(np.linalg.norm(front[INNER_MOUTH_CORNER_VERTICES[1], :2] - front[INNER_MOUTH_CORNER_VERTICES[0], :2]))
     return ROUNDED_CROWN_EYE_DISTANCES * max(1 - width / max(at.width, 1e-6) - ROUNDED_NARROWING_SHARE, 0.0)
+
+
+def stubs(seen: float) -> float:
+    """Eye distances by which the upper row, of which so many would be `seen` below the lip, is higher for not to be seen as stubs."""
+    return (max(seen, 0.0) + COVERED_ROW_EYE_DISTANCES) * (1 - float(smoothstep(seen, *STUB_EYE_DISTANCES)))
 
 
 def inside_light(face: NDArray[np.floating]) -> float:

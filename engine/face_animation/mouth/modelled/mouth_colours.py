@@ -22,12 +22,14 @@ USUAL_SKIN_LUMINANCE = 165.0
 SKIN_LIGHT_RANGE = (0.35, 1.25)
 LIP_HUE_SHARE = 0.5
 """Of the person's lips in what is flesh."""
-TONGUE_LIT_SHARE, TONGUE_DARK_SHARE, TONGUE_SIDES_SHARE = 0.12, 0.7, 0.45
-"""Shares of the tongue's length from its tip up to which it is in the light, and from which on it is not. The last is
-the share of its half width from which on it turns to the cheeks."""
+TONGUE_LIT_SHARE, TONGUE_DARK_SHARE, TONGUE_SIDES_SHARE = 0.1, 0.65, 0.35
+"""Shares of the tongue's length from its tip up to which it is in the light, and from which on it is not, before the top of its arch: an edge between
+light and dark would cut it off. The last is the share of its half width from which on it turns to the cheeks."""
 TONGUE_BACK_DARKNESS, TONGUE_SIDES_DARKNESS = 1.0, 0.9
 """Of the way from the lining's colour to the throat's, that of the tongue's back, and of its sides: as what is behind them, since an outline would
 make it a block."""
+TONGUE_FURROW_SHADE, TONGUE_FURROW_HALF_WIDTHS = 0.1, 0.16
+"""By how much a tongue is darker along its middle, and over how much of its half width."""
 MAX_TEETH_LEVEL = 250.0
 """The lightest a tooth becomes in any channel: cut off one by one, they would leave no hue of a warm light."""
 CROWN_SHADE_RANGE = 0.1
@@ -52,7 +54,7 @@ LOWER_TEETH_LIGHT_SHARE = 0.75
 """Of the upper teeth's light, that lower ones have."""
 BAG_LIGHT_SHARES = (0.75, 1.4)
 """Of the bag's light, what its roof has behind the upper lip, and its floor, on which light falls."""
-BAG_DARK_DEPTH_SHARE = 0.8
+BAG_DARK_DEPTH_SHARE = 0.45
 """Of the bag's depth, from which on it is as dark as the throat."""
 COLOUR_RAMP_PIXELS = (64, 16)
 """Width and height of a ramp of colours, pixels."""
@@ -111,7 +113,7 @@ def mouth_colours(
     flat = np.broadcast_to(flesh["tongue"], (COLOUR_RAMP_PIXELS[1], COLOUR_RAMP_PIXELS[0], 3))
     for share, dark in ((back[None, :, None], TONGUE_BACK_DARKNESS), (sides[:, None, None], TONGUE_SIDES_DARKNESS)):
         flat = flat + share * (flesh["lining"] + dark * (flesh["throat"] - flesh["lining"]) - flat)
-    furrow = 1 - 0.18 * np.exp(-0.5 * (aside / 0.1) ** 2)
+    furrow = 1 - TONGUE_FURROW_SHADE * np.exp(-0.5 * (aside / TONGUE_FURROW_HALF_WIDTHS) ** 2)
     deep = np.clip(along / BAG_DARK_DEPTH_SHARE, 0, 1)[:, None] ** 0.7
     floor = np.interp(aside, (0, 1), BAG_LIGHT_SHARES)[:, None, None]
     bag = floor * (flesh["lining"] + deep * (flesh["throat"] - flesh["lining"]))

@@ -11,10 +11,12 @@ from scipy.spatial.transform import Rotation
 from engine.face_animation.mouth.modelled.jaw import CHIN_VERTICES, held_between, jaw_of
 from engine.face_animation.mouth.modelled.modelled_mouth import (
     BARING_JAW_RADIANS,
+    STUB_EYE_DISTANCES,
     ModelledMouth,
     covered_crown,
     inside_light,
     jaw_behind_lips,
+    stubs,
 )
 from engine.face_animation.mouth.modelled.mouth_colours import (
     FACE_HIGHLIGHT_PERCENTILE,
@@ -326,6 +328,33 @@ def test_a_tongue_is_arched_and_ends_in_the_dark() -> None:
     colours = mouth_colours(picture((200, 150, 130)), seen(front(0.0)))
     along = colours.tongue[0].astype(float).sum(axis=-1)
     assert along[-1] < 0.35 * along[0] and abs(along[-1] - colours.bag[8, -1].astype(float).sum()) < 30
+
+
+def test_a_tongue_is_dark_where_its_arch_is_highest_and_nothing_cuts_it_off() -> None:
+    """What is seen of it from before ends at the top of its arch, with the dark of the bag behind."""
+    part = tongue(resting_mouth(front(0.0), front(0.0)))
+    middle = part.uv[:, 1] < 0.2
+    crest = float(part.uv[middle][part.vertices[middle, 1].argmin(), 0])
+    colours = mouth_colours(picture((200, 150, 130)), seen(front(0.0)))
+    along = colours.tongue[0].astype(float).sum(axis=-1)
+    behind = colours.bag[8, 32:].astype(float).sum(axis=-1).mean()
+    assert along[round(crest * 63)] - behind < 0.35 * (along[0] - behind)
+    below_edges = part.vertices[:, 1].min() - (front(0.0)[13, 1] - OVERBITE_EYE_DISTANCES)
+    assert below_edges > -0.02, "and lies behind the lower teeth, not above them"
+
+
+def test_a_row_of_teeth_is_seen_as_crowns_or_not_at_all(mouth: ModelledMouth) -> None:
+    """A lip that leaves a few pixels of them covers these; one that is drawn up further covers none."""
+    row = len(modelled_teeth(resting_mouth(front(0.0), front(0.0)), True).vertices)
+    lowest = []
+    for down in (0.02, 0.035, 0.045, 0.06, 0.08):  # so little is seen below a lip that hangs lower
+        face = front(0.3)
+        face[13, 1] += 0.06 - down
+        lowest.append((mouth.places(seen(face))[:row, 1].max() - seen(face)[13, 1]) / EYES)
+    assert max(lowest[:2]) < 0
+    assert lowest[1] < lowest[2] < lowest[3]
+    np.testing.assert_allclose(np.diff(lowest[3:]), 0.02, atol=2e-3)
+    assert stubs(STUB_EYE_DISTANCES[1]) == 0 == stubs(1.0)
 
 
 def test_rounded_lips_narrow_the_opening_alone() -> None:
