@@ -63,9 +63,11 @@ DEPTH_SHARE = 0.45
 """Share of depths behind the upper teeth by which things are seen higher or lower. How far a head is bent forward or
 back is known to some degrees only, and in true depth these decide whether a tongue is seen at all. To the sides they
 count wholly: rows of teeth turn with the lips."""
-MAX_CROWN_EYE_DISTANCES = 0.17
-"""Eye distances of the upper row that are seen below the middle of the upper lip, at most. Where a lip is drawn up
-farther than its person's would be, the row goes along, and no more of its gum is bared."""
+MAX_CROWN_EYE_DISTANCES = (0.08, 0.17)
+"""Eye distances of the upper row that are seen below the middle of the upper lip, at most: of a mouth that opens without smiling, as at rest and a little more, since
+the lip is stretched down over its teeth; and of one that smiles, a whole crown. Where a lip is drawn up farther than its person's would be, the row goes along."""
+SMILING_WIDTH_SHARES = (1.0, 1.15)
+"""Widths of a mouth, in its width at rest, up to which it does not smile, and from which on it does."""
 ROUNDED_NARROWING_SHARE, ROUNDED_CROWN_EYE_DISTANCES = 0.05, 0.6
 """Share of its width by which a mouth is narrower than at rest from which on its lips are rounded, and eye distances of
 the upper row that they cover for all of it. Lips that say O are pushed forward over the teeth, though their edges are
@@ -149,7 +151,7 @@ class ModelledMouth:
         lips = np.column_stack([front, depths])[list(LIPS_INNER)]
         tongue_jaw = jaw._replace(angle=TONGUE_JAW_SHARE * jaw.angle)
         raised = min(
-            float(front[INNER_UPPER_LIP_VERTEX, 1]) + MAX_CROWN_EYE_DISTANCES - self._at.edge, 0.0
+            float(front[INNER_UPPER_LIP_VERTEX, 1]) + most_crown(self._at, front) - self._at.edge, 0.0
         ) - covered_crown(self._at, front)
         raised -= stubs(float(self._at.edge + raised - front[INNER_UPPER_LIP_VERTEX, 1]))
         bag = mouth_bag(lips, BAG_DEPTH_FACTOR, self._at.width)
@@ -207,8 +209,19 @@ def jaw_behind_lips(at: RestingMouth, front: NDArray[np.floating]) -> Jaw:
 
 def covered_crown(at: RestingMouth, front: NDArray[np.floating]) -> float:
     """Eye distances of the upper row that the lips of a face that rests as `at` says and is `front` (478, 2 or 3) from the front cover, being rounded."""
-    width = float(np.linalg.norm(front[INNER_MOUTH_CORNER_VERTICES[1], :2] - front[INNER_MOUTH_CORNER_VERTICES[0], :2]))
-    return ROUNDED_CROWN_EYE_DISTANCES * max(1 - width / max(at.width, 1e-6) - ROUNDED_NARROWING_SHARE, 0.0)
+    return ROUNDED_CROWN_EYE_DISTANCES * max(1 - _width_share(at, front) - ROUNDED_NARROWING_SHARE, 0.0)
+
+
+def most_crown(at: RestingMouth, front: NDArray[np.floating]) -> float:
+    """Eye distances of the upper row that are seen at most below the lip of a face that rests as `at` says and is `front` (478, 2 or 3) from the front."""
+    opened, smiling = MAX_CROWN_EYE_DISTANCES
+    return opened + (smiling - opened) * float(smoothstep(_width_share(at, front), *SMILING_WIDTH_SHARES))
+
+
+def _width_share(at: RestingMouth, front: NDArray[np.floating]) -> float:
+    """The width of the mouth of a face `front` (478, 2 or 3), in its width at rest."""
+    right, left = front[list(INNER_MOUTH_CORNER_VERTICES), :2]
+    return float(np.linalg.norm(left - right)) / max(at.width, 1e-6)
 
 
 def stubs(seen: float) -> float:

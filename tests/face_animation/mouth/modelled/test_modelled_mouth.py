@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 from engine.face_animation.mouth.modelled.jaw import CHIN_VERTICES, held_between, jaw_of
 from engine.face_animation.mouth.modelled.modelled_mouth import (
     BARING_JAW_RADIANS,
+    MAX_CROWN_EYE_DISTANCES,
     STUB_EYE_DISTANCES,
     ModelledMouth,
     covered_crown,
@@ -242,8 +243,22 @@ def test_rounded_lips_cover_the_upper_teeth(mouth: ModelledMouth) -> None:
         upper = mouth.places(seen(face))[: len(modelled_teeth(at, True).vertices), 1]
         heights.append(float(upper.max()) / EYES)
     assert covered[:3] == [0, 0, 0] and 0 < covered[3] < covered[4]
-    np.testing.assert_allclose(heights[:3], heights[0], atol=1e-3)
-    assert heights[0] > heights[3] > heights[4]
+    np.testing.assert_allclose(heights[1], heights[2], atol=1e-3)
+    assert heights[0] > heights[2] > heights[3] > heights[4]
+
+
+def test_a_smile_bares_whole_crowns_and_an_open_mouth_their_edges(mouth: ModelledMouth) -> None:
+    """However far the upper lip is drawn up: a jaw that drops stretches it down over its teeth."""
+    at = resting_mouth(front(0.0), front(0.0))
+    row, lips = len(modelled_teeth(at, True).vertices), [*LIPS_INNER, *LIPS_OUTER]
+    bared = []
+    for width in (1.0, 1.07, 1.15, 1.3):
+        face = front(0.3)
+        face[lips, 0] = at.middle + width * (face[lips, 0] - at.middle)
+        face[13, 1] -= 0.3
+        bared.append((mouth.places(seen(face))[:row, 1].max() - seen(face)[13, 1]) / EYES)
+    assert bared[0] < bared[1] < bared[2] == pytest.approx(bared[3], abs=2e-3)
+    assert bared[2] - bared[0] == pytest.approx(MAX_CROWN_EYE_DISTANCES[1] - MAX_CROWN_EYE_DISTANCES[0], abs=5e-3)
 
 
 @pytest.mark.parametrize("skin", [(190, 150, 130), (90, 65, 50)])
