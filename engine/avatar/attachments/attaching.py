@@ -13,6 +13,10 @@ from engine.avatar.attachments.influences import influences
 from engine.avatar.attachments.piece_mesh import Mesh, piece_meshes, seen_area, simplified
 from engine.avatar.attachments.seen_around import seen_around
 from engine.avatar.attachments.silhouettes import Silhouettes, silhouettes_beside
+from engine.avatar.attachments.skirt.leg_influences import leg_influences
+from engine.avatar.attachments.skirt.legs import legs_of
+from engine.avatar.attachments.skirt.skirt import skirt_around
+from engine.avatar.attachments.skirt.skirt_mesh import skirt_mesh
 from engine.avatar.attachments.solid import solid
 from engine.avatar.attachments.standing_off import points_standing_off, standing_volume
 from engine.avatar.eye_charts import avatar_uv
@@ -80,26 +84,39 @@ class Sighting:
 def standing_points(human: HumanModels, vertices: NDArray[np.float64], seen: Sighting) -> NDArray[np.floating]:
     """(M, 3) the points of all that stands off the body of the person whose template vertices are (V, 3), metres."""
     body = body_surface(human, vertices)
-    volume = standing_volume(body, _silhouettes(body, seen))
-    return points_standing_off(seen.cloud.points, body, volume.pieces[:MAX_PIECES])
+    silhouettes = _silhouettes(body, seen)
+    skirt = skirt_around(body, legs_of(human, body.vertices), silhouettes, seen.cloud)
+    points = seen.cloud.points
+    if skirt is None:
+        return points_standing_off(points, body, standing_volume(body, silhouettes).pieces[:MAX_PIECES])
+    cloth = skirt.is_cloth(points)
+    pieces = standing_volume(body, silhouettes, skirt.within).pieces[:MAX_PIECES]
+    return np.concatenate([points[cloth], points_standing_off(points[~cloth], body, pieces)])
 
 
 def attachments(human: HumanModels, vertices: NDArray[np.float64], seen: Sighting) -> Attachments:
     """What the person wears whose template vertices are (V, 3), metres."""
     body = body_surface(human, vertices)
     silhouettes = _silhouettes(body, seen)
-    volume = standing_volume(body, silhouettes)
+    skirt = skirt_around(body, legs_of(human, body.vertices), silhouettes, seen.cloud)
+    volume = standing_volume(body, silhouettes, None if skirt is None else skirt.within)
     around = seen_around(body, volume.hull, seen.cloud, seen.cameras, seen.near)
     meshes = []
     for piece in volume.pieces[:MAX_PIECES]:
         meshes += piece_meshes(*solid(piece, body, silhouettes, around, seen.cloud))
     meshes = [mesh for mesh in meshes if seen_area(mesh, body) > MIN_SEEN_SQUARE_METRES]
+    if skirt is not None:
+        meshes.append(skirt_mesh(skirt))
     if not meshes:
         return no_attachments()
     areas = [seen_area(mesh, body) for mesh in meshes]
     density = min(1 / MIN_TRIANGLE_SQUARE_METRES, MAX_ATTACHED_TRIANGLES / sum(areas))
     meshes = [simplified(mesh, body, int(area * density)) for mesh, area in zip(meshes, areas, strict=True)]
-    moved = [influences(*mesh, body, _joint_weights(human), _head(human)) for mesh in meshes]
+    joint_weights = _joint_weights(human)
+    others = meshes if skirt is None else meshes[:-1]
+    moved = [influences(*mesh, body, joint_weights, _head(human)) for mesh in others]
+    if skirt is not None:
+        moved.append(leg_influences(*meshes[-1], body, skirt.legs, joint_weights))
     whole = _joined(meshes)
     return Attachments(
         *whole,

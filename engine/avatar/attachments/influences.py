@@ -39,6 +39,12 @@ def influences(
     number = np.maximum(np.asarray(beside.sum(1)).reshape(-1, 1), 1)
     for _ in range(INFLUENCE_SMOOTHING_ROUNDS):
         own = (own + beside @ own / number) / 2
+    return strongest(own)
+
+
+def strongest(own: NDArray[np.floating]) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+    """(V, 4) the strongest joints of those that move each vertex by weights (V, J), strongest first, and what these are then, summing to
+    one."""
     joints = np.argsort(-own, axis=1, kind="stable")[:, :MAX_VERTEX_INFLUENCES]
     kept = np.take_along_axis(own, joints, 1)
     kept /= kept.sum(1, keepdims=True)

@@ -6,7 +6,7 @@ silhouettes that say what stands off, and points are told of it by lying there.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -76,8 +76,12 @@ def well_supported(support: NDArray[np.integer]) -> NDArray[np.bool_]:
     return np.asarray(support >= np.quantile(measured, DOUBTED_POINTS_SHARE))
 
 
-def standing_volume(body: BodySurface, silhouettes: Silhouettes) -> StandingVolume:
-    """What silhouettes have about a body, and what of it stands off."""
+def standing_volume(
+    body: BodySurface,
+    silhouettes: Silhouettes,
+    known: Callable[[NDArray[np.float64]], NDArray[np.bool_]] | None = None,
+) -> StandingVolume:
+    """What silhouettes have about a body, and what of it stands off, but for what is `known` otherwise: which of places (N, 3)."""
     spacing = VOLUME_SPACING_METRES
     origin = body.vertices.min(0) - MAX_WORN_METRES
     blocks = np.ceil((body.vertices.max(0) + MAX_WORN_METRES - origin) / (COARSE_STEP * spacing)).astype(int) + 1
@@ -94,6 +98,8 @@ def standing_volume(body: BodySurface, silhouettes: Silhouettes) -> StandingVolu
     occupied, stands = np.zeros(shape, np.bool_), np.zeros(shape, np.bool_)
     occupied[tuple(cells.T)] = True
     asked = _stand_off(places, body, nearest)
+    if known is not None:
+        asked[asked] = ~known(places[asked])
     depths, views = silhouettes.depths_beside(places[asked], body.head[nearest[asked]])
     stands[tuple(cells[asked][(depths > 0) & (views >= MIN_BESIDE_VIEWS)].T)] = True
     own = np.argwhere(stands)

@@ -1,0 +1,1 @@
+"""What hangs down from the hips around both legs: skirts, coats, and jackets that end below the crotch."""

@@ -1,0 +1,46 @@
+"""Which joints move cloth around both legs: those of the skin of the left leg on the left, of the right one on the right, of both between."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.attachments.body_surface import BodySurface
+from engine.avatar.attachments.influences import strongest
+from engine.avatar.attachments.skirt.legs import Legs
+from engine.geometry.mesh.adjacency import neighbours
+from engine.geometry.mesh.closest_points import closest_points
+
+SMOOTHING_ROUNDS = 30
+"""Rounds in which influences become the mean of those around: a few centimetres."""
+
+
+def leg_influences(
+    vertices: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+    body: BodySurface,
+    legs: Legs,
+    joint_weights: NDArray[np.floating],
+) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+    """(V, 4) joints, strongest first, and their weights, summing to one, of cloth, `vertices` (V, 3) and `triangles` (T, 3), around both
+    legs. `joint_weights` (S, J) are those of the skin.
+
+    Before and behind a leg, from its middle outwards, cloth goes with that leg alone, which would come through it else. What hangs between takes its share of
+    either by how far it is aside.
+    """
+    left = shares_of_left(legs.sideways(vertices))
+    own = np.zeros((len(vertices), joint_weights.shape[1]))
+    for side, share in (("Left", left), ("Right", 1 - left)):
+        leg = body.triangles[legs.skin[side][body.triangles].all(1)]
+        own += share[:, None] * closest_points(vertices, body.vertices, leg).interpolated(joint_weights, leg)
+    beside = neighbours(triangles, len(vertices))
+    number = np.maximum(np.asarray(beside.sum(1)).reshape(-1, 1), 1)
+    for _ in range(SMOOTHING_ROUNDS):
+        own = (own + beside @ own / number) / 2
+    return strongest(own)
+
+
+def shares_of_left(sideways: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) what the left leg does to cloth that is so far to the left, of both legs' middles: smoothly from 0 to 1."""
+    way = np.clip((np.asarray(sideways, np.float64) + 1) / 2, 0, 1)
+    return np.asarray(way**2 * (3 - 2 * way))
