@@ -11,7 +11,7 @@ from engine.avatar.registration.eyes.tucked_lids import with_tucked_lids
 from engine.avatar.texture.template_surface import TemplateSurface, template_surface
 from engine.avatar.texture.template_texture.eyes import Eyeballs, painted_eyes, persons_eyes
 from engine.avatar.texture.template_texture.hands import hand_bones, painted_hand, past_wrist
-from engine.avatar.texture.template_texture.lids import OWN_LID_EYE_WIDTHS, place_lids
+from engine.avatar.texture.template_texture.lids import BELOW_BROW_EYE_WIDTHS, OWN_LID_EYE_WIDTHS, place_lids
 from engine.avatar.texture.template_texture.mouth import (
     LINING_IN_MOUTH_RGB,
     MIN_MOUTH_LIGHT_SHARE,
@@ -99,13 +99,19 @@ def test_of_a_lower_lid_what_looks_ahead_is_in_no_fold(surface: TemplateSurface)
         assert lower.any() and (normals[lower] @ ahead / np.linalg.norm(ahead)).max() < 0.5
 
 
+@pytest.mark.parametrize(
+    ("shown_above", "bounds"),
+    [((150, 108, 92), OWN_LID_EYE_WIDTHS), ((40, 30, 25), BELOW_BROW_EYE_WIDTHS)],
+    ids=["skin", "brow"],
+)
 def test_the_skin_of_an_upper_lid_is_like_that_below_the_eye_and_goes_over_to_what_frames_show_above(
-    surface: TemplateSurface,
+    surface: TemplateSurface, shown_above: tuple[int, int, int], bounds: tuple[float, float]
 ) -> None:
+    """To skin early, and to a brow at the end of the lid."""
     vertices = with_tucked_lids(load_template(), surface.rest)
     folds = surface.lid_folds(vertices)
     raster = texel_raster(surface.atlas, 2048)
-    light, dark = np.array([180, 130, 110]), np.array([90, 65, 55])
+    light, dark = np.array([180, 130, 110]), np.array(shown_above)
     texture = np.full((2048, 2048, 3), light, np.uint8)
     eye = vertices[surface.lid_rims["left_eye"]]
     shown = PartTexels.of(raster, surface.of("body") & ~surface.sockets & ~np.any(list(folds.values()), axis=0))
@@ -119,11 +125,14 @@ def test_the_skin_of_an_upper_lid_is_like_that_below_the_eye_and_goes_over_to_wh
     lids = PartTexels.of(raster, whole)
     up = lids.blend(surface.lid_skin("left_eye", vertices), surface.triangles)[:, 1]
     colours = texture.reshape(-1, 3)[lids.texels]
-    assert (up > OWN_LID_EYE_WIDTHS[1]).sum() > 3
-    np.testing.assert_allclose(colours[up > OWN_LID_EYE_WIDTHS[1]].mean(0), dark, rtol=0.1)
-    own = (up > 0.7 * OWN_LID_EYE_WIDTHS[0]) & (up < OWN_LID_EYE_WIDTHS[0])  # beyond most of the lashes' shade
+    end = up > min(bounds[1], up.max() - 0.01)
+    assert end.sum() > 3
+    np.testing.assert_allclose(colours[end].mean(0), dark, atol=40)
+    own = (up > 0.7 * bounds[0]) & (up < bounds[0])  # beyond most of the lashes' shade
     assert own.sum() > 20
-    np.testing.assert_allclose(colours[own].mean(0), light, rtol=0.2)
+    np.testing.assert_allclose(colours[own].mean(0), light, rtol=0.27)
+    middle = (up > 0.1) & (up < 0.12)
+    assert middle.sum() > 5 and (colours[middle].mean(0) > 0.65 * light).all(), "no brow is drawn out over a lid"
 
 
 def test_what_a_hand_lies_on_is_not_taken_from_frames(surface: TemplateSurface) -> None:

@@ -8,18 +8,25 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.avatar.registration.eyes.tucked_lids import TUCKED_EYE_WIDTHS
+from engine.avatar.registration.eyes.tucked_lids import LID_SKIN_EYE_WIDTHS, TUCKED_EYE_WIDTHS
 from engine.avatar.texture.template_surface import TemplateSurface
+from engine.avatar.texture.template_texture.lit_skin import LitSkin
 from engine.avatar.texture.template_texture.part_texels import PartTexels
+from engine.face_animation.smoothstep import smoothstep
+from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.render.rasterisation.rasteriser import Raster
 
 LOWER_LID_SKIN_EYE_WIDTHS = 0.5
 """Widths of an eye from the rim of its lower lid within which the skin below has the lids' colour, in the median."""
 SHUT_LASH_SHADE_SHARE, SHUT_LASH_WIDTH_METRES = 0.5, 0.001
 """Of the light, what lashes take along a shut lid's rim, and metres over which that fades."""
-OWN_LID_EYE_WIDTHS = (0.06, 0.15)
+OWN_LID_EYE_WIDTHS, BELOW_BROW_EYE_WIDTHS = (0.06, 0.15), (0.08, LID_SKIN_EYE_WIDTHS)
 """Widths of an eye, along the skin that comes out of an upper lid's tuck, from its rim to where its colour begins to go over to what
-frames show above, and to where it is that."""
+frames show above, and to where it is that: where they show skin there, and where they show brow or shade."""
+BROW_SHADE_SHARE = 0.12
+"""Of the light, what a lid below a brow, or deep in its socket, has less than the skin around."""
+LASH_REACH_EYE_WIDTHS = 0.12
+"""Widths of an eye from its lids' rims within which nothing is believed to be skin: lashes stand there, and their shade lies there."""
 OUT_OF_TUCK_EYE_WIDTHS = (TUCKED_EYE_WIDTHS, 0.07)
 """Widths of an eye from the rim of an upper lid that is tucked between which paint goes over to what frames show."""
 SEEN_ABOVE_EYE_WIDTHS, SEEN_ABOVE_TEXELS = 0.06, 100
@@ -52,8 +59,9 @@ class _Lids:
 def place_lids(
     texture: NDArray[np.uint8], surface: TemplateSurface, vertices: NDArray[np.floating], raster: Raster
 ) -> None:
-    """Paint what lies in the lids' folds of the person whose template vertices are (V, 3) like the skin below the eyes, with lashes along
-    the rim, into a `texture` (S, S, 3), in place. What comes out of an upper lid's tuck goes over to what frames show above it."""
+    """Paint what lies in the lids' folds of the person whose template vertices are (V, 3) like the lit skin around the eyes, with lashes along
+    the rim, into a `texture` (S, S, 3), in place. What comes out of an upper lid's tuck goes over to what frames show above it: early to
+    skin, and at its very end to a brow that reaches down there, or to a socket's shade."""
     places = np.asarray(vertices, np.float64)
     flat = texture.reshape(-1, 3)
     folds = surface.lid_folds(places)
@@ -79,23 +87,28 @@ def place_lids(
         )
         away = np.where(lids.tucked, lids.long * width, loop.query(lids.places)[0])
         light = (1 - SHUT_LASH_SHADE_SHARE * np.exp(-away / SHUT_LASH_WIDTH_METRES))[:, None]
-        painted = light * np.median(flat[below.texels], axis=0)
+        skin_light = float(np.median(flat[below.texels] @ LUMINANCE_WEIGHTS))
+        around = PartTexels.of(raster, near)
+        at = around.blend(places, surface.triangles)
+        bare = loop.query(at)[0] > LASH_REACH_EYE_WIDTHS * width
+        if not bare.any():
+            continue
+        middle = rim.mean(0)
+        lit = LitSkin.around(flat[around.texels[bare]], (at[bare] - middle) / width, skin_light)
+        skin_colours = lit.at((lids.places - middle) / width)
+        painted = light * skin_colours
         above = near & (lid_skin[surface.triangles, 0] > SEEN_ABOVE_EYE_WIDTHS).all(1)
         distance, seen = np.empty(len(away)), np.empty_like(painted)
         for some, shown, count in ((~lids.tucked, near, LID_BORDER_TEXELS), (lids.tucked, above, SEEN_ABOVE_TEXELS)):
             beside = PartTexels.of(raster, shown)
             on_skin = beside.blend(places, surface.triangles)
             distance[some], seen[some] = _mean_near(flat[beside.texels], on_skin, lids.places[some], count)
-        over = np.where(lids.tucked, _eased(lids.long, OWN_LID_EYE_WIDTHS), np.exp(-distance / LID_BORDER_METRES))
+        early, late = (smoothstep(lids.long, *bounds) for bounds in (OWN_LID_EYE_WIDTHS, BELOW_BROW_EYE_WIDTHS))
+        over = np.where(lids.tucked, late + lit.trust(seen) * (early - late), np.exp(-distance / LID_BORDER_METRES))
+        painted *= 1 - np.where(lids.tucked, BROW_SHADE_SHARE * (1 - lit.trust(seen)), 0)[:, None]
         painted += over[:, None] * (seen - painted)
-        out = _eased(lids.short, OUT_OF_TUCK_EYE_WIDTHS)[:, None]
+        out = smoothstep(lids.short, *OUT_OF_TUCK_EYE_WIDTHS)[:, None]
         texels.put(texture, painted + out * (flat[texels.texels] - painted))
-
-
-def _eased(values: NDArray[np.floating], bounds: tuple[float, float]) -> NDArray[np.float64]:
-    """(N,) how far values (N,) are from the one bound to the other, from 0 to 1 and smoothly."""
-    share = np.clip((values - bounds[0]) / (bounds[1] - bounds[0]), 0, 1)
-    return np.asarray(share**2 * (3 - 2 * share))
 
 
 def _mean_near(
