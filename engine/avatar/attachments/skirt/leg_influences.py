@@ -8,11 +8,14 @@ from numpy.typing import NDArray
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.avatar.attachments.influences import strongest
 from engine.avatar.attachments.skirt.legs import Legs
+from engine.face_animation.smoothstep import smoothstep
 from engine.geometry.mesh.adjacency import neighbours
 from engine.geometry.mesh.closest_points import closest_points
 
 SMOOTHING_ROUNDS = 30
 """Rounds in which influences become the mean of those around: a few centimetres."""
+HIPS_METRES = (-0.03, 0.04)
+"""Metres above the crotch between which what moves cloth goes over from the legs to the skin of the hips."""
 
 
 def leg_influences(
@@ -26,7 +29,7 @@ def leg_influences(
     legs. `joint_weights` (S, J) are those of the skin.
 
     Before and behind a leg, from its middle outwards, cloth goes with that leg alone, which would come through it else. What hangs between takes its share of
-    either by how far it is aside.
+    either by how far it is aside. Above the crotch it goes with the skin that it comes out of.
     """
     left = shares_of_left(legs.sideways(vertices))
     own = np.zeros((len(vertices), joint_weights.shape[1]))
@@ -37,10 +40,11 @@ def leg_influences(
     number = np.maximum(np.asarray(beside.sum(1)).reshape(-1, 1), 1)
     for _ in range(SMOOTHING_ROUNDS):
         own = (own + beside @ own / number) / 2
-    return strongest(own)
+    skin = closest_points(vertices, body.vertices, body.triangles).interpolated(joint_weights, body.triangles)
+    above = smoothstep(vertices[:, 1] - legs.crotch, *HIPS_METRES)[:, None]
+    return strongest(own + above * (skin - own))
 
 
 def shares_of_left(sideways: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) what the left leg does to cloth that is so far to the left, of both legs' middles: smoothly from 0 to 1."""
-    way = np.clip((np.asarray(sideways, np.float64) + 1) / 2, 0, 1)
-    return np.asarray(way**2 * (3 - 2 * way))
+    return smoothstep(sideways, -1, 1)

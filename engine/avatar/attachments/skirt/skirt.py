@@ -23,7 +23,7 @@ TURN_COUNT = 96
 """Directions around the axis."""
 HEIGHT_STEP_METRES, RADIUS_STEP_METRES = 0.008, 0.01
 """Metres between heights, and between places along a direction, at which silhouettes are asked."""
-TOP_METRES = 0.06
+TOP_METRES = 0.12
 """Metres above the crotch up to which cloth that goes around both legs is told from the skin."""
 MIN_DROP_METRES = 0.03
 """Metres below the crotch that cloth goes down to at least: above are the seats of trousers."""
@@ -116,7 +116,9 @@ def skirt_around(body: BodySurface, legs: Legs, silhouettes: Silhouettes, cloud:
             rays = _Rays.cast(body, silhouettes, legs, ways[gap], heights[heights > first])
             drop = rays.lowest_cloth(legs.crotch)
             hangs = drop < legs.crotch - MIN_DROP_METRES
-            if hangs.mean() < MIN_GAP_SHARE or not _is_outside(cloud, legs, turns[gap], rays, float(np.median(drop[hangs]))):
+            if hangs.mean() < MIN_GAP_SHARE or not _is_outside(
+                cloud, legs, turns[gap], rays, float(np.median(drop[hangs]))
+            ):
                 return None
             lowest = min(lowest, float(drop.min()))
     rays = _Rays.cast(body, silhouettes, legs, ways, heights[heights > lowest - MIN_DROP_METRES])
@@ -127,9 +129,7 @@ def skirt_around(body: BodySurface, legs: Legs, silhouettes: Silhouettes, cloud:
     return Skirt(legs, turns, rays.heights[kept], radii[:, kept], rays.skin[:, kept], hem)
 
 
-def _is_outside(
-    cloud: PointCloud, legs: Legs, turns: NDArray[np.float64], rays: _Rays, lowest: float
-) -> bool:
+def _is_outside(cloud: PointCloud, legs: Legs, turns: NDArray[np.float64], rays: _Rays, lowest: float) -> bool:
     """Whether most points of the `cloud` in the directions `turns` of `rays`, from the crotch down to the `lowest` cloth there, are on what
     silhouettes have room for, and not in a hollow of it."""
     off = cloud.points[:, [0, 2]] - legs.axis

@@ -9,6 +9,7 @@ from scipy import ndimage
 from engine.avatar.attachments.piece_mesh import Mesh
 from engine.avatar.attachments.skirt.skirt import HEIGHT_STEP_METRES, Skirt, directions
 from engine.avatar.attachments.solid import SKIN_COVER_METRES, SKIN_OVERLAP_METRES
+from engine.face_animation.smoothstep import smoothstep
 
 CLOTH_METRES = 0.004
 """Metres from the outside of cloth to its inside."""
@@ -46,7 +47,6 @@ def _outside(skirt: Skirt, heights: NDArray[np.float64]) -> NDArray[np.float64]:
     cloth, skin = (
         ndimage.map_coordinates(of, [columns, rows], order=1, mode="nearest") for of in (skirt.radii, skirt.skin)
     )
-    way = np.clip((heights - skirt.legs.crotch) / (skirt.heights[-1] - skirt.legs.crotch), 0, 1)
-    into = way**2 * (3 - 2 * way)
+    into = smoothstep(heights, skirt.legs.crotch, skirt.heights[-1])
     over = np.maximum(cloth, skin + SKIN_COVER_METRES)
     return np.asarray(over + into * (skin - SKIN_OVERLAP_METRES - over))
