@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.avatar.attachments.influences import influences
-from engine.avatar.attachments.piece_mesh import Mesh, piece_meshes, seen_area, simplified
+from engine.avatar.attachments.piece_mesh import Mesh, piece_meshes, seen_area, seen_part, simplified
 from engine.avatar.attachments.seen_around import seen_around
 from engine.avatar.attachments.silhouettes import Silhouettes, silhouettes_beside
 from engine.avatar.attachments.skirt.leg_influences import leg_influences
@@ -105,18 +105,19 @@ def attachments(human: HumanModels, vertices: NDArray[np.float64], seen: Sightin
     for piece in volume.pieces[:MAX_PIECES]:
         meshes += piece_meshes(*solid(piece, body, silhouettes, around, seen.cloud))
     meshes = [mesh for mesh in meshes if seen_area(mesh, body) > MIN_SEEN_SQUARE_METRES]
-    if skirt is not None:
-        meshes.append(skirt_mesh(skirt))
-    if not meshes:
-        return no_attachments()
+    bare = body.without_own()
+    ring = None if skirt is None else seen_part(skirt_mesh(skirt), bare)
+    free = MAX_ATTACHED_TRIANGLES - (0 if ring is None else len(ring[1]))
     areas = [seen_area(mesh, body) for mesh in meshes]
-    density = min(1 / MIN_TRIANGLE_SQUARE_METRES, MAX_ATTACHED_TRIANGLES / sum(areas))
+    density = min(1 / MIN_TRIANGLE_SQUARE_METRES, free / max(sum(areas), MIN_SEEN_SQUARE_METRES))
     meshes = [simplified(mesh, body, int(area * density)) for mesh, area in zip(meshes, areas, strict=True)]
     joint_weights = _joint_weights(human)
-    others = meshes if skirt is None else meshes[:-1]
-    moved = [influences(*mesh, body, joint_weights, _head(human)) for mesh in others]
-    if skirt is not None:
-        moved.append(leg_influences(*meshes[-1], body, skirt.legs, joint_weights))
+    moved = [influences(*mesh, body, joint_weights, _head(human)) for mesh in meshes]
+    if skirt is not None and ring is not None:
+        meshes.append(ring)
+        moved.append(leg_influences(*ring, bare, skirt.legs, joint_weights))
+    if not meshes:
+        return no_attachments()
     whole = _joined(meshes)
     return Attachments(
         *whole,

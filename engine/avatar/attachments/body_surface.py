@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,10 @@ class BodySurface:
     own: NDArray[np.bool_]
     face: NDArray[np.bool_]
     head: NDArray[np.bool_]
+
+    def without_own(self) -> BodySurface:
+        """The same without the triangles of what stays by itself: no hand hides the hip that it hangs beside, and none moves it."""
+        return replace(self, triangles=self.triangles[~self.own[self.triangles].any(1)])
 
     def distances(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
         """(N,) metres from the skin to `points` (N, 3), negative within it."""

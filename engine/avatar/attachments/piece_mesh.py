@@ -56,8 +56,12 @@ def simplified(mesh: Mesh, body: BodySurface, triangles: int) -> Mesh:
     )
     hidden = body.distances(vertices) < -HIDDEN_DEPTH_METRES
     fewer = decimate(whole, triangles, np.where(hidden, HIDDEN_TRIANGLE_WEIGHT, 1.0)).mesh
-    left = fewer.vertices.astype(np.float64)
-    found = _parts(left, fewer.triangles[_seen(left, fewer.triangles, body)])
+    return seen_part((fewer.vertices.astype(np.float64), fewer.triangles), body)
+
+
+def seen_part(mesh: Mesh, body: BodySurface) -> Mesh:
+    """What the skin does not hide of a closed piece, its triangles as they are."""
+    found = _parts(mesh[0], mesh[1][_seen(*mesh, body)])
     assert found, "a piece that silhouettes confirm is seen"
     return found[0]
 

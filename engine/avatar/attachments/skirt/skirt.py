@@ -186,7 +186,7 @@ class _Rays:
         radii = lengths[first] + share * (lengths[ends] - lengths[first])
         asked = np.arange(len(lengths)) < ends[..., None]
         away, arm = np.full(shape, np.inf), np.zeros(shape, np.bool_)
-        away[asked] = body.distances(places[asked])
+        away[asked] = body.without_own().distances(places[asked])
         arm[asked] = body.own[body.nearest(places[asked])]
         met = np.where(arm.any(2), arm.argmax(2), len(lengths))
         within = (away < 0) & (np.arange(len(lengths)) < met[..., None])

@@ -11,6 +11,8 @@ from engine.avatar.attachments.skirt.skirt import HEIGHT_STEP_METRES, Skirt, dir
 from engine.avatar.attachments.solid import SKIN_COVER_METRES, SKIN_OVERLAP_METRES
 from engine.face_animation.smoothstep import smoothstep
 
+ROW_COUNT = 14
+"""Rows of vertices from the hem to the upper end, outside as inside."""
 CLOTH_METRES = 0.004
 """Metres from the outside of cloth to its inside."""
 HEM_ROUND_METRES = 0.002
@@ -20,8 +22,7 @@ HEM_ROUND_METRES = 0.002
 def skirt_mesh(skirt: Skirt) -> Mesh:
     """The closed surface, vertices (V, 3) and triangles (T, 3), counter-clockwise from outside. Its upper end is hidden within the hips."""
     top = skirt.heights[-1]
-    rows = int(np.ceil((top - skirt.hem.min()) / HEIGHT_STEP_METRES)) + 1
-    up = np.linspace(0, 1, rows)
+    up = np.linspace(0, 1, ROW_COUNT)
     heights = skirt.hem[:, None] + up * (top - skirt.hem[:, None])
     outside = _outside(skirt, heights)
     inside = outside - CLOTH_METRES

@@ -16,6 +16,7 @@ from engine.avatar.attachments.skirt.legs import Legs
 from engine.avatar.attachments.skirt.skirt import Skirt, skirt_around, smooth_hem
 from engine.avatar.attachments.skirt.skirt_mesh import CLOTH_METRES, skirt_mesh
 from engine.avatar.registration.models import HumanModels, load_models
+from engine.avatar.worn import Attachments
 from tests.avatar.attachments.skirt.skirted_person import DEEP_METRES, WIDE_METRES, Mesh, filmed, hanging, standing
 
 ALL_AROUND = 2 * np.pi * np.arange(90) / 90
@@ -51,6 +52,11 @@ def dressed(human: HumanModels) -> Dressed:
     skirt = found(body, legs, seen)
     assert skirt is not None
     return Dressed(body, legs, seen, skirt)
+
+
+@pytest.fixture(scope="module")
+def worn(human: HumanModels, dressed: Dressed) -> Attachments:
+    return attachments(human, human.template.vertices.astype(np.float64), dressed.seen)
 
 
 def test_it_ends_where_its_hem_is_and_is_as_wide_as_it_hangs(dressed: Dressed) -> None:
@@ -90,9 +96,10 @@ def test_its_surface_is_closed_goes_around_both_legs_and_begins_within_the_hips(
     assert (dressed.body.distances(vertices[top]) < 0).all()
 
 
-def test_what_is_worn_is_that_ring_and_its_points_are_no_skin_s(human: HumanModels, dressed: Dressed) -> None:
+def test_what_is_worn_is_that_ring_and_its_points_are_no_skin_s(
+    human: HumanModels, dressed: Dressed, worn: Attachments
+) -> None:
     vertices = human.template.vertices.astype(np.float64)
-    worn = attachments(human, vertices, dressed.seen)
     low = worn.vertices[worn.vertices[:, 1] < dressed.legs.crotch - 0.03]
     off = low[:, [0, 2]] - dressed.legs.axis
     assert np.linalg.norm(off, axis=1).min() > DEEP_METRES - CLOTH_METRES - 0.015, "nothing else is between the legs"
@@ -115,3 +122,13 @@ def test_before_a_leg_it_goes_with_that_leg_and_between_with_both(human: HumanMo
     assert left[low & (aside > 0.95)].min() > 0.8 and right[low & (aside > 0.95)].max() < 0.1
     between = low & (np.abs(aside) < 0.05)
     np.testing.assert_allclose(left[between], right[between], atol=0.12)
+
+
+def test_a_hand_beside_the_hips_neither_moves_the_ring_nor_hides_it(
+    human: HumanModels, dressed: Dressed, worn: Attachments
+) -> None:
+    """Of what stays by itself no triangle is left to be asked."""
+    bare = dressed.body.without_own()
+    assert not dressed.body.own[bare.triangles].any() and len(bare.triangles) < len(dressed.body.triangles)
+    moving = np.unique(worn.bones[worn.weights > 0])
+    assert not any("Hand" in human.rig.names[joint] or "Arm" in human.rig.names[joint] for joint in moving)
