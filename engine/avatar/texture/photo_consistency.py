@@ -24,8 +24,11 @@ FACES_AT_ONCE = 4096
 """Faces that are looked at together: they are as many times frames numbers."""
 
 
-def consistent(samples: ViewSamples, gains: NDArray[np.floating]) -> ViewSamples:
-    """What frames show, but for faces at which most frames contradict them; `gains` (N, 3) of the frames."""
+def consistent(
+    samples: ViewSamples, gains: NDArray[np.floating], doubted: NDArray[np.bool_] | None = None
+) -> ViewSamples:
+    """What frames show, but for faces at which most frames contradict them, and for `doubted` ones (T,) that too few show to contradict
+    any; `gains` (N, 3) of the frames."""
     faces, frames = samples.cosine.shape
     edges = len(samples.pairs)
     means = samples.colours.mean(2, dtype=np.float32) * np.asarray(gains, np.float32)
@@ -38,6 +41,8 @@ def consistent(samples: ViewSamples, gains: NDArray[np.floating]) -> ViewSamples
         colours = (of_face[part] @ means.reshape(edges, -1)).reshape(-1, frames, 3) / number[part, None, None]
         seen = cosine[part] > 0
         cosine[part] = np.where(_contradicted(colours, seen), 0, cosine[part])
+    if doubted is not None:
+        cosine[doubted & ((samples.cosine > 0).sum(1) < MIN_FRAMES_SHOWING_FACE)] = 0
     return replace(samples, cosine=cosine)
 
 

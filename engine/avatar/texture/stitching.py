@@ -58,7 +58,7 @@ def stitch_texture(
     views = aligned(surface, views, gains)
     samples = sample_views(surface, views)
     gains = exposure_gains(samples)
-    samples = consistent(samples, gains)
+    samples = consistent(samples, gains, surface.doubted)
     areas = triangle_areas(surface.vertices, surface.triangles)
     best, labels = best_views(samples, gains, areas), stitched(samples, gains, areas)
     resolution = _resolution(samples, labels)

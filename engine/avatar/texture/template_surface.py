@@ -26,6 +26,8 @@ from engine.geometry.texture_charts.texture_atlas import TextureAtlas, atlas_fro
 
 HAND_DRIFT_METRES = 0.025
 """Metres from a hand within which frames may show it in place of what is there."""
+FINGER_GAP_METRES = 0.06
+"""Metres from a hand within which frames may show the room in place of what is there: masks have it between fingers."""
 OWN_HAND_REACH_METRES = 0.12
 """Metres from a hand within which, in the template, what is there is the hand itself, or its arm."""
 ATTACHED_PART = len(AVATAR_PARTS)
@@ -63,12 +65,16 @@ class TemplateSurface:
         the lids' folds."""
         places = np.asarray(vertices, np.float64)
         stitched = (
-            np.isin(self.part, [AVATAR_PARTS.index("body"), ATTACHED_PART]) & ~self.mouth & ~self._under_hands(places)
+            np.isin(self.part, [AVATAR_PARTS.index("body"), ATTACHED_PART])
+            & ~self.mouth
+            & ~self._beside_hands(places, HAND_DRIFT_METRES)
         )
         for folded in self.lid_folds(places).values():
             stitched &= ~folded
         stitched &= ~self.sockets
-        return ChartedSurface(places, self.triangles, self.atlas, stitched)
+        return ChartedSurface(
+            places, self.triangles, self.atlas, stitched, self._beside_hands(places, FINGER_GAP_METRES)
+        )
 
     def lid_folds(self, vertices: NDArray[np.floating]) -> dict[str, NDArray[np.bool_]]:
         """Of each eyeball, (T,) the skin in the folds of its lids where the template's vertices are (V, 3)."""
@@ -99,13 +105,13 @@ class TemplateSurface:
         out[columns] = np.stack([found.lengths, found.untucked()], 2)
         return out
 
-    def _under_hands(self, vertices: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """(T,) what is close to a hand in the pose of the vertices (V, 3), and not by growth: frames show the hand there, too, as it
-        drifts."""
+    def _beside_hands(self, vertices: NDArray[np.float64], reach: float) -> NDArray[np.bool_]:
+        """(T,) what is within `reach` of a hand, metres, in the pose of the vertices (V, 3), and not by growth: frames show the hand
+        there, too, as it drifts."""
         hand = np.unique(self.triangles[np.any(list(self.hands.values()), axis=0)])
         posed, rest = (
-            cKDTree(places[hand]).query(places[self.triangles].mean(1), distance_upper_bound=reach)[0]
-            for places, reach in ((vertices, HAND_DRIFT_METRES), (self.rest, OWN_HAND_REACH_METRES))
+            cKDTree(places[hand]).query(places[self.triangles].mean(1), distance_upper_bound=within)[0]
+            for places, within in ((vertices, reach), (self.rest, OWN_HAND_REACH_METRES))
         )
         return np.isfinite(posed) & ~np.isfinite(rest)
 

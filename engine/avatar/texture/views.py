@@ -17,13 +17,15 @@ from engine.geometry.texture_charts.texture_atlas import TextureAtlas
 class ChartedSurface:
     """A surface that is textured: `vertices` (V, 3) metres and `triangles` (T, 3) int32, counter-clockwise seen from outside,
     not cut along the seams of the texture; triangle `t` lies on the texture as the atlas' triangle `t`. `stitched` (T,)
-    bool: the triangles that take colours from frames; the others only hide what lies behind them.
+    bool: the triangles that take colours from frames; the others only hide what lies behind them. `doubted` (T,) bool: those of which
+    frames are believed only where they are so many that they contradict one that is wrong; None where none is.
     """
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.int32]
     atlas: TextureAtlas
     stitched: NDArray[np.bool_]
+    doubted: NDArray[np.bool_] | None = None
 
     def __post_init__(self) -> None:
         count = len(self.triangles)

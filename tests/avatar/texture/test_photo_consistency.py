@@ -42,3 +42,12 @@ def test_frames_that_agree_are_all_kept_and_so_is_what_few_show(ball: Ball, ball
     assert kept[samples.cosine > 0].mean() > 0.99
     two = sample_views(ball.surface, [with_rug(views[0], ball_cameras[0]), views[1]])
     np.testing.assert_array_equal(consistent(two, ones[:2]).cosine, two.cosine)
+
+
+def test_where_frames_are_doubted_what_few_show_is_not_taken(ball: Ball, ball_cameras: list[Camera]) -> None:
+    views = [ball.view(camera) for camera in ball_cameras[:2]]
+    samples = sample_views(ball.surface, views)
+    doubted = ball.surface.vertices[ball.surface.triangles].mean(1)[:, 1] > 0
+    found = consistent(samples, np.ones((2, 3), np.float32), doubted).cosine
+    assert not found[doubted].any() and samples.cosine[doubted].any()
+    np.testing.assert_array_equal(found[~doubted], samples.cosine[~doubted])

@@ -146,6 +146,9 @@ def test_what_a_hand_lies_on_is_not_taken_from_frames(surface: TemplateSurface) 
     assert (np.linalg.norm(middles[lost] - thigh, axis=1) < 0.15).all()
     near = np.linalg.norm(middles[:, None] - posed[hand][None, ::20], axis=2).min(1) < 0.01
     assert lost[near & (middles[:, 1] < 0)].all()
+    doubted = surface.fitted(posed).doubted
+    assert doubted is not None and doubted[lost].all() and doubted.sum() > 1.3 * lost.sum(), "farther around a hand"
+    assert not doubted[surface.hands["Left"] | surface.hands["Right"]].any()
 
 
 def test_an_eye_is_black_then_coloured_then_white() -> None:
