@@ -30,7 +30,7 @@ class BodySurface:
     head: NDArray[np.bool_]
 
     def without_own(self) -> BodySurface:
-        """The same without the triangles of what stays by itself: no hand hides the hip that it hangs beside, and none moves it."""
+        """The skin without the triangles of what stays by itself: no hand hides the hip that it hangs beside, and none moves it."""
         return replace(self, triangles=self.triangles[~self.own[self.triangles].any(1)])
 
     def distances(self, points: NDArray[np.floating]) -> NDArray[np.float64]:

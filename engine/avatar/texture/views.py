@@ -15,10 +15,14 @@ from engine.geometry.texture_charts.texture_atlas import TextureAtlas
 
 @dataclass(frozen=True)
 class ChartedSurface:
-    """A surface that is textured: `vertices` (V, 3) metres and `triangles` (T, 3) int32, counter-clockwise seen from outside,
-    not cut along the seams of the texture; triangle `t` lies on the texture as the atlas' triangle `t`. `stitched` (T,)
-    bool: the triangles that take colours from frames; the others only hide what lies behind them. `doubted` (T,) bool: those of which
-    frames are believed only where they are so many that they contradict one that is wrong; None where none is.
+    """A surface that is textured, not cut along the seams of the texture.
+
+    vertices : (V, 3) metres.
+    triangles : (T, 3) int32, counter-clockwise seen from outside.
+    atlas : where they lie on the texture, the triangle `t` as its triangle `t`.
+    stitched : (T,) bool, those that take colours from frames; the others only hide what lies behind them.
+    doubted : (T,) bool, those of which frames are believed only where they are so many that they contradict one that is
+        wrong; None where none is.
     """
 
     vertices: NDArray[np.float64]

@@ -11,8 +11,9 @@ from engine.avatar.attachments.skirt.legs import Legs
 from engine.face_animation.smoothstep import smoothstep
 from engine.geometry.mesh.adjacency import neighbours
 from engine.geometry.mesh.closest_points import closest_points
+from engine.geometry.rigging.joint_names import SIDE_NAMES
 
-SMOOTHING_ROUNDS = 30
+LEG_SMOOTHING_ROUNDS = 30
 """Rounds in which influences become the mean of those around: a few centimetres."""
 HIPS_METRES = (-0.03, 0.04)
 """Metres above the crotch between which what moves cloth goes over from the legs to the skin of the hips."""
@@ -33,12 +34,12 @@ def leg_influences(
     """
     left = shares_of_left(legs.sideways(vertices))
     own = np.zeros((len(vertices), joint_weights.shape[1]))
-    for side, share in (("Left", left), ("Right", 1 - left)):
+    for side, share in zip(SIDE_NAMES, (left, 1 - left), strict=True):
         leg = body.triangles[legs.skin[side][body.triangles].all(1)]
         own += share[:, None] * closest_points(vertices, body.vertices, leg).interpolated(joint_weights, leg)
     beside = neighbours(triangles, len(vertices))
     number = np.maximum(np.asarray(beside.sum(1)).reshape(-1, 1), 1)
-    for _ in range(SMOOTHING_ROUNDS):
+    for _ in range(LEG_SMOOTHING_ROUNDS):
         own = (own + beside @ own / number) / 2
     skin = closest_points(vertices, body.vertices, body.triangles).interpolated(joint_weights, body.triangles)
     above = smoothstep(vertices[:, 1] - legs.crotch, *HIPS_METRES)[:, None]

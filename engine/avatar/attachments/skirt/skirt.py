@@ -21,7 +21,7 @@ from engine.geometry.point_clouds.point_cloud import PointCloud
 
 TURN_COUNT = 96
 """Directions around the axis."""
-HEIGHT_STEP_METRES, RADIUS_STEP_METRES = 0.008, 0.01
+LEVEL_STEP_METRES, RADIUS_STEP_METRES = 0.008, 0.01
 """Metres between heights, and between places along a direction, at which silhouettes are asked."""
 TOP_METRES = 0.12
 """Metres above the crotch up to which cloth that goes around both legs is told from the skin."""
@@ -90,7 +90,7 @@ class Skirt:
         left, ahead = directions(self.legs, np.array([0, np.pi / 2]))
         turn = np.arctan2(off @ ahead, off @ left)
         column = turn / (2 * np.pi) * len(self.turns) % len(self.turns)
-        row = np.clip((points[:, 1] - self.heights[0]) / HEIGHT_STEP_METRES, 0, len(self.heights) - 1)
+        row = np.clip((points[:, 1] - self.heights[0]) / LEVEL_STEP_METRES, 0, len(self.heights) - 1)
         closed = np.concatenate([self.radii, self.radii[:1]])
         radius = ndimage.map_coordinates(closed, [column, row], order=1)
         hem = np.interp(turn, self.turns, self.hem, period=2 * np.pi)
@@ -107,7 +107,7 @@ def skirt_around(body: BodySurface, legs: Legs, silhouettes: Silhouettes, cloud:
     """The cloth that silhouettes have around both legs of a body, where the `cloud` has none of the legs within; None where nothing goes
     around both."""
     turns = 2 * np.pi * np.arange(TURN_COUNT) / TURN_COUNT
-    heights = np.arange(legs.soles, legs.crotch + TOP_METRES, HEIGHT_STEP_METRES)
+    heights = np.arange(legs.soles, legs.crotch + TOP_METRES, LEVEL_STEP_METRES)
     ways = directions(legs, turns)
     gaps = [np.flatnonzero(np.cos(turns - ahead) > np.cos(np.radians(GAP_DEGREES))) for ahead in AHEAD_AND_BACK]
     lowest = np.inf
@@ -123,7 +123,7 @@ def skirt_around(body: BodySurface, legs: Legs, silhouettes: Silhouettes, cloud:
             lowest = min(lowest, float(drop.min()))
     rays = _Rays.cast(body, silhouettes, legs, ways, heights[heights > lowest - MIN_DROP_METRES])
     hem = smooth_hem(turns, rays.lowest_cloth(legs.crotch), legs.crotch - MIN_DROP_METRES)
-    kept = rays.heights > hem.min() - HEIGHT_STEP_METRES
+    kept = rays.heights > hem.min() - LEVEL_STEP_METRES
     rounded = rays.heights < hem[:, None] + HEM_MARGIN_METRES
     radii = _smooth(np.where(rounded | ~rays.open, np.nan, rays.radii))
     return Skirt(legs, turns, rays.heights[kept], radii[:, kept], rays.skin[:, kept], hem)
@@ -136,7 +136,7 @@ def _is_outside(cloud: PointCloud, legs: Legs, turns: NDArray[np.float64], rays:
     radius = np.linalg.norm(off, axis=1)
     nearest = (off / np.maximum(radius, 1e-9)[:, None]) @ directions(legs, turns).T
     column = nearest.argmax(1)
-    row = np.rint((cloud.points[:, 1] - rays.heights[0]) / HEIGHT_STEP_METRES).astype(np.intp)
+    row = np.rint((cloud.points[:, 1] - rays.heights[0]) / LEVEL_STEP_METRES).astype(np.intp)
     level = (cloud.points[:, 1] > lowest) & (row >= 0) & (cloud.points[:, 1] < legs.crotch)
     inside = level & (nearest.max(1) > np.cos(2 * np.pi / TURN_COUNT))
     depth = rays.radii[column[inside], np.minimum(row[inside], len(rays.heights) - 1)] - radius[inside]
@@ -197,9 +197,9 @@ class _Rays:
     def lowest_cloth(self, crotch: float) -> NDArray[np.float64]:
         """(A,) the height down to which cloth hangs from the `crotch` on, +inf where none does. Cameras look down, and hide below a hem what they
         have no room for farther out: there outlines recede faster than they go down."""
-        below = np.flatnonzero(self.heights < crotch - HEIGHT_STEP_METRES)[::-1]
+        below = np.flatnonzero(self.heights < crotch - LEVEL_STEP_METRES)[::-1]
         cloth = (self.open & (self.off > MIN_STANDING_OFF_METRES))[:, below]
-        cloth[:, 1:] &= np.diff(self.radii[:, below], axis=1) > -HEIGHT_STEP_METRES
+        cloth[:, 1:] &= np.diff(self.radii[:, below], axis=1) > -LEVEL_STEP_METRES
         rows = np.logical_and.accumulate(cloth, axis=1).sum(1)
         return np.where(rows > 0, self.heights[below[np.maximum(rows - 1, 0)]], np.inf)
 
@@ -228,12 +228,12 @@ def smooth_hem(turns: NDArray[np.float64], lowest: NDArray[np.float64], highest:
 def _smooth(radii: NDArray[np.float64]) -> NDArray[np.float64]:
     """(A, K) radii, (A, K), smoothly over what is not known (NaN)."""
     known = np.isfinite(radii).astype(np.float64)
-    sigma, modes = (CURVE_BLUR_TURNS, CURVE_BLUR_HEIGHTS), ("wrap", "nearest")
+    sigma = (CURVE_BLUR_TURNS, CURVE_BLUR_HEIGHTS)
     values = np.where(known > 0, radii, 0)
     out, reached = np.zeros_like(values), np.zeros_like(values)
     while (reached == 0).any():  # wider, where nothing near is known
-        near = ndimage.gaussian_filter(known, sigma, mode=modes)
-        far = ndimage.gaussian_filter(values, sigma, mode=modes)
+        near = ndimage.gaussian_filter(known, sigma, mode=("wrap", "nearest"))
+        far = ndimage.gaussian_filter(values, sigma, mode=("wrap", "nearest"))
         some = (reached == 0) & (near > 1e-3)
         out[some], reached[some] = far[some] / near[some], 1
         sigma = (2 * sigma[0], 2 * sigma[1])

@@ -7,13 +7,13 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from engine.avatar.attachments.piece_mesh import Mesh
-from engine.avatar.attachments.skirt.skirt import HEIGHT_STEP_METRES, Skirt, directions
+from engine.avatar.attachments.skirt.skirt import LEVEL_STEP_METRES, Skirt, directions
 from engine.avatar.attachments.solid import SKIN_COVER_METRES, SKIN_OVERLAP_METRES
 from engine.face_animation.smoothstep import smoothstep
 
 ROW_COUNT = 14
 """Rows of vertices from the hem to the upper end, outside as inside."""
-CLOTH_METRES = 0.004
+RING_THICKNESS_METRES = 0.004
 """Metres from the outside of cloth to its inside."""
 HEM_ROUND_METRES = 0.002
 """Metres by which a hem's edge is lower than both its sides."""
@@ -25,7 +25,7 @@ def skirt_mesh(skirt: Skirt) -> Mesh:
     up = np.linspace(0, 1, ROW_COUNT)
     heights = skirt.hem[:, None] + up * (top - skirt.hem[:, None])
     outside = _outside(skirt, heights)
-    inside = outside - CLOTH_METRES
+    inside = outside - RING_THICKNESS_METRES
     middle = (skirt.hem - HEM_ROUND_METRES)[:, None]
     ring_heights = np.concatenate([heights[:, ::-1], middle, heights], 1)
     ring_radii = np.concatenate([outside[:, ::-1], (outside[:, :1] + inside[:, :1]) / 2, inside], 1)
@@ -43,7 +43,7 @@ def skirt_mesh(skirt: Skirt) -> Mesh:
 def _outside(skirt: Skirt, heights: NDArray[np.float64]) -> NDArray[np.float64]:
     """(A, N) metres from the axis to the outside of the cloth at `heights` (A, N): over the skin up to the crotch, and from there on into
     it."""
-    rows = (heights - skirt.heights[0]) / HEIGHT_STEP_METRES
+    rows = (heights - skirt.heights[0]) / LEVEL_STEP_METRES
     columns = np.broadcast_to(np.arange(len(heights))[:, None], heights.shape)
     cloth, skin = (
         ndimage.map_coordinates(of, [columns, rows], order=1, mode="nearest") for of in (skirt.radii, skirt.skin)

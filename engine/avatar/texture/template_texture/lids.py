@@ -25,7 +25,7 @@ OWN_LID_EYE_WIDTHS, BELOW_BROW_EYE_WIDTHS = (0.06, 0.15), (0.08, LID_SKIN_EYE_WI
 frames show above, and to where it is that: where they show skin there, and where they show brow or shade."""
 BROW_SHADE_SHARE = 0.12
 """Of the light, what a lid below a brow, or deep in its socket, has less than the skin around."""
-LASH_REACH_EYE_WIDTHS = 0.12
+LASHES_EYE_WIDTHS = 0.12
 """Widths of an eye from its lids' rims within which nothing is believed to be skin: lashes stand there, and their shade lies there."""
 OUT_OF_TUCK_EYE_WIDTHS = (TUCKED_EYE_WIDTHS, 0.07)
 """Widths of an eye from the rim of an upper lid that is tucked between which paint goes over to what frames show."""
@@ -90,7 +90,7 @@ def place_lids(
         skin_light = float(np.median(flat[below.texels] @ LUMINANCE_WEIGHTS))
         around = PartTexels.of(raster, near)
         at = around.blend(places, surface.triangles)
-        bare = loop.query(at)[0] > LASH_REACH_EYE_WIDTHS * width
+        bare = np.asarray(loop.query(at)[0]) > LASHES_EYE_WIDTHS * width
         if not bare.any():
             continue
         middle = rim.mean(0)

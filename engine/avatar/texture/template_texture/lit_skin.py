@@ -10,24 +10,23 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.eyes.socket_skin import (
+    LIT_CHEEK_SHARES,
+    MIN_SKIN_DEVIATION_GREY_LEVELS,
+    SKIN_RANGE_PERCENTILES,
+)
 from engine.face_animation.smoothstep import smoothstep
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
 
-LIT_SKIN_SHARES = (0.35, 0.8)
-"""Of the light of the skin below an eye, up to which what is around it is lash, brow or shade, and from which on it is skin."""
 SLOPE_DOUBT = 0.02
 """Square of the eye widths over which colours are believed to change at all, beside how far around skin is seen."""
 PLANE_ROUNDS = 6
 """Rounds of reweighted least squares."""
-MIN_SKIN_DEVIATION_GREY_LEVELS = 3.0
-"""Grey levels by which skin differs from its plane at least."""
-SKIN_RANGE_PERCENTILES = (5, 95)
-"""Of each channel of the skin around an eye, between which its plane is: one that is continued may leave them."""
 
 
 @dataclass(frozen=True)
 class LitSkin:
-    """plane : (4, 3) the colour at the origin, and by what it changes a metre.
+    """plane : (4, 3) the colour at the origin, and by what it changes a width of the eye along x, y and z.
     range : (2, 3) between which colours stay.
     light : the luminance of skin.
     """
@@ -40,7 +39,7 @@ class LitSkin:
     def around(cls, colours: NDArray[np.number], places: NDArray[np.floating], light: float) -> LitSkin:
         """That of texels with `colours` (M, 3) at `places` (M, 3), eye widths, around an eye below which skin has the luminance `light`."""
         shown, basis = np.asarray(colours, np.float64), _basis(places)
-        skin = smoothstep(shown @ LUMINANCE_WEIGHTS / light, *LIT_SKIN_SHARES)
+        skin = smoothstep(shown @ LUMINANCE_WEIGHTS / light, *LIT_CHEEK_SHARES)
         weights = skin
         for _ in range(PLANE_ROUNDS):
             level = SLOPE_DOUBT * weights.sum() * np.diag([0.0, 1.0, 1.0, 1.0])
@@ -57,7 +56,7 @@ class LitSkin:
 
     def trust(self, colours: NDArray[np.number]) -> NDArray[np.float64]:
         """(N,) from 0 to 1, how far `colours` (N, 3) are of skin."""
-        return smoothstep(np.asarray(colours) @ LUMINANCE_WEIGHTS / self.light, *LIT_SKIN_SHARES)
+        return smoothstep(np.asarray(colours) @ LUMINANCE_WEIGHTS / self.light, *LIT_CHEEK_SHARES)
 
 
 def _basis(places: NDArray[np.floating]) -> NDArray[np.float64]:

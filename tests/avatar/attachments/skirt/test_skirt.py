@@ -14,7 +14,7 @@ from engine.avatar.attachments.silhouettes import silhouettes_beside
 from engine.avatar.attachments.skirt.leg_influences import leg_influences
 from engine.avatar.attachments.skirt.legs import Legs
 from engine.avatar.attachments.skirt.skirt import Skirt, skirt_around, smooth_hem
-from engine.avatar.attachments.skirt.skirt_mesh import CLOTH_METRES, skirt_mesh
+from engine.avatar.attachments.skirt.skirt_mesh import RING_THICKNESS_METRES, skirt_mesh
 from engine.avatar.registration.models import HumanModels, load_models
 from engine.avatar.worn import Attachments
 from tests.avatar.attachments.skirt.skirted_person import DEEP_METRES, WIDE_METRES, Mesh, filmed, hanging, standing
@@ -91,7 +91,7 @@ def test_its_surface_is_closed_goes_around_both_legs_and_begins_within_the_hips(
     level = np.abs(thighs[:, 1] - (dressed.legs.crotch - 0.06)) < 0.01
     outer = vertices[np.abs(vertices[:, 1] - (dressed.legs.crotch - 0.06)) < 0.01]
     reach, own = (np.linalg.norm(of[:, [0, 2]] - dressed.legs.axis, axis=1) for of in (outer, thighs[level]))
-    assert reach.max() > own.max() and reach.min() > DEEP_METRES - CLOTH_METRES - 0.015
+    assert reach.max() > own.max() and reach.min() > DEEP_METRES - RING_THICKNESS_METRES - 0.015
     top = vertices[:, 1] > vertices[:, 1].max() - 1e-6
     assert (dressed.body.distances(vertices[top]) < 0).all()
 
@@ -102,7 +102,9 @@ def test_what_is_worn_is_that_ring_and_its_points_are_no_skin_s(
     vertices = human.template.vertices.astype(np.float64)
     low = worn.vertices[worn.vertices[:, 1] < dressed.legs.crotch - 0.03]
     off = low[:, [0, 2]] - dressed.legs.axis
-    assert np.linalg.norm(off, axis=1).min() > DEEP_METRES - CLOTH_METRES - 0.015, "nothing else is between the legs"
+    assert np.linalg.norm(off, axis=1).min() > DEEP_METRES - RING_THICKNESS_METRES - 0.015, (
+        "nothing else is between the legs"
+    )
     assert np.histogram(np.arctan2(off[:, 1], off[:, 0]), 24)[0].min() > 0
     points = standing_points(human, vertices, dressed.seen)
     below = points[:, 1] < dressed.legs.crotch - 0.02
