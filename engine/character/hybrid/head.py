@@ -203,7 +203,8 @@ def joined_at_the_neck(
     z[up] = np.maximum(z, np.minimum(least, most))[up]
     moved = pictured.copy()
     moved[own, 2] += _spread(mesh, z - pictured[:, 2])[own]
-    return moved, _beneath(mesh.triangles[own[mesh.triangles].all(1)], moved, trunk, head)
+    neck = mesh.triangles[(own | shown.overlap)[mesh.triangles].all(1)]  # shoulders go on up to it
+    return moved, _beneath(neck, moved, trunk, head)
 
 
 def _beneath(

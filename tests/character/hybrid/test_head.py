@@ -16,6 +16,7 @@ from engine.character.figure.silhouette import GRID_HEIGHT_PIXELS, Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human, pose_template
 from engine.character.hybrid.cut_off import cut_off
 from engine.character.hybrid.head import (
+    COLLAR_SMOOTHING_PIXELS,
     hair_keeps_to_the_head,
     joined_at_the_neck,
     no_limbs,
@@ -23,19 +24,24 @@ from engine.character.hybrid.head import (
     without_head,
 )
 from engine.character.hybrid.headed import make_headed_relief
+from engine.character.hybrid.hybrid import Hybrid, limbs_alone, make_hybrid
 from engine.character.hybrid.suited_surface import arm_raised, legs_pass, suited_surface
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import LEG_LABELS
 from engine.character.shell.shell import ears_laid_back, eyes_in_sockets, shaped_head
 from engine.character.shell.template_mesh import template_mesh
 from engine.character.stages import build_mesh
+from engine.character.surface.depth_order import INSET_PIXELS
 from engine.geometry.mesh.welding import is_closed, same_rows
-from engine.imaging.masks.mask_distance import dilate_mask
+from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.render.rasterisation.rasteriser import rasterise
 from tests.character.fit.test_head_and_legs import seen_face
 from tests.character.hybrid.test_hybrid import figure_and_outline
 
 HEAD, TRUNK = BODY_PARTS.index("head"), BODY_PARTS.index("torso")
+
+COLLAR_DEPTH_PIXELS = 14
+"""Pixels of the trunk below the head that show a neck in an open collar."""
 
 Found = tuple[Figure, FittedBody, Silhouette, Labels]
 
@@ -52,6 +58,15 @@ def template(found: Found) -> NDArray[np.float64]:
     """Its vertices in the picture."""
     figure, fitted, silhouette, labels = found
     return shaped_head(figure, silhouette, fitted, labels).template
+
+
+@pytest.fixture(scope="module")
+def open_collar(found: Found) -> tuple[Labels, Hybrid]:
+    """A neck that is seen further down, as in an open collar: the labels, and both surfaces."""
+    figure, fitted, silhouette, own = found
+    neck = (own.labels == TRUNK) & dilate_mask(own.labels == HEAD, COLLAR_DEPTH_PIXELS)
+    labels = replace(own, labels=np.where(neck, HEAD, own.labels).astype(np.int8))
+    return labels, make_hybrid(figure, silhouette, fitted, labels)
 
 
 def keeps(found: Found, template: NDArray[np.float64], labels: NDArray[np.int8]) -> bool:
@@ -159,6 +174,23 @@ def test_no_gap_opens_at_the_neck(
     column, row = np.rint(neck[:2]).astype(int)
     about = holes[row - 40 : row + 40, column - 40 : column + 40]
     assert about.sum() < 4, f"{count} pieces"
+
+
+@pytest.mark.parametrize(("towards", "bound"), [(1.0, 0.05), (-1.0, 0.2)])
+def test_beside_shoulders_the_trunk_ends_within_the_neck(
+    open_collar: tuple[Labels, Hybrid], towards: float, bound: float
+) -> None:
+    """Before and behind, where shoulders go on up to the neck, too: hardly any cloth is seen in the head."""
+    labels, hybrid = open_collar[0].labels, open_collar[1]
+    shell, trunk = (
+        -rasterise(vertices * [1, 1, -towards], triangles, labels.shape).depth
+        for vertices, triangles in (
+            (hybrid.shell.pictured, limbs_alone(hybrid).mesh.triangles),
+            (hybrid.trunk.vertices, hybrid.trunk.triangles),
+        )
+    )
+    within = (labels == HEAD) & np.isfinite(trunk) & (distance_to(labels != HEAD) > COLLAR_SMOOTHING_PIXELS)
+    assert within.sum() > 40 and (trunk > shell + INSET_PIXELS)[within].mean() < bound
 
 
 def test_whose_head_is_not_seen_keeps_the_relief(found: Found) -> None:
