@@ -37,11 +37,10 @@ from engine.face_animation.motion_transfer.head_proxy import (
 from engine.face_animation.motion_transfer.head_room import hold_back, skull_shift, turned_in_picture
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
 from engine.face_animation.motion_transfer.lids_and_lips import (
-    close_lids,
     constrain_lids_and_lips,
     gap_limits,
-    hold_lids,
     lid_ratio,
+    open_lids,
 )
 from engine.face_animation.motion_transfer.lids_below_brows import keep_lids_below_brows
 from engine.face_animation.motion_transfer.pose_refinement import refine_pose
@@ -124,7 +123,6 @@ class MotionTransfer:
         self._driver = build_head_proxy(np.concatenate([self._rest[:, :2], self._around]), self._rest)
         self._phi = align(self._rest, target)
         self._turned = turned_in_picture(target)
-        self._lids = gap_limits(target)
         self._lips, self._smile = ClosingLips(self._rest, target), SmileCurve(self._rest, target)
         self._unit = float(eye_distance(target[:, :2]))
         self._maps = local_maps(self._phi, self._rest, target, float(eye_distance(self._rest[:, :2])))
@@ -162,9 +160,8 @@ class MotionTransfer:
             placed = self._corrected(frames, face[..., :2] + plane_share(target)[:, None] * plane)
             rigid = solid[:, :MESH_SIZE, :2]
             placed = rigid + self._even @ (placed - rigid)
+            open_lids(placed, rigid, ratio)
             keep_lids_below_brows(placed, rigid, control.bare)
-            close_lids(placed, rigid, ratio)
-            hold_lids(placed, rigid, self._lids)
             keep_thickness(placed, rigid, thickness)
             offsets[:, MESH_SIZE:] = self._around_face(frames, motion, held, proxy, solid[..., :2], placed)
         offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
@@ -194,7 +191,7 @@ class MotionTransfer:
         self._smile.lift(acted, upright, self._mouth)
         self._lips.close(acted, upright, self._mouth)
         keep_lips_off_skin(acted, target, philtrum_compression(upright, rest))
-        ratio = np.maximum(ratio, 0)
+        ratio = np.clip(ratio, 0, np.repeat(gap_limits(target), 7))  # however strongly
         expression = constrain_lids_and_lips(acted, target, ratio, self._control.bare) - target
         look = self._eyes * gaze(rest + motion.expression, rest, np.clip(ratio[:, [3, 10]], 0, 1))
         return expression, look.astype(np.float32), ratio, thickness_shares(upright, rest)

@@ -122,27 +122,13 @@ def constrain_lids_and_lips(
     return out
 
 
-def close_lids(placed: NDArray[np.floating], rigid: NDArray[np.floating], ratio: NDArray[np.floating]) -> None:
-    """Have lids that shut meet where the face ended up, in place: what evens out a contour or corrects a point may have parted them again, most of
-    all in an eye that its picture shows at a slant.
+def open_lids(placed: NDArray[np.floating], rigid: NDArray[np.floating], ratio: NDArray[np.floating]) -> None:
+    """Have lids as far open as they are told to be where the face ended up, in place. What evens out a contour or corrects a point may have parted lids that
+    meet, raised them too far, or drawn down one of two that open alike.
 
     Parameters
     ----------
     placed : (N, 478, 2) the face, pixels. rigid : (N, 478, 2) where the head alone carries its rest. ratio : (N, 14) from `lid_ratio`.
     """
     upper, lower = np.array(LID_EDGE_VERTEX_PAIRS).T
-    meeting = placed[:, lower] + ratio[..., None] * (rigid[:, upper] - rigid[:, lower])
-    shut = 1 - smoothstep(ratio, 0, OPEN_GAP_SHARE)
-    placed[:, upper] += shut[..., None] * (meeting - placed[:, upper])
-
-
-def hold_lids(placed: NDArray[np.floating], rigid: NDArray[np.floating], limits: NDArray[np.floating]) -> None:
-    """Have lids open no farther than their `gap_limits` (2,) where the face ended up, in place: what corrects a point may have raised them beyond. `placed` and
-    `rigid` as `close_lids` takes them."""
-    upper, lower = np.array(LID_EDGE_VERTEX_PAIRS).T
-    gap = placed[:, upper] - placed[:, lower]
-    usual = np.linalg.norm(rigid[:, upper] - rigid[:, lower], axis=-1)
-    open_by = np.linalg.norm(gap, axis=-1) / np.maximum(usual, 1e-6)
-    middle = np.repeat(np.stack([open_by[:, 2:5].mean(axis=1), open_by[:, 9:12].mean(axis=1)], axis=1), 7, axis=1)
-    share = np.minimum(np.repeat(limits, 7) / np.maximum(middle, 1e-6), 1)[..., None]
-    placed[:, upper] -= (1 - share) * gap
+    placed[:, upper] = placed[:, lower] + ratio[..., None] * (rigid[:, upper] - rigid[:, lower])

@@ -14,6 +14,8 @@ from engine.face_animation.acting_options import ActingOptions, Part
 from engine.face_animation.motion_transfer.control_motion import PLANE_SHARE, ControlMotion, carry_motion, plane_share
 from engine.face_animation.motion_transfer.control_points import place_control_points
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
+from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
+from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS, gap_limits
 from engine.face_animation.mouth.lip_thickness import thickness_shares
 from engine.face_animation.mouth.lips_and_skin import LIP_COLUMNS
 from engine.perception.face.landmarks import (
@@ -26,6 +28,7 @@ from engine.perception.face.landmarks import (
     RIGHT_BROW,
     RIGHT_EYE,
     RIGHT_IRIS,
+    eye_opening,
 )
 from engine.portrait.options import PortraitOptions
 
@@ -81,6 +84,32 @@ def test_what_is_named_follows_and_the_rest_stays(tmp_path: Path, part: Part, in
         wanted = everything.offsets[vertices] if name == part else 0.0
         assert np.linalg.norm(made.offsets[vertices] - wanted, axis=1).max() < 0.12 * most, name
     assert np.abs(made.look).max() > 0.02 if part == "eyes" else not made.look.any()
+
+
+class OneLidLowered(LandmarkResiduals):
+    """A second look that takes one upper lid to be too high."""
+
+    def __init__(self) -> None:
+        pass
+
+    def corrections(self, faces: NDArray[np.floating], placed: NDArray[np.floating]) -> NDArray[np.floating]:
+        lowered = np.zeros(placed.shape)
+        lowered[:, np.array(LID_EDGE_VERTEX_PAIRS)[:7, 0], 1] = 2.0
+        return lowered
+
+
+@pytest.mark.parametrize("strength", [1.0, 1.5])
+def test_both_lids_open_as_far_and_no_farther_than_they_may_however_strongly(tmp_path: Path, strength: float) -> None:
+    rest, target = placed(80, (200, 180)), placed(60, (150, 130))
+    wide = shut(rest, 1.5)
+    wide[np.array(LID_EDGE_VERTEX_PAIRS)[:7, 0], 1] += 1.0  # a tracker sees one of them less open
+    track = driver(tmp_path, [rest, wide], size=(400, 400))
+    control = place_control_points(target, np.ones((300, 300), np.float32))
+    proxy, options = build_head_proxy(control.points, target), ActingOptions(strength=strength)
+    made = list(carry_motion(track, 0, target, control, proxy, options, OneLidLowered()))[1]
+    opened_by = eye_opening(control.points[:478] + made.offsets[:478]) / eye_opening(target)
+    assert opened_by[0] == pytest.approx(opened_by[1], abs=0.02)
+    assert 1.05 < opened_by.max() < gap_limits(target).max() + 0.02
 
 
 @pytest.mark.parametrize("lips", [0.3, 1.0])
