@@ -11,8 +11,10 @@ import pytest
 from numpy.typing import NDArray
 
 from engine.media.image import read_image
+from engine.media.video import read_video
 from engine.perception.face.faces import FaceTracker, find_faces, overlapping_parts
 from engine.perception.face.landmarks import MESH_SIZE, eye_distance, fiducials
+from engine.performances import video
 
 HALF = np.array([0.5, 0.5, 0])
 """From pixel centres to pixel corners, in which scaling is a product."""
@@ -231,3 +233,29 @@ def test_a_face_just_found_is_where_it_stays(woman: NDArray) -> None:
             meshes = [tracker(woman)[0] for _ in range(6)]
             assert apart(meshes[0], meshes[-1]) < 0.01
             assert tracker(np.full_like(woman, 128)) == []
+
+
+@pytest.fixture(scope="module")
+def actor() -> NDArray[np.uint8]:
+    return next(iter(read_video(video("idle")))).rgb
+
+
+@pytest.mark.parametrize("longest", [130, 200])
+def test_of_a_smaller_picture_the_mesh_is_where_the_pixels_are(actor: NDArray, longest: int) -> None:
+    """Half a pixel of a small picture is a twentieth of an eye."""
+    (whole,) = find_faces(actor)
+    scale = longest / max(actor.shape[:2])
+    small = cv2.resize(actor, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+    (found,) = find_faces(small)
+    ratio = np.array(small.shape[1::-1]) / actor.shape[1::-1]
+    expected = (whole[:, :2] + 0.5) * ratio - 0.5
+    assert np.abs((found[:, :2] - expected).mean(axis=0)).max() < 0.2, "pixels"
+
+
+@pytest.mark.parametrize("longest", [120, 480])
+def test_of_a_mirrored_picture_the_mesh_is_mirrored(actor: NDArray, longest: int) -> None:
+    scale = longest / max(actor.shape[:2])
+    small = cv2.resize(actor, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+    (one,), (other,) = find_faces(small), find_faces(np.ascontiguousarray(small[:, ::-1]))
+    off = (one[:, 0].mean() + other[:, 0].mean() - (small.shape[1] - 1)) / 2
+    assert abs(off) < 0.0015 * np.ptp(one[:, 1]) + 0.15, "pixels"
