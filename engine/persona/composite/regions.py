@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.face.landmarks import LEFT_EYE, LIPS_OUTER, RIGHT_EYE
+from engine.perception.face.landmarks import LEFT_BROW, LEFT_EYE, LIPS_OUTER, RIGHT_BROW, RIGHT_EYE
 from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 from engine.persona.texture.texture_frame import TextureFrame
 
@@ -19,12 +19,13 @@ EYE_ENLARGEMENT_AND_RAMP_PIXELS, NOSE_WING_ENLARGEMENT_AND_RAMP_PIXELS, LIP_ENLA
     (1.0, 1.5),
     (1.0, 1.5),
 )
-"""Pixels of a frame 194 wide by which eyes, nose and lips are drawn larger, and over which they pass into the skin."""
+BROW_ENLARGEMENT_AND_RAMP_PIXELS = (1.0, 1.5)
+"""Pixels of a frame 194 wide by which eyes, nose, lips and brows are drawn larger, and over which they pass into the skin."""
 
 
 def retouched_skin(frame: TextureFrame) -> NDArray[np.float32]:
-    """(H, W) in [0, 1] the skin of a persona's frame: the face without eyes, the nose's tip and wings, and lips, and nothing at its
-    rim."""
+    """(H, W) in [0, 1] the skin of a persona's frame: the face without brows, eyes, the nose's tip and wings, and lips, and nothing at
+    its rim."""
     inside = cv2.distanceTransform(frame.face.astype(np.uint8), cv2.DIST_L2, 3) * (
         REFERENCE_WIDTH_PIXELS / frame.size[1]
     )
@@ -32,6 +33,8 @@ def retouched_skin(frame: TextureFrame) -> NDArray[np.float32]:
     for contour, reach in (
         (RIGHT_EYE, EYE_ENLARGEMENT_AND_RAMP_PIXELS),
         (LEFT_EYE, EYE_ENLARGEMENT_AND_RAMP_PIXELS),
+        (RIGHT_BROW, BROW_ENLARGEMENT_AND_RAMP_PIXELS),
+        (LEFT_BROW, BROW_ENLARGEMENT_AND_RAMP_PIXELS),
         (NOSE_TIP_AND_WING_VERTICES, NOSE_WING_ENLARGEMENT_AND_RAMP_PIXELS),
         (LIPS_OUTER, LIP_ENLARGEMENT_AND_RAMP_PIXELS),
     ):

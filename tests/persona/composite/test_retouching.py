@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from engine.perception.face.head_pose import canonical_face
-from engine.perception.face.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_EYE
+from engine.perception.face.landmarks import FACE_OVAL, LEFT_BROW, LEFT_EYE, LIPS_OUTER, RIGHT_BROW, RIGHT_EYE
 from engine.persona.composite.regions import retouched_skin
 from engine.persona.composite.retouching import Retouching
 from engine.persona.light.low_frequencies import low_frequencies
@@ -64,6 +64,9 @@ def test_creases_come_onto_skin_and_nowhere_else(frame: TextureFrame) -> None:
     for contour in (LEFT_EYE, RIGHT_EYE, LIPS_OUTER):
         inner = cv2.erode(mask(face, contour, shape), np.ones((3, 3), np.uint8))
         assert changed[inner > 0].max() <= 1
+    for brow in (LEFT_BROW, RIGHT_BROW):  # its hairs are a pixel elsewhere in each photograph
+        x, y = np.rint(face[list(brow), :2].mean(axis=0)).astype(int)
+        assert changed[y - 3 : y + 4, x - 12 : x + 13].max() <= 1
     cheek = np.rint(face[50, :2]).astype(int)
     assert changed[cheek[1] - 15 : cheek[1] + 15, cheek[0] - 8 : cheek[0] + 8].max() > 14
 
