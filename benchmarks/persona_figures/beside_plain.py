@@ -20,7 +20,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.presentation.contact_sheet import Row, contact_sheet, write_sheet
+from benchmarks.presentation.contact_sheet import SHEET_GREY_LEVEL, Row, contact_sheet, write_sheet
 from benchmarks.presentation.tables import table
 from benchmarks.shared_media import driving_clips, media
 from engine.media.image import read_image, write_image
@@ -181,7 +181,8 @@ def _cell(film: Film, moment: float, vertices: slice | list[int], widths: float,
     shift = np.array(cell[::-1]) / 2 - scale * (low + high) / 2
     matrix = np.array([[scale, 0, shift[0]], [0, scale, shift[1]]])
     way = cv2.INTER_AREA if scale < 1 else cv2.INTER_CUBIC
-    return np.asarray(cv2.warpAffine(film.frames[number], matrix, cell[::-1], flags=way), np.uint8)
+    beyond = (SHEET_GREY_LEVEL,) * 3
+    return np.asarray(cv2.warpAffine(film.frames[number], matrix, cell[::-1], flags=way, borderValue=beyond), np.uint8)
 
 
 def main() -> None:
