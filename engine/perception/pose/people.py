@@ -41,6 +41,10 @@ CLOSER_MARGIN_SHARE = 0.35
 """How much more than the box of somebody faint is looked at again, as a share of its sides: a body is found there once more, a
 rocket is not."""
 
+FACE_REACHES = ((4.0, 8.5), (3.6, 8.0))
+"""Sizes of a face to either side of it, and below, in which its body is looked for: one that is there is found in both parts, what a network sees
+into a wall is not."""
+
 
 def find_people(rgb: NDArray[np.uint8], most: int = MAX_DETECTED_PEOPLE) -> list[Body]:
     """The bodies in a picture (H, W, 3) uint8, the largest first."""
@@ -52,11 +56,15 @@ def find_people(rgb: NDArray[np.uint8], most: int = MAX_DETECTED_PEOPLE) -> list
             break
         found.append(body)
         covered |= _paint_over(remaining, body)
-    closer = [find_body_within(rgb, box) for box in _squares(rgb.shape)]
-    closer += [_below(rgb, face[:, :2]) for face in find_faces(rgb, most)]
-    for another in closer:
+    for another in (find_body_within(rgb, box) for box in _squares(rgb.shape)):
         if len(found) < most and another is not None and _is_another(another, found, None):
             found.append(another)
+    for face in find_faces(rgb, most):
+        another = _below(rgb, face[:, :2], FACE_REACHES[0])
+        if len(found) < most and another is not None and _is_another(another, found, None):
+            again = _below(rgb, face[:, :2], FACE_REACHES[1])
+            if again is not None and _are_one(another, again):
+                found.append(another)
     if not found and most > 0 and (body := _faint(rgb)) is not None:
         found.append(body)
     return sorted(found, key=lambda body: -float(np.prod(person_box(body, rgb.shape)[2:])))
@@ -75,10 +83,7 @@ def _faint(rgb: NDArray[np.uint8]) -> Body | None:
         (1 + 2 * CLOSER_MARGIN_SHARE) * high,
     )
     again = find_body_within(rgb, box, FAINT_CONFIDENCE)
-    size = float(np.ptp(body.points, axis=0).max())
-    if again is None or np.median(np.linalg.norm(body.points - again.points, axis=1)) > MIN_DISTANCE_SHARE * size:
-        return None
-    return body
+    return body if again is not None and _are_one(body, again) else None
 
 
 def person_box(body: Body, shape: tuple[int, ...]) -> NDArray[np.float32]:
@@ -136,13 +141,18 @@ def _is_another(body: Body, found: list[Body], covered: NDArray[np.bool_] | None
         inside = (at >= 0).all(1) & (at < [width, height]).all(1)
         if not inside.any() or covered[at[inside, 1], at[inside, 0]].mean() > MAX_COVERED_SHARE:
             return False
-    size = float(np.ptp(body.points, axis=0).max())
     for other in found:
-        if np.median(np.linalg.norm(body.points - other.points, axis=1)) < MIN_DISTANCE_SHARE * size:
+        if _are_one(body, other):
             return False
         if np.linalg.norm(body.landmark("Nose") - other.landmark("Nose")) < max(_neck(body), _neck(other)):
             return False
     return True
+
+
+def _are_one(body: Body, other: Body) -> bool:
+    """Whether two bodies are at one place."""
+    size = float(np.ptp(body.points, axis=0).max())
+    return bool(np.median(np.linalg.norm(body.points - other.points, axis=1)) < MIN_DISTANCE_SHARE * size)
 
 
 def _squares(shape: tuple[int, ...]) -> list[tuple[float, float, float, float]]:
@@ -155,13 +165,14 @@ def _squares(shape: tuple[int, ...]) -> list[tuple[float, float, float, float]]:
     return [(left, 0, height, height) for left in np.linspace(0, width - height, count)]
 
 
-def _below(rgb: NDArray[np.uint8], face: NDArray[np.float32]) -> Body | None:
-    """The body that a face belongs to, looked for in a part of the picture that begins above it."""
+def _below(rgb: NDArray[np.uint8], face: NDArray[np.float32], reach: tuple[float, float]) -> Body | None:
+    """The body that a face belongs to, looked for in a part of the picture that begins above it and reaches so many of its sizes to
+    either side, and down."""
     height, width = rgb.shape[:2]
     low, high = face.min(0), face.max(0)
     middle, size = (low + high) / 2, float((high - low).max())
-    left, right = int(max(0, middle[0] - 4 * size)), int(min(width, middle[0] + 4 * size))
-    top, bottom = int(max(0, low[1] - size)), int(min(height, high[1] + 8.5 * size))
+    left, right = int(max(0, middle[0] - reach[0] * size)), int(min(width, middle[0] + reach[0] * size))
+    top, bottom = int(max(0, low[1] - size)), int(min(height, high[1] + reach[1] * size))
     if right - left < 16 or bottom - top < 16:
         return None
     body = find_body_within(rgb, (left, top, right - left, bottom - top))
