@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from engine.character.parts.border_colours import (
     LIKE_NEITHER,
     LIKE_THE_OTHER,
-    OWN,
     core_of,
     judged_colours,
     pixels_beside,
@@ -43,7 +42,7 @@ def strange_colours(rgb: NDArray[np.uint8], labels: NDArray[np.integer]) -> NDAr
         beside = pixels_beside(own, others)
         if part in ARM_LABELS:
             beside &= within
-            found |= judged_colours(lab, beside, core_of(own), ~own) != OWN
+            found |= np.isin(judged_colours(lab, beside, core_of(own), ~own), (LIKE_THE_OTHER, LIKE_NEITHER))
         elif beside.any():
             found |= np.isin(judged_colours(lab, beside, own & ~beside, ~own), (LIKE_THE_OTHER, LIKE_NEITHER))
     return found
