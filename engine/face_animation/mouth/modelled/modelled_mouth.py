@@ -44,7 +44,7 @@ AMBIENT_LIGHT_SHARE, TEETH_AMBIENT_LIGHT_SHARE = 0.6, 0.5
 """Of the light on a surface, that it has wherever it faces: a tongue is round by it; and on teeth, whose crowns are told apart by it."""
 TEETH_FALLOFF_EYE_DISTANCES = 0.35
 """Eye distances behind the upper teeth at which a third of the light is left on teeth: cheeks are beside them. Ramps of the other parts have theirs."""
-LIT_GAP_EYE_DISTANCES, MIN_INSIDE_LIGHT_SHARE = (0.05, 0.55), 0.3
+LIT_GAP_EYE_DISTANCES, MIN_INSIDE_LIGHT_SHARE = (0.05, 0.4), 0.35
 """Eye distances between the lips up to which hardly any light falls on the tongue and what is around it, and from which on all; and what is left of it. Teeth are
 before it: a tongue as light behind lips that hardly part is a plug."""
 INCISORS_SHARE = 0.25

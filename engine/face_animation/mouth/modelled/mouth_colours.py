@@ -22,7 +22,7 @@ USUAL_SKIN_LUMINANCE = 165.0
 SKIN_LIGHT_RANGE = (0.35, 1.25)
 LIP_HUE_SHARE = 0.5
 """Of the person's lips in what is flesh."""
-TONGUE_LIT_SHARE, TONGUE_DARK_SHARE, TONGUE_SIDES_SHARE = 0.1, 0.65, 0.35
+TONGUE_LIT_SHARE, TONGUE_DARK_SHARE, TONGUE_SIDES_SHARE = 0.15, 0.75, 0.4
 """Shares of the tongue's length from its tip up to which it is in the light, and from which on it is not, before the top of its arch: an edge between
 light and dark would cut it off. The last is the share of its half width from which on it turns to the cheeks."""
 TONGUE_BACK_DARKNESS, TONGUE_SIDES_DARKNESS = 1.0, 0.9
@@ -54,7 +54,7 @@ LOWER_TEETH_LIGHT_SHARE = 0.75
 """Of the upper teeth's light, that lower ones have."""
 BAG_LIGHT_SHARES = (0.75, 1.4)
 """Of the bag's light, what its roof has behind the upper lip, and its floor, on which light falls."""
-BAG_DARK_DEPTH_SHARE = 0.45
+BAG_DARK_DEPTH_SHARE = 0.65
 """Of the bag's depth, from which on it is as dark as the throat."""
 COLOUR_RAMP_PIXELS = (64, 16)
 """Width and height of a ramp of colours, pixels."""

@@ -32,7 +32,7 @@ TONGUE_ARCH_EYE_DISTANCES = 0.08
 and seen from the front a block."""
 TONGUE_JAW_SHARE = 0.8
 """Of the jaw's angle, by which the tongue lies lower where it opens: its back is lifted off the floor of the mouth."""
-TONGUE_BELOW_EDGES_EYE_DISTANCES = 0.05
+TONGUE_BELOW_EDGES_EYE_DISTANCES = 0.0
 """Eye distances by which a tongue lies lower than the edges of the lower teeth, behind them."""
 TONGUE_SECTIONS = 8
 """Of the tongue, in which its width is told."""

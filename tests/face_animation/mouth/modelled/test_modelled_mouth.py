@@ -353,7 +353,8 @@ def test_a_tongue_is_dark_where_its_arch_is_highest_and_nothing_cuts_it_off() ->
     colours = mouth_colours(picture((200, 150, 130)), seen(front(0.0)))
     along = colours.tongue[0].astype(float).sum(axis=-1)
     behind = colours.bag[8, 32:].astype(float).sum(axis=-1).mean()
-    assert along[round(crest * 63)] - behind < 0.35 * (along[0] - behind)
+    left = (along[round(crest * 63)] - behind) / (along[0] - behind)
+    assert 0.2 < left < 0.6, "a tongue, but no block of one"
     below_edges = part.vertices[:, 1].min() - (front(0.0)[13, 1] - OVERBITE_EYE_DISTANCES)
     assert below_edges > -0.02, "and lies behind the lower teeth, not above them"
 
@@ -385,7 +386,7 @@ def test_rounded_lips_narrow_the_opening_alone() -> None:
 def test_the_further_lips_part_the_more_light_falls_behind_them() -> None:
     """Between lips that hardly do is no plug as light as a tongue in a wide mouth."""
     light = [inside_light(seen(front(angle))) for angle in (0.0, 0.05, 0.15, 0.6)]
-    assert light == sorted(light) and light[0] < 0.35 and light[-1] > 0.95
+    assert light == sorted(light) and light[0] < 0.4 and light[-1] > 0.95
 
 
 def test_of_the_lower_row_only_the_front_is_there() -> None:
