@@ -39,11 +39,10 @@ class Two:
         return str(self._postgres.run(f"SELECT lease_owner FROM jobs WHERE id = '{job}'", self._database)[0][0])
 
     def at_work(self, worker: subprocess.Popen[bytes]) -> str | None:
-        """The job that a worker has and works on."""
-        query = f"SELECT id FROM jobs WHERE status = 'running' AND lease_owner LIKE '%:{worker.pid}' LIMIT 1"
-        found = self._postgres.run(query, self._database)
-        job = str(found[0][0]) if found else None
-        return job if job and self.running.job(job)["progress"]["stage"] == "rest" else None
+        """A job that a worker has and works on; of several, as of one that is about to end, any that is in its midst."""
+        query = f"SELECT id FROM jobs WHERE status = 'running' AND lease_owner LIKE '%:{worker.pid}'"
+        jobs = [str(row[0]) for row in self._postgres.run(query, self._database)]
+        return next((job for job in jobs if self.running.job(job)["progress"]["stage"] == "rest"), None)
 
     def freeze(self, worker: subprocess.Popen[bytes], submit: Callable[[], object]) -> str:
         """Freeze a worker in the midst of a job, which is submitted where none waits; the job."""
