@@ -23,8 +23,8 @@ SKIN_LIGHT_RANGE = (0.35, 1.25)
 LIP_HUE_SHARE = 0.5
 """Of the person's lips in what is flesh."""
 TONGUE_LIT_SHARE, TONGUE_DARK_SHARE, TONGUE_SIDES_SHARE = 0.15, 0.75, 0.4
-"""Shares of the tongue's length from its tip up to which it is in the light, and from which on it is not, before the top of its arch: an edge between
-light and dark would cut it off. The last is the share of its half width from which on it turns to the cheeks."""
+"""Shares of the tongue's length from its tip up to which it is in the light, and from which on it is not: half of it is left at the top of its arch, since an edge
+between light and dark would cut it off. The last is the share of its half width from which on it turns to the cheeks."""
 TONGUE_BACK_DARKNESS, TONGUE_SIDES_DARKNESS = 1.0, 0.9
 """Of the way from the lining's colour to the throat's, that of the tongue's back, and of its sides: as what is behind them, since an outline would
 make it a block."""

@@ -32,8 +32,6 @@ TONGUE_ARCH_EYE_DISTANCES = 0.08
 and seen from the front a block."""
 TONGUE_JAW_SHARE = 0.8
 """Of the jaw's angle, by which the tongue lies lower where it opens: its back is lifted off the floor of the mouth."""
-TONGUE_BELOW_EDGES_EYE_DISTANCES = 0.0
-"""Eye distances by which a tongue lies lower than the edges of the lower teeth, behind them."""
 TONGUE_SECTIONS = 8
 """Of the tongue, in which its width is told."""
 UPPER_GUM_EYE_DISTANCES, LOWER_GUM_EYE_DISTANCES = 0.34, 0.2
@@ -131,8 +129,7 @@ def tongue(at: RestingMouth) -> MouthPart:
     depth = (places[:, 2] - places[:, 2].min()) / np.ptp(places[:, 2])
     aside = np.abs(places[:, 0]) / _half_width(places[:, 0], depth)
     places[:, 1] -= TONGUE_ARCH_EYE_DISTANCES * (1 - np.minimum(aside, 1) ** 2) * np.sin(np.pi * depth)
-    edges = at.edge - OVERBITE_EYE_DISTANCES
-    shift = np.array([at.middle, edges + TONGUE_BELOW_EDGES_EYE_DISTANCES, at.depth + OVERJET_EYE_DISTANCES])
+    shift = np.array([at.middle, at.edge - OVERBITE_EYE_DISTANCES, at.depth + OVERJET_EYE_DISTANCES])
     uv = np.column_stack([depth, aside]).astype(np.float32)
     return MouthPart(places + shift, triangulate(finer.quads), uv, np.ones(len(uv), np.float32))
 
