@@ -40,6 +40,9 @@ SEEN_AHEAD_METRES = 0.04
 STIFFNESS = 0.01
 """How much staying counts beside each point's way out: where points push against each other an arm stays between them."""
 
+SAME_POSE_QUATERNION = 1e-3
+"""By which no part of a joint's quaternion differs where a clip ends as it begins."""
+
 PALM_DIRECTION = (0.0, -1.0, 0.0)
 """Where palms face in T-pose."""
 
@@ -48,7 +51,13 @@ SIDEWAYS = 0.7
 
 
 def arms_outside(body: SolidBody, clip: Clip) -> Clip:
-    """The clip with hands and forearms outside trunk and legs; the same clip where none ever enters them."""
+    """The clip with hands and forearms outside trunk and legs; the same clip where none ever enters them. One that ends as it begins still does."""
+    if not clip.loops and len(clip.rotations) > 2 and _ends_as_it_begins(clip):
+        once = replace(clip, rotations=clip.rotations[:-1], root=clip.root[:-1], loops=True)
+        outside = arms_outside(body, once)
+        if outside is once:
+            return clip
+        return replace(clip, rotations=np.concatenate([outside.rotations, outside.rotations[:1]]))
     skeleton = body.skeleton
     transforms = pose_transforms(skeleton, clip.rotations, clip.root)
     surface = body.surface.posed(transforms)
@@ -62,6 +71,12 @@ def arms_outside(body: SolidBody, clip: Clip) -> Clip:
             continue
         rotations[moved.turned] = _with_arm(body, moved, rotations[moved.turned])
     return clip if np.array_equal(rotations, clip.rotations) else replace(clip, rotations=rotations)
+
+
+def _ends_as_it_begins(clip: Clip) -> bool:
+    first, last = clip.rotations[0], clip.rotations[-1]
+    apart = np.minimum(np.abs(last - first).max(-1), np.abs(last + first).max(-1))
+    return bool(apart.max() < SAME_POSE_QUATERNION)
 
 
 class _TurnedArm:
