@@ -23,19 +23,27 @@ STATION_SHARES = np.array([0.0, 0.15, 0.3, 0.45, 0.6, 0.72, 0.85, 1.0])
 """Where along a shoe, in its lengths from the heel, the curves of the last are given."""
 HALF_WIDTHS = np.array([0.34, 0.34, 0.34, 0.37, 0.46, 0.5, 0.5, 0.47])
 """Half a shoe's width at `STATION_SHARES`, in its greatest width."""
-STATION_HEIGHTS = np.array([0.36, 0.36, 0.34, 0.28, 0.22, 0.2, 0.19, 0.19])
+STATION_HEIGHTS = np.array([0.38, 0.38, 0.36, 0.31, 0.26, 0.235, 0.225, 0.22])
 """A shoe's height at `STATION_SHARES`, in its length. At the back it reaches higher than the shoe's rim, where the
 ankle is."""
-HEEL_ROUND, TOE_ROUND = (0.14, 2.4), (0.36, 2.2)
+HEEL_ROUND, TOE_ROUND = (0.14, 2.4), (0.34, 2.3)
 """How far from heel and tip, in its length, a shoe is rounded, and the exponents of the superellipses by which it
 is."""
-TOE_BOX = (0.34, 2.1)
+TOE_BOX = (0.26, 2.4)
 """Where a shoe's height begins to round off before the toes, as a share of its length, and the exponent of that
 superellipse."""
-SOLE_EXPONENT, UPPER_EXPONENT = 3.5, 2.3
+SOLE_EXPONENT, UPPER_EXPONENT = 5.0, 2.4
 """Exponents of the superellipses of a shoe's cross-sections, below and above half their height."""
 TOE_SPRING = 0.03
 """By how much of its length the sole's tip is above the ground, from the ball on."""
+SOLE_HEIGHTS = (0.1, 0.065)
+"""How thick the sole is at the heel and at the tip, in a shoe's length."""
+WELT = 0.012
+"""How far the sole stands out beyond the upper, all round, in a shoe's length."""
+WELT_SLOPE = 0.05
+"""Over how much of its length above the sole the upper draws in."""
+SHANK, SHANK_RISE = (0.27, 0.56), 0.026
+"""Where, in a shoe's length from the heel, its sole is above the ground between heel and ball, and by how much of it."""
 SHOE_AXIS = np.array([[0.0, 0.12, 0.16], [0.0, 0.055, 0.8]])
 """Both ends of the axis within a shoe, from which rays lead: aside, above the ground and along it, in its length."""
 SHOE_COLLAR_FOOT_LENGTHS = (0.16, 0.27)
@@ -133,13 +141,28 @@ def _within_last(places: NDArray[np.float64], width: float) -> NDArray[np.bool_]
     x, y, z = places.T
     inside = (z > 0) & (z < 1)
     z = np.clip(z, 0, 1)
-    aside = np.interp(z, STATION_SHARES, HALF_WIDTHS) * width * _rounded(z, *HEEL_ROUND) * _rounded(1 - z, *TOE_ROUND)
-    spring = TOE_SPRING * np.clip((z - 0.75) / 0.25, 0, 1) ** 2
-    high = np.interp(z, STATION_SHARES, STATION_HEIGHTS) * _rounded(1 - z, *TOE_BOX)
+    ground = sole_bottom(z)
+    drawn_in = WELT * np.clip((y - ground - sole_thickness(z)) / WELT_SLOPE, 0, 1)
+    heel, tip = _rounded(z - drawn_in, *HEEL_ROUND), _rounded(1 - z - drawn_in, *TOE_ROUND)
+    aside = np.interp(z, STATION_SHARES, HALF_WIDTHS) * width * heel * tip - drawn_in
+    high = np.interp(z, STATION_SHARES, STATION_HEIGHTS) * _rounded(1 - z - drawn_in, *TOE_BOX)
     across = np.abs(x) / np.maximum(aside, 1e-9)
-    rise = (y - spring) / np.maximum(high / 2, 1e-9) - 1
+    rise = (y - ground) / np.maximum(high / 2, 1e-9) - 1
     exponent = np.where(rise < 0, SOLE_EXPONENT, UPPER_EXPONENT)
     return np.asarray(inside & (across**exponent + np.abs(rise) ** exponent < 1))
+
+
+def sole_bottom(along: NDArray[np.floating]) -> NDArray[np.float64]:
+    """How high (N,) the ground's side of a sole is at places (N,) from heel, 0, to tip, 1, in a shoe's length: a heel stands, and a ball;
+    the shank between them and the tip do not."""
+    first, last = SHANK
+    arch = np.sin(np.pi * np.clip((along - first) / (last - first), 0, 1)) ** 2
+    return np.asarray(SHANK_RISE * arch + TOE_SPRING * np.clip((along - 0.75) / 0.25, 0, 1) ** 2)
+
+
+def sole_thickness(along: NDArray[np.floating]) -> NDArray[np.float64]:
+    """How thick (N,) a sole is at places (N,) from heel, 0, to tip, 1, in a shoe's length."""
+    return np.interp(along, [0, 1], SOLE_HEIGHTS)
 
 
 def _rounded(away: NDArray[np.float64], reach: float, exponent: float) -> NDArray[np.float64]:

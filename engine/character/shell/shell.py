@@ -53,6 +53,7 @@ class Shell:
     pictured : (V, 3) float64, where they come to lie there.
     rest : (V, 3) float64, where they are in T-pose, metres, y up.
     pieces : a skirt, and what is held or worn beside the body.
+    shod : whether its feet are in shoes.
     """
 
     mesh: TemplateMesh
@@ -60,6 +61,7 @@ class Shell:
     pictured: NDArray[np.float64]
     rest: NDArray[np.float64]
     pieces: tuple[Piece, ...] = ()
+    shod: bool = False
 
 
 @dataclass(frozen=True)
@@ -68,12 +70,13 @@ class Shape:
 
     straight : the template in T-pose, in its shoes if it wears any, metres.
     template : as the fit has it.
-    pictured : as in `Shell`.
+    pictured, shod : as in `Shell`.
     """
 
     straight: NDArray[np.float64]
     template: NDArray[np.float64]
     pictured: NDArray[np.float64]
+    shod: bool = False
 
 
 def make_shell(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Shell:
@@ -90,14 +93,15 @@ def shaped(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: L
     """The template in its shoes, displaced to the outlines."""
     mesh, camera = template_mesh(), silhouette.camera(fitted.picture_camera())
     straight, template = as_fitted(silhouette, fitted)
-    if not barefoot(figure, silhouette, labels, template):
+    shod = not barefoot(figure, silhouette, labels, template)
+    if shod:
         straight = in_shoes(straight)
         template = camera.to_picture(posed(mesh, straight, fitted))
     known = face_points(figure, silhouette, mesh)
     start = with_head_at_face(mesh, template, known)
     displaced = displace(mesh, start, part_outlines(labels.layered), known)
     pictured = eyes_in_sockets(mesh, start, thickened(mesh, start, displaced))
-    return Shape(straight, template, ears_laid_back(mesh, pictured, silhouette.mask))
+    return Shape(straight, template, ears_laid_back(mesh, pictured, silhouette.mask), shod)
 
 
 def as_fitted(silhouette: Silhouette, fitted: FittedBody) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -185,7 +189,7 @@ def shell_of(
     """The shell of a shape, with what is beside it."""
     camera = silhouette.camera(fitted.picture_camera())
     rest = shell_at_rest(mesh, shape.straight, shape.template, shape.pictured, camera, fitted)
-    return Shell(mesh, shape.template, shape.pictured, rest, tuple(pieces))
+    return Shell(mesh, shape.template, shape.pictured, rest, tuple(pieces), shape.shod)
 
 
 def posed(mesh: TemplateMesh, straight: NDArray[np.floating], fitted: FittedBody) -> NDArray[np.float32]:

@@ -36,10 +36,23 @@ def test_a_shoe_s_surface_is_not_turned_over(models: HumanModels) -> None:
     shoes = in_shoes(skin, models.feet, models.space.mean[skin.vertices])
     for mask in models.feet.masks:
         own = skin.triangles[mask[skin.triangles].all(1)]
-        middle = shoes[mask].mean(0) * [1, 0, 1] + [0, 0.02, 0]
-        outwards = (face_normals(shoes, own) * (shoes[own].mean(1) - middle)).sum(1)
+        places = shoes[own].mean(1)
+        middle = np.repeat([shoes[mask].mean(0) * [1, 0, 1] + [0, 0.03, 0]], len(own), axis=0)
+        middle[:, 2] = np.clip(places[:, 2], shoes[mask, 2].min() + 0.04, shoes[mask, 2].max() - 0.05)  # its axis
+        outwards = (face_normals(shoes, own) * (places - middle)).sum(1)
         areas = triangle_areas(shoes, own)
         assert areas[outwards < 0].sum() < 0.01 * areas.sum()
+
+
+def test_a_shoe_stands_on_heel_and_ball(models: HumanModels) -> None:
+    shoes = in_shoes(models.skin, models.feet, models.space.mean[models.skin.vertices])
+    for mask in models.feet.masks:
+        own = shoes[mask] - shoes[mask].min(0)
+        along = own[:, 2] / own[:, 2].max()
+        lowest = [
+            own[(along > first) & (along < last), 1].min() for first, last in ((0.1, 0.2), (0.38, 0.44), (0.6, 0.7))
+        ]
+        assert max(lowest[0], lowest[2]) < 0.001 < 0.003 < lowest[1]
 
 
 def _hollow(places: NDArray[np.float64]) -> float:

@@ -17,6 +17,7 @@ from engine.character.shell.colours.head_round import head_round
 from engine.character.shell.colours.light_of_the_picture import light_of_the_picture
 from engine.character.shell.colours.round import BackTexture, coloured_round, with_the_other
 from engine.character.shell.colours.shoe_bands import level_round
+from engine.character.shell.colours.sole import above_the_sole, sole_shade
 from engine.character.shell.colours.unrolled import UNROLLED_COLUMNS, unrolled_parts
 from engine.character.shell.shell import Shell
 from engine.character.shell.template_mesh import template_mesh
@@ -146,7 +147,9 @@ def paint_shell(
             np.concatenate(rows), np.concatenate(sure), firsts)  # fmt: skip
     model += light_of_the_picture(painted - model, soft)
     painted = soft[..., None] * painted + (1 - soft[..., None]) * model
-    shade = interpolate(ear_shade()[:, None], triangles, Raster(drawn, raster.barycentrics, raster.depth))[..., 0]
+    folds = np.column_stack([ear_shade(), above_the_sole()])
+    shades = interpolate(folds, triangles, Raster(drawn, raster.barycentrics, raster.depth))
+    shade = shades[..., 0] * (sole_shade(shades[..., 1]) if shell.shod else 1)
     painted *= np.where(drawn >= 0, soft + (1 - soft) * shade, 1)[..., None]
     out = np.clip(painted + 0.5, 0, 255).astype(np.uint8)
     return _beyond_the_chart(out)
