@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.acting import standing_clip
 from engine.avatar.combined_targets import with_combined_targets
+from engine.avatar.keeping_volume import keeping_volume
 from engine.avatar.mesh import morphs_of, skinned_mesh, surface_of, wearing
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.rigging import Pose
@@ -51,6 +52,7 @@ def assemble(
     whole = wearing(skin, worn, Pose(fitted.joints, fitted.rotations))
     mesh, morphs = with_fewer_triangles(whole, morphs_of(surface, with_combined_targets(fitted.expressions)), triangles)
     filmed = standing_clip(mesh, fitted.rotations, fitted.joints[0], 30.0)
+    mesh, filmed = keeping_volume(mesh, filmed)
     return Avatar(mesh, morphs, filmed)
 
 

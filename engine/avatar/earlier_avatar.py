@@ -7,6 +7,7 @@ Specification: Khronos, glTF 2.0, 3.7 (geometry, skins, morph targets), 3.11 (an
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ from engine.body.rig import HUMAN_RIG
 from engine.body.template import FACE_UNITS, load_rig
 from engine.errors import InputError
 from engine.export.gltf.joints import axes_above
+from engine.geometry.rigging.half_joints import half_joint_names, halved_skeleton
 from engine.geometry.rigging.morph_target import MorphTarget, morph_target
 from engine.geometry.rigging.skeleton import Skeleton
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
@@ -70,14 +72,17 @@ def not_ours() -> InputError:
 def _avatar(file: GltfFile, accessors: Accessors) -> Avatar:
     skin = file.parts["skins"][0]
     rig = load_rig(HUMAN_RIG)
-    if tuple(file.part("nodes", node).name for node in skin["joints"]) != rig.names:
+    names = tuple(file.part("nodes", node).name for node in skin["joints"])
+    if names not in (rig.names, rig.names + half_joint_names(rig.names)):
         raise ValueError("its joints are others")
-    matrices = accessors.numbers(skin["inverseBindMatrices"]).reshape(len(rig.names), 4, 4).swapaxes(1, 2)
+    matrices = accessors.numbers(skin["inverseBindMatrices"]).reshape(len(names), 4, 4).swapaxes(1, 2)
     axes = matrices[:, :3, :3].swapaxes(1, 2)
     if np.abs(axes @ axes.swapaxes(1, 2) - np.eye(3)).max() > 1e-3:
         raise ValueError("joints are scaled")
     heads = _near(-np.einsum("jik,jk->ji", axes, matrices[:, :3, 3]))
-    skeleton = Skeleton(rig.names, rig.parents, heads)
+    skeleton = Skeleton(rig.names, rig.parents, heads[: len(rig.names)])
+    if len(names) > len(rig.names):
+        skeleton = replace(halved_skeleton(skeleton), heads=heads)
     shape = file.parts["meshes"][0]
     primitive = shape["primitives"][0]
     mesh = _mesh(accessors, primitive, skeleton, _texture(file, primitive))

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip, loop_step
+from engine.motion.half_turns import with_half_turns
 
 STILL_TOLERANCE = 1e-5
 """Radians, or metres: what moves less than this stands still."""
@@ -45,7 +46,7 @@ def tracks(clip: Clip, skeleton: Skeleton) -> Tracks:
     frames = len(clip.rotations)
     if frames == 0 or clip.rotations.shape[1:] != (len(skeleton.names), 4) or clip.root.shape != (frames, 3):
         raise ValueError(f"the clip {clip.name!r} does not fit a skeleton of {len(skeleton.names)} joints")
-    rotations, root = clip.rotations.astype(np.float64), clip.root.astype(np.float64)
+    rotations, root = with_half_turns(skeleton, clip.rotations), clip.root.astype(np.float64)
     if frames == 1:
         rotations, root = rotations.repeat(2, 0), root.repeat(2, 0)
         times = np.array([0, SINGLE_FRAME_SECONDS])

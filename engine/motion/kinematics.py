@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
+from engine.motion.half_turns import with_half_turns
 
 Array = NDArray[np.float64]
 
@@ -72,10 +73,10 @@ def pose_transforms(
     Parameters
     ----------
     rotations : (F, J, 4) unit quaternions (x, y, z, w): each joint's rotation from the T-pose in its parent's axes, as
-        in `engine.motion.clip.Clip`.
+        in `engine.motion.clip.Clip`. Half joints (`engine.geometry.rigging.half_joints`) turn as their whole ones tell.
     root : (F, 3) the root joint's places, metres.
     """
-    world = world_rotations(skeleton.parents, rotations)
+    world = world_rotations(skeleton.parents, with_half_turns(skeleton, rotations))
     places = place_joints(skeleton.parents, skeleton.offsets(), world, root)
     matrices = rotation.to_matrix(world)
     transforms = np.zeros((*matrices.shape[:2], 4, 4), np.float32)

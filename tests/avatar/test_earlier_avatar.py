@@ -17,8 +17,13 @@ from engine.avatar.avatar import Avatar
 from engine.avatar.earlier_avatar import read_avatar
 from engine.avatar.options import AvatarOptions
 from engine.avatar.writing import write_avatar
+from engine.body.rig import HUMAN_RIG
+from engine.body.template import load_rig
 from engine.errors import InputError
+from engine.geometry.rigging.half_joints import whole_joints
+from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
+from engine.motion.half_turns import with_half_turns
 from engine.motion.library import built_in
 from engine.run import Run
 
@@ -68,9 +73,23 @@ def test_its_expressions_are_the_same(avatar: Avatar, found: Avatar) -> None:
 
 
 def test_it_stands_as_it_was_filmed(avatar: Avatar, found: Avatar) -> None:
-    between = rotation.multiply(rotation.inverse(avatar.filmed.rotations), found.filmed.rotations)
+    stood = with_half_turns(avatar.mesh.skeleton, avatar.filmed.rotations)
+    between = rotation.multiply(rotation.inverse(stood), found.filmed.rotations)
     assert rotation.angle(between).max() < 1e-3
     assert np.abs(found.filmed.root - avatar.filmed.root).max() < 1e-6
+
+
+def test_one_without_half_joints_is_read_as_it_is(avatar: Avatar, tmp_path: Path) -> None:
+    skeleton = avatar.mesh.skeleton
+    count = len(load_rig(HUMAN_RIG).names)
+    plain = Skeleton(skeleton.names[:count], skeleton.parents[:count], skeleton.heads[:count])
+    mesh = replace(avatar.mesh, skeleton=plain, bones=whole_joints(skeleton)[avatar.mesh.bones])
+    filmed = replace(avatar.filmed, rotations=avatar.filmed.rotations[:, :count])
+    with Run() as run:
+        write_avatar(
+            tmp_path, Avatar(mesh, avatar.morphs, filmed), Scene(built_in("wave", plain)), AvatarOptions(), run
+        )
+    assert read_avatar(tmp_path / "avatar.glb").mesh.skeleton.names == plain.names
 
 
 def test_its_texture_has_been_through_a_jpeg_and_is_hardly_another(avatar: Avatar, found: Avatar) -> None:

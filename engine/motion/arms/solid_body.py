@@ -7,12 +7,13 @@ is where they are seen.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.mesh.welding import seamless_normals
+from engine.geometry.rigging.half_joints import whole_joints
 from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.geometry.rigging.skeleton import Skeleton
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
@@ -87,7 +88,8 @@ class SolidBody:
 
 
 def solid_body(mesh: SkinnedMesh) -> SolidBody:
-    """The body that a mesh is."""
+    """The body that a mesh is. Half joints are left out: with what they move goes the joint that they hang on."""
+    mesh = replace(mesh, bones=whole_joints(mesh.skeleton)[mesh.bones])
     names = mesh.skeleton.names
     arms = np.array([name.endswith("Arm") or "Hand" in name for name in names])
     solid = np.array([name in SOLID_JOINTS for name in names])

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.geometry.rigging.half_joints import is_half_joint
 from engine.geometry.rigging.joint_names import FINGER_NAMES, SIDE_NAMES
 from engine.motion import rotation
 from engine.motion.files.source_motion import SourceMotion
@@ -91,7 +92,11 @@ def lost_joints(motion: SourceMotion, mapping: Mapping[str, str]) -> tuple[str, 
             used.add(int(motion.parents[joint]))
     change = rotation.multiply(rotation.inverse(motion.rotations[:1]), motion.rotations)
     rotating = rotation.angle(change).max(0) > MIN_TURN_ANGLE
-    return tuple(name for joint, name in enumerate(motion.names) if rotating[joint] and joint not in used)
+    return tuple(
+        name
+        for joint, name in enumerate(motion.names)
+        if rotating[joint] and joint not in used and not is_half_joint(name)
+    )
 
 
 def lost_warning(motion: SourceMotion, mapping: Mapping[str, str]) -> str | None:

@@ -9,6 +9,7 @@ import pytest
 from humanoids import build_skeleton
 from numpy.typing import NDArray
 
+from engine.geometry.rigging.half_joints import with_half_joints
 from engine.geometry.rigging.skeleton import Skeleton
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.motion import rotation
@@ -159,3 +160,14 @@ def test_a_clip_that_ends_as_it_begins_still_does() -> None:
     assert found is not clip and len(found.rotations) == FRAME_COUNT
     assert np.abs(found.rotations[0] - clip.rotations[0]).max() > 1e-3, "the arm is on its way already"
     np.testing.assert_allclose(found.rotations[-1], found.rotations[0], atol=1e-6)
+
+
+def test_arms_go_outside_where_half_joints_hold_the_skin() -> None:
+    """What they move goes with the joint that they hang on: an arm that is turned out takes all of its own skin along."""
+    plain, halved = (solid_body(mesh) for mesh in (pillar_with_arms(0.28), with_half_joints(pillar_with_arms(0.28))))
+    for one, other in zip(plain.arms, halved.arms, strict=True):
+        assert np.array_equal(one.points.places, other.points.places)
+        assert other.points.bones[other.points.weights > 0].max() < len(plain.skeleton.names)
+    mesh = with_half_joints(pillar_with_arms(0.28))
+    clip = hanging(mesh.skeleton, np.full(FRAME_COUNT, 5.0))
+    assert from_pillar(mesh, arms_outside(halved, clip)).min() > 0.28 - 0.03

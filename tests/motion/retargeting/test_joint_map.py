@@ -249,10 +249,10 @@ def test_joints_that_turn_for_nothing_are_told_of(skeleton: Skeleton) -> None:
     held = np.repeat(rotation.identity(frames)[:, None], 1, 1)
     longer = replace(
         motion,
-        names=(*motion.names, *tails, "held"),
-        parents=np.array([*motion.parents, *[0] * 16], np.int32),
-        rotations=np.concatenate([motion.rotations, wags, held], 1),
-        translations=np.concatenate([motion.translations, np.ones((frames, 16, 3))], 1),
+        names=(*motion.names, *tails, "held", "LeftArmHalf"),
+        parents=np.array([*motion.parents, *[0] * 17], np.int32),
+        rotations=np.concatenate([motion.rotations, wags, held, wags[:, :1]], 1),
+        translations=np.concatenate([motion.translations, np.ones((frames, 17, 3))], 1),
     )
     assert list(lost_joints(longer, map_joints(motion))) == tails
     said = lost_warning(longer, map_joints(motion))
