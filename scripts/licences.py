@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterator
+from functools import cache
 from importlib import metadata
 from pathlib import Path
 
@@ -90,7 +91,7 @@ def page() -> str:
 def locked(*locks: Path) -> list[str]:
     """The packages of these lock files that are installed."""
     names = re.findall(r"(?m)^([A-Za-z0-9_.-]+)==", "\n".join(lock.read_text() for lock in locks))
-    return sorted({_plain(name) for name in names if _installed(name)})
+    return sorted({_plain(name) for name in names if _installed(_plain(name))})
 
 
 def running() -> set[str]:
@@ -105,7 +106,7 @@ def running() -> set[str]:
             found |= {name} if _installed(name) else set()
             continue
         found.add(name)
-        for text in metadata.requires(name) or ():
+        for text in _distributions()[name].requires or ():
             one = Requirement(text)
             extras = requirement.extras or {""}
             if one.marker is None or any(one.marker.evaluate({"extra": extra}) for extra in extras):
@@ -117,7 +118,7 @@ def licence(name: str) -> str:
     """What a package says of its licence, in a few words. Raises `LookupError` if it says nothing."""
     if name in SAID_HERE:
         return SAID_HERE[name]
-    told = metadata.metadata(name)
+    told = _distributions()[name].metadata
     classified = [one.rpartition(" :: ")[2] for one in told.get_all("Classifier", []) if one.startswith("License ::")]
     short = (told.get("License") or "").strip().partition("\n")[0]
     for said in (told.get("License-Expression"), short if len(short) < 40 and short != "UNKNOWN" else None):
@@ -141,11 +142,13 @@ def _plain(name: str) -> str:
 
 
 def _installed(name: str) -> bool:
-    try:
-        metadata.distribution(name)
-    except metadata.PackageNotFoundError:
-        return False
-    return True
+    return name in _distributions()
+
+
+@cache
+def _distributions() -> dict[str, metadata.Distribution]:
+    """What is installed, by its plain name: looked for once, as a search by name reads all folders that Python imports from."""
+    return {_plain(one.name): one for one in metadata.distributions()}
 
 
 if __name__ == "__main__":
