@@ -11,8 +11,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.filling.harmonic_fill import harmonic_fill
 from engine.imaging.filling.nearest import nearest_in
+from engine.imaging.filling.pull_push import pull_push
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 
 SHADOW_BAND_SHARE = 0.008
@@ -59,11 +59,9 @@ def mirrored_behind(rgb: NDArray[np.uint8], hidden: NDArray[np.bool_], shown: ND
     weight = seam.astype(np.float32)[..., None]
     step = np.clip(rgb - mirrored, -MAX_LIGHT_STEP, MAX_LIGHT_STEP) * weight
     told, count = (cv2.GaussianBlur(one, (0, 0), SEAM_LIGHT_SMOOTHING_PIXELS) for one in (step, weight[..., 0]))
-    lighter = told * weight / np.maximum(count, 1e-6)[..., None]
-    lighter = (
-        harmonic_fill(seam, hidden)(lighter.astype(np.float32))
-        * np.exp(-distance_to(seam) / (SEAM_FADE_SHARE * longest))[..., None]
-    )
+    lighter = told / np.maximum(count, 1e-6)[..., None]
+    fading = np.exp(-distance_to(seam) / (SEAM_FADE_SHARE * longest))[..., None]
+    lighter = pull_push(lighter, weight[..., 0]) * fading
     out = rgb.copy()
     out[hidden] = np.clip(mirrored + lighter + 0.5, 0, 255)[hidden].astype(np.uint8)
     return out
