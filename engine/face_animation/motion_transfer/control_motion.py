@@ -46,7 +46,7 @@ from engine.face_animation.motion_transfer.lids_below_brows import keep_lids_bel
 from engine.face_animation.motion_transfer.pose_refinement import refine_pose
 from engine.face_animation.motion_transfer.turned_expression import even_out_turned
 from engine.face_animation.mouth.closing import ClosingLips
-from engine.face_animation.mouth.lip_thickness import keep_thickness, thickness_shares
+from engine.face_animation.mouth.lip_curves import construct_lips, thickness_shares
 from engine.face_animation.mouth.lips_and_skin import keep_lips_off_skin, philtrum_compression
 from engine.face_animation.mouth.smile_curve import SmileCurve
 from engine.face_animation.smoothstep import smoothstep
@@ -149,6 +149,8 @@ class MotionTransfer:
         if proxy is None:
             offsets[:, :MESH_SIZE] = _face_in_plane(phi, scaled, expression, target)
             placed = self._corrected(frames, control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE])
+            carried = target[:, :2] + _face_in_plane(phi, scaled, np.zeros_like(expression), target)
+            construct_lips(placed, carried, thickness)
             offsets[:, control.periphery] = self._carried_around(frames)
         else:
             held = hold_back(scaled, phi, control.room, self._turned, control.face_room)
@@ -162,7 +164,7 @@ class MotionTransfer:
             placed = rigid + self._even @ (placed - rigid)
             open_lids(placed, rigid, ratio)
             keep_lids_below_brows(placed, rigid, control.bare)
-            keep_thickness(placed, rigid, thickness)
+            construct_lips(placed, rigid, thickness)
             offsets[:, MESH_SIZE:] = self._around_face(frames, motion, held, proxy, solid[..., :2], placed)
         offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
         if proxy is not None:
@@ -194,7 +196,8 @@ class MotionTransfer:
         ratio = np.clip(ratio, 0, np.repeat(gap_limits(target), 7))  # however strongly
         expression = constrain_lids_and_lips(acted, target, ratio, self._control.bare) - target
         look = self._eyes * gaze(rest + motion.expression, rest, np.clip(ratio[:, [3, 10]], 0, 1))
-        return expression, look.astype(np.float32), ratio, thickness_shares(upright, rest)
+        thickness = 1 + self._mouth * (thickness_shares(upright, rest) - 1)
+        return expression, look.astype(np.float32), ratio, thickness
 
     def _carried_around(self, frames: DriverFrames) -> NDArray[np.floating]:
         """(N, P, 2) what the driver's tracked points around the face say of the target's peripheral points, pixels."""

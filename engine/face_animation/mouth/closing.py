@@ -14,8 +14,7 @@ from engine.face_animation.mouth.lip_contours import LOWER_INNER_LIP, UPPER_INNE
 from engine.face_animation.mouth.lips_and_skin import LIP_COLUMNS
 from engine.face_animation.mouth.skin_around_lips import with_lips
 from engine.face_animation.smoothstep import smoothstep
-from engine.perception.face.head_pose import canonical_face
-from engine.perception.face.landmarks import MOUTH_CORNER_VERTICES, mouth_opening
+from engine.perception.face.landmarks import mouth_opening
 
 UPPER_SHARE = 0.6
 """Of the gap, that the upper lip goes down: teeth that a smile bares are the upper ones."""
@@ -25,8 +24,6 @@ PARTED_SHARES = (0.2, 0.6)
 """Shares of a target's opening up to which its driver's mouth counts as closed beside it, and from which on as parted, too."""
 LIP_GAP_SHARES = (0.15, 0.5)
 """Shares of its usual gap at which a mouth whose lips are usually parted has closed, and begins to."""
-MAX_LIP_GAIN = 1.25
-"""By how many times lips that meet are thicker than in the picture, at most, where the mouth is as much narrower."""
 
 
 class ClosingLips:
@@ -34,8 +31,7 @@ class ClosingLips:
 
     Where the `target` (478, 3) has parted lips and the driver's `rest` (478, 3), which stands for it, closed ones, the
     target's are closed at rest, too. Everything it acts begins there. Where both are parted they close with one
-    another. A smile draws lips thin, and what a tracker sees of a lower lip that closes is thinner still. So lips that
-    meet keep their thickness. They have more where the mouth is narrower, as their volume does not change.
+    another.
     """
 
     def __init__(self, rest: NDArray[np.floating], target: NDArray[np.floating]):
@@ -46,7 +42,6 @@ class ClosingLips:
         self._meets = max(parted, smoothstep(drivers, *PARTED_OPENINGS))
         top, bottom = _inner_edges()
         self._gap = np.linalg.norm(target[bottom].astype(float) - target[top], axis=-1)
-        self._target = target[None].astype(float)
 
     def met(self, meshes: NDArray[np.floating]) -> NDArray[np.float64]:
         """(N,) how far the lips of the driver's meshes (N, 478, 3) have met; 0 where they and the target's are closed at rest."""
@@ -61,23 +56,6 @@ class ClosingLips:
         share = strength * (1 - (1 - self.met(meshes)[:, None]) * left)
         upper, lower = lip_influence()
         positions += np.einsum("vk,nkd->nvd", UPPER_SHARE * upper - (1 - UPPER_SHARE) * lower, share[..., None] * gap)
-        meet = self._meets * (1 - smoothstep(np.asarray(mouth_opening(positions)), *PARTED_OPENINGS))
-        self._keep_thickness(positions, strength * meet)
-
-    def _keep_thickness(self, positions: NDArray[np.floating], share: NDArray[np.floating]) -> None:
-        """Make lips at `positions` (N, 478, 3) as thick as they are in the picture, in place, as far as a `share` (N,) in [0, 1] says."""
-        now, rest = (
-            np.linalg.norm(one[:, MOUTH_CORNER_VERTICES[0]] - one[:, MOUTH_CORNER_VERTICES[1]], axis=-1)
-            for one in (positions, self._target)
-        )
-        gain = np.clip(rest / np.maximum(now, 1e-6), 1, MAX_LIP_GAIN)
-        for columns, influence in zip(LIP_COLUMNS, thickness_influence(), strict=True):
-            inner, border = np.array(columns)[:, -2], np.array(columns)[:, -1]
-            out = positions[:, border] - positions[:, inner]
-            thick = np.linalg.norm(out, axis=-1)
-            usual = np.linalg.norm(self._target[:, border] - self._target[:, inner], axis=-1)
-            lack = share[:, None] * np.maximum(gain[:, None] * usual - thick, 0)
-            positions += np.einsum("vk,nkd->nvd", influence, (lack / np.maximum(thick, 1e-6))[..., None] * out)
 
 
 @cache
@@ -87,19 +65,6 @@ def lip_influence() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     columns = np.array(LIP_COLUMNS).reshape(-1, len(LIP_COLUMNS[0][0]))
     vertices = columns.ravel()
     upper, lower = np.split(with_lips(vertices, np.repeat(np.eye(len(columns)), columns.shape[1], axis=0)), 2, axis=1)
-    return upper, lower
-
-
-@cache
-def thickness_influence() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(478, 9) each, how much a vertex goes along with the border of each of nine columns of the upper lip, and of the
-    lower. At the lips' inner edges that is none; within the lip it grows with the distance from there."""
-    columns = np.array(LIP_COLUMNS).reshape(-1, len(LIP_COLUMNS[0][0]))
-    face = canonical_face().astype(float)
-    away = np.linalg.norm(face[columns] - face[columns[:, -2:-1]], axis=-1)
-    share = np.minimum(away / away[:, -1:], 1)
-    given = (np.eye(len(columns))[:, None] * share[..., None]).reshape(-1, len(columns))
-    upper, lower = np.split(with_lips(columns.ravel(), given), 2, axis=1)
     return upper, lower
 
 

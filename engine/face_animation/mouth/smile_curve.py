@@ -22,6 +22,7 @@ from engine.perception.face.head_pose import canonical_face
 from engine.perception.face.landmarks import CHIN_VERTEX, FOREHEAD_VERTEX, MOUTH_CORNER_VERTICES
 
 CORNER_VERTICES = (61, 76, 62, 78, 291, 306, 292, 308)
+"""Of the right corner of the mouth and of the left one, each from the skin inwards."""
 LIPS_MIDDLE_VERTICES, INNER_UPPER_LIP_VERTICES = (0, 13, 14, 17), (13,)
 """Vertices of the middle of both lips, and of the upper one's inner edge: a smile that shows teeth bends that up,
 whatever the lower lip does."""

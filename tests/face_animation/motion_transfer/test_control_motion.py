@@ -16,7 +16,7 @@ from engine.face_animation.motion_transfer.control_points import place_control_p
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
 from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS, gap_limits
-from engine.face_animation.mouth.lip_thickness import thickness_shares
+from engine.face_animation.mouth.lip_curves import thickness_shares
 from engine.face_animation.mouth.lips_and_skin import LIP_COLUMNS
 from engine.perception.face.landmarks import (
     FACE_OVAL,

@@ -8,9 +8,9 @@ from made_face import opened, placed
 from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.lids_and_lips import INNER_LIP_PAIRS
-from engine.face_animation.mouth.closing import MAX_LIP_GAIN, ClosingLips, lip_influence
+from engine.face_animation.mouth.closing import ClosingLips, lip_influence
 from engine.face_animation.mouth.lips_and_skin import SKIN_ABOVE_COLUMNS, SKIN_BELOW_COLUMNS
-from engine.perception.face.landmarks import FACE_OVAL, MOUTH_CORNER_VERTICES, mouth_opening
+from engine.perception.face.landmarks import FACE_OVAL, mouth_opening
 
 UPPER_BORDER, LOWER_BORDER = ([column[0] for column in skin] for skin in (SKIN_ABOVE_COLUMNS, SKIN_BELOW_COLUMNS))
 TOP, BOTTOM = np.array(INNER_LIP_PAIRS).T
@@ -57,23 +57,6 @@ def test_lips_keep_their_thickness_and_the_contour_its_place() -> None:
     for border, edge in ((UPPER_BORDER, TOP), (LOWER_BORDER, BOTTOM)):
         np.testing.assert_allclose(now[border] - now[edge], parted[border] - parted[edge], rtol=1e-3)
     np.testing.assert_array_equal(now[list(FACE_OVAL)], parted[list(FACE_OVAL)])
-
-
-@pytest.mark.parametrize(("width", "gain"), [(1.0, 1.0), (0.9, 1 / 0.9), (0.6, MAX_LIP_GAIN)])
-def test_lips_that_meet_are_no_thinner_than_in_the_picture_and_thicker_where_narrower(
-    width: float, gain: float
-) -> None:
-    """However thin a tracker sees the driver's lower lip; of a mouth that is narrower they have as much more."""
-    calm, parted = placed(60), opened(placed(90), 0.2)
-    acted = parted[None].astype(float).copy()
-    acted[0, LOWER_BORDER] = acted[0, BOTTOM] + 0.5 * (acted[0, LOWER_BORDER] - acted[0, BOTTOM])
-    right, left = MOUTH_CORNER_VERTICES
-    middle, half = (acted[0, right] + acted[0, left]) / 2, (acted[0, left] - acted[0, right]) / 2
-    acted[0, right], acted[0, left] = middle - width * half, middle + width * half
-    ClosingLips(calm, parted).close(acted, calm[None], 1.0)
-    thick = [np.linalg.norm(face[LOWER_BORDER] - face[BOTTOM], axis=1) for face in (acted[0], parted)]
-    np.testing.assert_allclose(thick[0][2:7], gain * thick[1][2:7], rtol=0.02)
-    assert float(mouth_opening(acted)[0]) == pytest.approx(0, abs=1e-6)
 
 
 def test_half_a_strength_closes_half_of_the_gap() -> None:
