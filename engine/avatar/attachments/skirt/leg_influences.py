@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
+from scipy.spatial import cKDTree
 
 from engine.avatar.attachments.body_surface import BodySurface
 from engine.avatar.attachments.influences import strongest
 from engine.avatar.attachments.skirt.legs import Legs
+from engine.avatar.attachments.skirt.skirt_mesh import RING_THICKNESS_METRES
 from engine.face_animation.smoothstep import smoothstep
 from engine.geometry.mesh.adjacency import neighbours
 from engine.geometry.mesh.closest_points import closest_points
 from engine.geometry.rigging.joint_names import SIDE_NAMES
 
+SAME_CLOTH_METRES = 1.5 * RING_THICKNESS_METRES
+"""Metres up to which one vertex of a ring is the other side of the cloth at another; along the cloth they are farther apart."""
 LEG_SMOOTHING_ROUNDS = 30
 """Rounds in which influences become the mean of those around: a few centimetres."""
 HIPS_METRES = (-0.03, 0.04)
@@ -43,7 +48,15 @@ def leg_influences(
         own = (own + beside @ own / number) / 2
     skin = closest_points(vertices, body.vertices, body.triangles).interpolated(joint_weights, body.triangles)
     above = smoothstep(vertices[:, 1] - legs.crotch, *HIPS_METRES)[:, None]
-    return strongest(own + above * (skin - own))
+    return strongest(_both_sides(vertices, own + above * (skin - own)))
+
+
+def _both_sides(vertices: NDArray[np.floating], own: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Weights (V, J) of a ring's vertices (V, 3), alike outside and inside: the inside would come through the outside else."""
+    pairs = cKDTree(vertices).query_pairs(SAME_CLOTH_METRES, output_type="ndarray")
+    across = csr_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(vertices), len(vertices)))
+    across = across + across.T
+    return np.asarray((own + across @ own) / (1 + np.asarray(across.sum(1)).reshape(-1, 1)))
 
 
 def shares_of_left(sideways: NDArray[np.floating]) -> NDArray[np.float64]:

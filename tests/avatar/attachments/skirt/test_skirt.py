@@ -134,3 +134,17 @@ def test_a_hand_beside_the_hips_neither_moves_the_ring_nor_hides_it(
     assert not dressed.body.own[bare.triangles].any() and len(bare.triangles) < len(dressed.body.triangles)
     moving = np.unique(worn.bones[worn.weights > 0])
     assert not any("Hand" in human.rig.names[joint] or "Arm" in human.rig.names[joint] for joint in moving)
+
+
+def test_its_outside_and_its_inside_move_alike(human: HumanModels, dressed: Dressed) -> None:
+    rig, skin = human.rig, human.skin
+    weights = np.zeros((len(skin.vertices), len(rig.names)), np.float32)
+    np.add.at(weights, (np.arange(len(weights))[:, None], skin.bones), skin.weights)
+    vertices, triangles = skirt_mesh(dressed.skirt)
+    bones, shares = leg_influences(vertices, triangles, dressed.body, dressed.legs, weights)
+    own = np.zeros((len(vertices), len(rig.names)))
+    np.add.at(own, (np.arange(len(own))[:, None], bones), shares)
+    around = own.reshape(len(dressed.skirt.turns), -1, len(rig.names))
+    rows = (around.shape[1] - 1) // 2
+    outside, inside = around[:, rows - 2 :: -1], around[:, rows + 2 :]  # from the second row above the hem on
+    np.testing.assert_allclose(outside, inside, atol=0.03)
