@@ -49,38 +49,36 @@ def triangulate_robustly(
     sight = np.stack([camera.rays(at[None])[0] for camera, at in zip(cameras, pixels, strict=True)])
     sight /= np.linalg.norm(sight, axis=1, keepdims=True)
     across = np.eye(3) - sight[:, :, None] * sight[:, None, :]
+    feet = np.einsum("nab,nb->na", across, eyes)  # of the lines' normals from the origin
 
     def nearest(weights: NDArray[np.float64]) -> NDArray[np.float64]:
-        weighed = weights[:, None, None] * across
-        return np.linalg.solve(weighed.sum(0), np.einsum("nab,nb->a", weighed, eyes))
+        """(P, 3) the places nearest to the lines of sight, each with weights of its own, (P, N)."""
+        return np.asarray(np.linalg.solve(np.tensordot(weights, across, 1), (weights @ feet)[..., None])[..., 0])
 
-    def off(place: NDArray[np.float64]) -> NDArray[np.float64]:
-        found = np.stack([camera.project(place, np.float64, 0.01)[:2] for camera in cameras])
-        return np.linalg.norm(found - pixels, axis=1) / sigma
+    def off(places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(P, N) the deviations of places (P, 3)."""
+        found = np.stack([camera.project(places, np.float64, 0.01)[:, :2] for camera in cameras], 1)
+        return np.asarray(np.linalg.norm(found - pixels, axis=-1) / sigma)
 
-    best: tuple[float, NDArray[np.float64]] | None = None
-    for pair in _pairs(sight):
-        place = nearest(np.isin(np.arange(len(eyes)), pair).astype(np.float64))
-        score = float((confidence / (1 + off(place) ** 2)).sum())
-        if best is None or score > best[0]:
-            best = score, place
-    if best is None:
+    pairs = _pairs(sight)
+    if not len(pairs):
         return None
-    place = best[1]
+    proposed = nearest((pairs[..., None] == np.arange(len(eyes))).any(1).astype(np.float64))
+    score = (confidence / (1 + off(proposed) ** 2)).sum(1)
+    place = proposed[[score.argmax()]]
     for _ in range(TRIANGULATION_ROUNDS):
-        weights = confidence / (1 + off(place) ** 2) ** 2 / np.maximum(np.linalg.norm(eyes - place, axis=1), 0.01) ** 2
-        place = nearest(weights)
-    residuals = off(place)
+        away = np.linalg.norm(eyes - place[:, None], axis=-1)
+        place = nearest(confidence / (1 + off(place) ** 2) ** 2 / np.maximum(away, 0.01) ** 2)
+    residuals = off(place)[0]
     agreeing = residuals < INLIER_SIGMAS
     if agreeing.sum() < 2:
         return None
     rms = float(np.sqrt(((residuals * sigma)[agreeing] ** 2).mean()))
-    return Triangulated(place, int(agreeing.sum()), rms)
+    return Triangulated(place[0], int(agreeing.sum()), rms)
 
 
-def _pairs(sight: NDArray[np.float64]) -> list[tuple[int, int]]:
-    """Pairs of views that look along different lines: all of them, or as many as are tried."""
+def _pairs(sight: NDArray[np.float64]) -> NDArray[np.intp]:
+    """(P, 2) pairs of views that look along different lines: all of them, or as many as are tried."""
     cosines = np.abs(sight @ sight.T)
-    first, second = np.nonzero(np.triu(cosines < MAX_PAIR_COSINE, 1))
-    chosen = np.random.default_rng(0).permutation(len(first))[:MAX_VIEW_PAIRS]
-    return [(int(first[k]), int(second[k])) for k in chosen]
+    different = np.argwhere(np.triu(cosines < MAX_PAIR_COSINE, 1))
+    return different[np.random.default_rng(0).permutation(len(different))[:MAX_VIEW_PAIRS]]
