@@ -27,6 +27,7 @@ from engine.face_animation.motion_transfer.control_motion import ControlMotion, 
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
 from engine.face_animation.mouth.mouth_interior import MouthInterior
+from engine.face_animation.mouth.seen_teeth import seen_teeth
 from engine.face_animation.mouth.target_mouth import target_mouth
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.face_before_head import FaceBeforeHead
@@ -118,7 +119,7 @@ class FaceAnimation:
         self._around_face = self._before.around(target.rig.mesh)
         self._keep_alpha = layers.transparent and keep_alpha
         self._eyes = EyesAndLids(face) if parts.eyes else None
-        self._mouth = (mouth or target_mouth(face)) if parts.hidden else None
+        self._mouth = (mouth or target_mouth(face, seen_teeth(track))) if parts.hidden else None
         self._held = np.zeros(len(target.rig.mesh.vertices), bool)
         inside = np.flatnonzero(target.rig.control.usable[:MESH_SIZE])
         depth = -rim_distance(face.mesh, face.mesh[inside, :2]) / float(eye_distance(face.mesh[:, :2]))

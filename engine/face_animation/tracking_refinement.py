@@ -28,6 +28,7 @@ from engine.face_animation.motion_transfer.landmark_residuals import (
     flatten_residuals,
     no_residuals,
 )
+from engine.face_animation.mouth.target_mouth import target_mouth
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.layers import single_layer
 from engine.imaging.window import Window
@@ -98,7 +99,10 @@ def refine_tracking(
     some = replace(track, meshes=track.meshes[frames], periphery=track.periphery[frames], trust=track.trust[frames])
     layers = single_layer(target)
     animation = FaceAnimation(
-        RiggedTarget(target, layers, rig_target(target, layers, details)), RegisteredDriver(track, neutral), options
+        RiggedTarget(target, layers, rig_target(target, layers, details)),
+        RegisteredDriver(track, neutral),
+        options,
+        mouth=target_mouth(target),
     )
     motions = [replace(motion, frame=frames[motion.frame]) for motion in animation.carry(some, frames.index(neutral))]
     placed = [animation.face(motion) for motion in motions]

@@ -29,16 +29,17 @@ from engine.perception.face.head_pose import canonical_face
 from engine.perception.face.landmarks import eye_distance, mouth_opening
 
 
-def target_mouth(target: TargetFace) -> MouthInterior:
+def target_mouth(target: TargetFace, shown: NDArray[np.floating] | None = None) -> MouthInterior:
     """The inside of a target's mouth. Where its picture shows crowns of upper teeth, which are lighter than skin, these are it. Anything else that
     parted lips show there, a tongue or teeth in the dark, is never seen: as the mouth moved it would be a grey plug, and give way to
-    teeth from one frame to the next. Lips that are parted there meet in a line (`LipSeam`)."""
+    teeth from one frame to the next. Lips that are parted there meet in a line (`LipSeam`). `shown` : (N, 2) how much of its teeth the driver shows in each
+    of its frames (`seen_teeth`): the target shows no more."""
     if float(mouth_opening(target.mesh)) <= PARTED_OPENINGS[0]:
-        return _inside(target, appearing_opening(target.mesh))
-    return LipSeam(_inside(target, 0.0), lip_colour(target.rgb, target.mesh))
+        return _inside(target, appearing_opening(target.mesh), shown)
+    return LipSeam(_inside(target, 0.0, shown), lip_colour(target.rgb, target.mesh))
 
 
-def _inside(target: TargetFace, appearing: float) -> MouthInterior:
+def _inside(target: TargetFace, appearing: float, shown: NDArray[np.floating] | None) -> MouthInterior:
     """The inside of a target's mouth without the line between its lips. Where it is modelled it is seen from an opening
     of `appearing` on."""
     rgb, mesh = target.rgb, target.mesh
@@ -50,8 +51,9 @@ def _inside(target: TargetFace, appearing: float) -> MouthInterior:
         if strip.has_crowns and _lightness(strip.usual(), rgb, mesh) > 1:
             colours = mouth_colours(rgb, mesh, strip.usual() * teeth_gain(rgb, mesh, photo, strip))
             none: NDArray[np.float32] = np.zeros((0, *mesh[:, :2].shape), np.float32)  # as large as in the picture
-            return PhotoTeeth(at, rgb, mesh, photo, ModelledMouth(at, colours, False, softness=softness), none)
-    return ModelledMouth(at, mouth_colours(rgb, mesh), True, appearing, softness)
+            behind = ModelledMouth(at, colours, False, softness=softness, shown=shown)
+            return PhotoTeeth(at, rgb, mesh, photo, behind, none, shown=shown)
+    return ModelledMouth(at, mouth_colours(rgb, mesh), True, appearing, softness, shown)
 
 
 def _lightness(colour: NDArray[np.floating], rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:

@@ -85,6 +85,8 @@ AFFINE_FRAME = np.concatenate([np.zeros((1, 3)), np.eye(3)])
 """What a part's places follow from, since each part moves as a whole: the origin, and a step along each axis."""
 SAMPLES_PER_PIXEL = 2
 """To a pixel, along each axis, where outlines run: the inside is softened by the lips around it."""
+ALL_TEETH = (1.0, 1.0)
+"""Shares of the opening that upper and lower teeth may fill of whom it is not known what they show."""
 MAX_CLOSED_OPENING = 0.01
 """Opening of a mouth of which nothing is seen."""
 
@@ -92,11 +94,18 @@ MAX_CLOSED_OPENING = 0.01
 class ModelledMouth:
     """`MouthInterior` of a person: what is modelled, in their `colours`, behind the lips of a face that rests as `at` says. `upper` :
     whether upper teeth are modelled, too. `appearing` : the opening from which on it is seen. `softness` : eye distances, the blur of its edges
-    (`picture_softness`)."""
+    (`picture_softness`). `shown` : (N, 2) what share of the opening the teeth of each driver frame fill (`seen_teeth`); no more is seen of these."""
 
     def __init__(
-        self, at: RestingMouth, colours: MouthColours, upper: bool, appearing: float = 0.0, softness: float = 0.0
+        self,
+        at: RestingMouth,
+        colours: MouthColours,
+        upper: bool,
+        appearing: float = 0.0,
+        softness: float = 0.0,
+        shown: NDArray[np.floating] | None = None,
     ):
+        self._shown = shown
         self._at, self._appearing, self._softness, self._albedo = at, appearing, softness, colours.albedo
         rows = [(modelled_teeth(at, True), colours.upper)] if upper else []
         jaw = [(modelled_teeth(at, False), colours.lower), (tongue(at), colours.tongue)]
@@ -125,7 +134,7 @@ class ModelledMouth:
             return
         x0, y0, x1, y1 = box
         shape, corner = (y1 - y0, x1 - x0), np.array([x0, y0], np.float32)
-        points = self.places(face) - (x0, y0, 0)
+        points = self.places(face, shown_teeth(self._shown, driver_frame)) - (x0, y0, 0)
         inside = np.zeros((*shape, 3), np.uint8)
         inside[:] = self._textures[-1][COLOUR_RAMP_PIXELS[1] // 2, -1]  # the dark
         unit = float(eye_distance(face))
@@ -140,20 +149,21 @@ class ModelledMouth:
         part = frame[y0:y1, x0:x1]
         part[:] = np.clip(part + share * np.asarray(mask) * (lit - part) + 0.5, 0, 255).astype(np.uint8)
 
-    def places(self, face: NDArray[np.floating]) -> NDArray[np.float64]:
-        """(V, 3) where all vertices are, pixels of the picture of a `face` (478, 2), and how far away."""
+    def places(self, face: NDArray[np.floating], shown: tuple[float, float] = ALL_TEETH) -> NDArray[np.float64]:
+        """(V, 3) where all vertices are, pixels of the picture of a `face` (478, 2), and how far away. `shown` : shares of the opening that upper and lower
+        teeth fill at most."""
         matrix, shift = skull_camera(self._at.front, face)
         scale = float(np.linalg.norm(matrix[0]))
         camera = np.vstack([matrix, np.cross(matrix[0], matrix[1]) / scale])
         depths = self._at.front[:, 2]
         front = from_before(self._at.front, face, matrix, shift)
-        jaw = jaw_behind_lips(self._at, front)
+        jaw = jaw_behind_lips(self._at, front, shown[1])
         lips = np.column_stack([front, depths])[list(LIPS_INNER)]
         tongue_jaw = jaw._replace(angle=TONGUE_JAW_SHARE * jaw.angle)
-        raised = min(
-            float(front[INNER_UPPER_LIP_VERTEX, 1]) + most_crown(self._at, front) - self._at.edge, 0.0
-        ) - covered_crown(self._at, front)
-        raised -= stubs(float(self._at.edge + raised - front[INNER_UPPER_LIP_VERTEX, 1]))
+        lip = float(front[INNER_UPPER_LIP_VERTEX, 1])
+        raised = min(lip + most_crown(self._at, front) - self._at.edge, 0.0) - covered_crown(self._at, front)
+        raised -= hidden_crown(self._at.edge + raised - lip, front, shown[0])
+        raised -= stubs(float(self._at.edge + raised - lip))
         bag = mouth_bag(lips, BAG_DEPTH_FACTOR, self._at.width)
         moved = np.concatenate(
             [AFFINE_FRAME + np.array([0, raised, 0]), jaw.moved(AFFINE_FRAME), tongue_jaw.moved(AFFINE_FRAME), bag]
@@ -198,13 +208,26 @@ class ModelledMouth:
         return np.asarray(shade, np.float32)
 
 
-def jaw_behind_lips(at: RestingMouth, front: NDArray[np.floating]) -> Jaw:
-    """The jaw of a face that rests as `at` says and is `front` (478, 2 or 3) from the front: as its chin tells, and where its lower lip is."""
+def jaw_behind_lips(at: RestingMouth, front: NDArray[np.floating], shown: float = 1.0) -> Jaw:
+    """The jaw of a face that rests as `at` says and is `front` (478, 2 or 3) from the front: as its chin tells, and where its lower lip is. Lower teeth fill no
+    more than the share `shown` of the opening."""
     edge = np.array([at.middle, at.edge - OVERBITE_EYE_DISTANCES, at.depth + OVERJET_EYE_DISTANCES])
     lip, jaw = float(front[INNER_LOWER_LIP_VERTEX, 1]), jaw_of(front, at.shut)
     bared = float(np.interp(jaw.angle, BARING_JAW_RADIANS, (0, 1)))
+    above = min(bared * ABOVE_LIP_EYE_DISTANCES, shown * _gap(front))
     lip += covered_crown(at, front)  # rounded lips are before the lower teeth, too
-    return held_between(jaw, edge, (lip - bared * ABOVE_LIP_EYE_DISTANCES, lip + BELOW_LIP_EYE_DISTANCES))
+    return held_between(jaw, edge, (lip - above, lip + BELOW_LIP_EYE_DISTANCES))
+
+
+def hidden_crown(seen: float, front: NDArray[np.floating], shown: float) -> float:
+    """Eye distances by which the upper row, of which so many would be `seen` below the lip of a face `front` (478, 2 or 3) from the front, is higher than that
+    for filling no more than the share `shown` of the opening. Where that is all of it, what is longer is behind the lower lip."""
+    return max(seen - shown * _gap(front), 0.0) if shown < ALL_TEETH[0] else 0.0
+
+
+def shown_teeth(shown: NDArray[np.floating] | None, frame: int) -> tuple[float, float]:
+    """The shares of the opening that upper and lower teeth fill at most in a driver's `frame`, where they are `shown` (N, 2)."""
+    return ALL_TEETH if shown is None else (float(shown[frame, 0]), float(shown[frame, 1]))
 
 
 def covered_crown(at: RestingMouth, front: NDArray[np.floating]) -> float:
@@ -216,6 +239,11 @@ def most_crown(at: RestingMouth, front: NDArray[np.floating]) -> float:
     """Eye distances of the upper row that are seen at most below the lip of a face that rests as `at` says and is `front` (478, 2 or 3) from the front."""
     opened, smiling = MAX_CROWN_EYE_DISTANCES
     return opened + (smiling - opened) * float(smoothstep(_width_share(at, front), *SMILING_WIDTH_SHARES))
+
+
+def _gap(front: NDArray[np.floating]) -> float:
+    """Between the lips of a face `front` (478, 2 or 3) from the front, in their middle."""
+    return max(float(front[INNER_LOWER_LIP_VERTEX, 1] - front[INNER_UPPER_LIP_VERTEX, 1]), 0.0)
 
 
 def _width_share(at: RestingMouth, front: NDArray[np.floating]) -> float:

@@ -13,10 +13,14 @@ from numpy.typing import NDArray
 
 from engine.face_animation.mouth.lip_contours import box_around, inner_lip_outline, soft_polygon
 from engine.face_animation.mouth.modelled.modelled_mouth import (
+    ALL_TEETH,
     LIP_SOFTNESS_EYE_DISTANCES,
     MIN_LIP_SOFTNESS_PIXELS,
     covered_crown,
+    hidden_crown,
     shown_share,
+    shown_teeth,
+    stubs,
 )
 from engine.face_animation.mouth.modelled.mouth_colours import mouth_albedo
 from engine.face_animation.mouth.modelled.mouth_light import mouth_light
@@ -31,7 +35,12 @@ from engine.face_animation.mouth.pictured.pictured_face import PicturedFace
 from engine.face_animation.mouth.pictured.teeth_strip import ARCH_CURVATURE_PER_EYE_DISTANCE, TeethStrip, teeth_strip
 from engine.face_animation.skin_colour import face_luminance, is_grey, skin_colour
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
-from engine.perception.face.landmarks import INNER_MOUTH_CORNER_VERTICES, eye_distance, mouth_opening
+from engine.perception.face.landmarks import (
+    INNER_MOUTH_CORNER_VERTICES,
+    INNER_UPPER_LIP_VERTEX,
+    eye_distance,
+    mouth_opening,
+)
 
 APPEARING_OPENING = 0.015
 """Of the mouth, from which on the inside appears."""
@@ -56,7 +65,7 @@ class PhotoTeeth:
     before what is `behind` them. `at` : how the face rests.
 
     `faces` (F, 478, 2) what the face does: what of its teeth that uncovers is as wide and long as the teeth are made, once. `appearing` :
-    the opening from which on they are seen.
+    the opening from which on they are seen. `shown` : (N, 2) as of `ModelledMouth`.
     """
 
     def __init__(
@@ -68,7 +77,9 @@ class PhotoTeeth:
         behind: MouthInterior,
         faces: NDArray[np.floating],
         appearing: float = 0.0,
+        shown: NDArray[np.floating] | None = None,
     ):
+        self._shown = shown
         self.at, self._behind = at, behind
         self._appearing = appearing
         self._strip = teeth_strip(photo, float(eye_distance(mesh[:, :2])))
@@ -86,7 +97,7 @@ class PhotoTeeth:
             return
         x0, y0, x1, y1 = box
         corner = np.array([x0, y0], np.float32)
-        teeth = self.teeth(face, corner, (y1 - y0, x1 - x0))
+        teeth = self.teeth(face, corner, (y1 - y0, x1 - x0), shown_teeth(self._shown, driver_frame)[0])
         sigma = max(MIN_LIP_SOFTNESS_PIXELS, LIP_SOFTNESS_EYE_DISTANCES * float(eye_distance(face)))
         mask = cv2.GaussianBlur(soft_polygon(inner - corner, (y1 - y0, x1 - x0)), (0, 0), sigma)[..., None]
         part = frame[y0:y1, x0:x1]
@@ -94,11 +105,15 @@ class PhotoTeeth:
         part[:] = np.clip(part + covered * (teeth[..., :3] - part) + 0.5, 0, 255).astype(np.uint8)
 
     def teeth(
-        self, face: NDArray[np.floating], corner: NDArray[np.floating], shape: tuple[int, int]
+        self,
+        face: NDArray[np.floating],
+        corner: NDArray[np.floating],
+        shape: tuple[int, int],
+        shown: float = ALL_TEETH[0],
     ) -> NDArray[np.float32]:
         """(h, w, 4) the teeth's colours in the target's light, and their shares, in a part of `shape` (h, w) of the picture of a `face`
         (478, 2) whose first pixel is at `corner` (2,)."""
-        layer = self.upper_teeth(self.places(face, corner, shape))
+        layer = self.upper_teeth(self.places(face, corner, shape, shown))
         layer[..., :3] = self.lit(layer[..., :3]) * mouth_light(face, corner, shape, self._albedo)
         return layer
 
@@ -110,12 +125,21 @@ class PhotoTeeth:
         return np.asarray(lit, np.float32)
 
     def places(
-        self, face: NDArray[np.floating], corner: NDArray[np.floating], shape: tuple[int, int]
+        self,
+        face: NDArray[np.floating],
+        corner: NDArray[np.floating],
+        shape: tuple[int, int],
+        shown: float = ALL_TEETH[0],
     ) -> NDArray[np.float64]:
         """(h, w, 2) where on the arch of the teeth each pixel is, as the target's skull has it from the front, in eye distances from
-        the middle of where the upper teeth end. Lips that are rounded are before them: they end higher by what those cover."""
+        the middle of where the upper teeth end. Lips that are rounded are before them: they end higher by what those cover, and
+        by what is beyond the share `shown` of the opening."""
         matrix, shift = skull_camera(self.at.front, face)
-        covered = covered_crown(self.at, from_before(self.at.front, face, matrix, shift))
+        front = from_before(self.at.front, face, matrix, shift)
+        covered = covered_crown(self.at, front)
+        seen = self.at.edge - covered - float(front[INNER_UPPER_LIP_VERTEX, 1])
+        hidden = hidden_crown(seen, front, shown)
+        covered += hidden + (ALL_TEETH[0] - shown) * stubs(seen - hidden)
         back = np.linalg.inv(matrix[:, :2]).T
         rows, columns = np.ogrid[: shape[0], : shape[1]]
         across, down = columns + (corner[0] - shift[0]), rows + (corner[1] - shift[1])

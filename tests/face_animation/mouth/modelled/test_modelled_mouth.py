@@ -394,3 +394,15 @@ def test_of_the_lower_row_only_the_front_is_there() -> None:
     rows = [modelled_teeth(resting_mouth(front(0.0), front(0.0)), upper).vertices for upper in (True, False)]
     upper, lower = (float(np.ptp(row[:, 2])) for row in rows)
     assert lower < 0.3 < upper
+
+
+def test_no_more_of_the_rows_is_seen_than_the_driver_shows(mouth: ModelledMouth) -> None:
+    at = resting_mouth(front(0.0), front(0.0))
+    face = seen(front(0.3))
+    upper = len(modelled_teeth(at, True).vertices)
+    whole, less = (mouth.places(face, shown)[:upper, 1].max() - face[13, 1] for shown in ((1.0, 1.0), (0.1, 1.0)))
+    assert whole > 4 and less <= 0.1 * (face[14, 1] - face[13, 1])
+    lowered = front(0.3)
+    lowered[14, 1] += 0.2
+    some, none = (jaw_behind_lips(at, lowered, shown).angle for shown in (1.0, 0.0))
+    assert none > some + 0.01

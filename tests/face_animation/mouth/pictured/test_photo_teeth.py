@@ -86,6 +86,13 @@ def test_rounded_lips_cover_what_they_are_pushed_before(mouth: PhotoTeeth) -> No
     np.testing.assert_allclose(after[..., 1] - before[..., 1], 0.6 * (0.3 - 0.05), atol=0.006)
 
 
+def test_they_end_higher_where_the_driver_shows_less_of_them(mouth: PhotoTeeth) -> None:
+    corner, shape = np.array([130.0, 170.0]), (60, 60)
+    said = face(0.2)
+    whole, less, none = (mouth.places(said, corner, shape, shown)[..., 1] for shown in (1.0, 0.1, 0.0))
+    assert (less > whole + 0.005).all() and (none > less).all()
+
+
 @pytest.mark.parametrize(("degrees", "scale"), [(0, 1.0), (20, 1.0), (-15, 1.3)])
 def test_teeth_go_where_the_head_goes(mouth: PhotoTeeth, degrees: float, scale: float) -> None:
     angle = np.radians(degrees)
