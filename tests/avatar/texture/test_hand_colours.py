@@ -6,10 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.texture.template_surface import TemplateSurface, template_surface
-from engine.avatar.texture.template_texture.hand_colours import face_skin, hand_tone, toned
+from engine.avatar.texture.template_texture.hand_colours import face_skin
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig, load_template
 from engine.imaging.histogram_matching import to_lab
+from engine.performances.modelling.skin_tone import hand_tone, toned
 from engine.render.textures.texture_bake import texel_raster
 
 PALE, BROWN, TANNED = (215, 175, 155), (95, 62, 48), (195, 152, 128)

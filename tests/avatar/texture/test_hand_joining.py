@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from engine.avatar.texture.template_surface import TemplateSurface, template_surface
 from engine.avatar.texture.template_texture.hand_joining import HandSurface, joined_hand
-from engine.avatar.texture.template_texture.hands import HandBones, hand_bones
 from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig, load_template
 from engine.imaging.histogram_matching import to_lab
+from engine.performances.modelling.hands import HandBones, hand_bones
 from engine.render.textures.texture_bake import texel_raster
 
 SKIN, BLUE, GREEN = np.array([205.0, 160, 135]), np.array([60.0, 90, 160]), np.array([90.0, 150, 70])

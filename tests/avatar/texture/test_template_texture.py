@@ -10,7 +10,6 @@ from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.registration.eyes.tucked_lids import with_tucked_lids
 from engine.avatar.texture.template_surface import TemplateSurface, template_surface
 from engine.avatar.texture.template_texture.eyes import Eyeballs, painted_eyes, persons_eyes
-from engine.avatar.texture.template_texture.hands import hand_bones, painted_hand, past_wrist
 from engine.avatar.texture.template_texture.lids import BELOW_BROW_EYE_WIDTHS, OWN_LID_EYE_WIDTHS, place_lids
 from engine.avatar.texture.template_texture.mouth import (
     LINING_IN_MOUTH_RGB,
@@ -24,6 +23,7 @@ from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.body.rig import HUMAN_RIG, Rig
 from engine.body.template import load_rig, load_template
 from engine.performances.modelling.eyes import EYEBALL_RADIUS_METRES
+from engine.performances.modelling.hands import hand_bones, painted_hand, past_wrist
 from engine.render.textures.texture_bake import texel_raster
 
 

@@ -15,12 +15,12 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
-from engine.avatar.texture.template_texture.hand_colours import like_skin, skin_likeness
-from engine.avatar.texture.template_texture.hands import HandBones
 from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.geometry.deformation.cotangent_laplacian import cotangent_laplacian
 from engine.geometry.mesh.surface import triangle_areas
 from engine.imaging.histogram_matching import to_lab
+from engine.performances.modelling.hands import HandBones
+from engine.performances.modelling.skin_tone import like_skin, skin_likeness
 
 FINGER_WIDTH_METRES = 0.016
 """Metres: the width of a finger."""

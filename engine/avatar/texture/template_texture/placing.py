@@ -11,9 +11,8 @@ from engine.avatar.registration.eyes.eyeballs import sphere
 from engine.avatar.registration.template_skin.skin import EYE_PARTS
 from engine.avatar.texture.template_surface import TemplateSurface
 from engine.avatar.texture.template_texture.eyes import Eyeballs, eye_samples, painted_eyes, persons_eyes
-from engine.avatar.texture.template_texture.hand_colours import face_skin, hand_tone, like_skin, toned
+from engine.avatar.texture.template_texture.hand_colours import face_skin
 from engine.avatar.texture.template_texture.hand_joining import HandSurface, joined_hand
-from engine.avatar.texture.template_texture.hands import HandBones, hand_bones, painted_hand, past_wrist
 from engine.avatar.texture.template_texture.lid_shadow import lash_shadow, lid_shadow
 from engine.avatar.texture.template_texture.mouth import mouth_light, painted_lining, painted_teeth, painted_tongue
 from engine.avatar.texture.template_texture.part_texels import PartTexels
@@ -23,6 +22,8 @@ from engine.geometry.mesh.surface import vertex_normals
 from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.imaging.histogram_matching import to_lab
 from engine.performances.modelling.eyes import IRIS_RADIUS
+from engine.performances.modelling.hands import HandBones, hand_bones, painted_hand, past_wrist
+from engine.performances.modelling.skin_tone import hand_tone, like_skin, toned
 from engine.render.rasterisation.rasteriser import Raster
 
 SOCKET_LIGHT_SHARE = 0.35
