@@ -42,7 +42,9 @@ from engine.character.rig.relaxing import relaxed
 from engine.character.rig.rigging import Character, bind
 from engine.character.rig.shell_binding import bind_shell
 from engine.character.rig.turned_over import without_backs_in_view
+from engine.character.shell.colours.bare_skin import bare_skin
 from engine.character.shell.colours.paint import paint_shell
+from engine.character.shell.extremities import nose_colours
 from engine.character.shell.shell import Shell
 from engine.character.surface.face_warp import seen_face
 from engine.character.surface.front_and_back import ClosedMesh, stitch_front_and_back
@@ -342,9 +344,18 @@ def make_hybrid_character(
     relief = _made_of(figure, alone, fitted, own, trunk, tiles, _left_for_a_relief(triangles, shown))
     filled: BackTexture = "inpaint" if back == "inpaint" else "mirror"
     over_arms = held & np.isin(labels.bare.labels, ARM_LABELS)  # hair on a shoulder does not go with the arm
+    skin = bare_skin(
+        silhouette.rgb,
+        nose_colours(figure, silhouette),
+        labels.bare.labels,
+        hybrid.shell.pictured,
+        shown.mesh.triangles,
+    )
+    if skin is not None:
+        hybrid = replace(hybrid, strange=hybrid.strange | skin.strange)
     unlike = hybrid.strange | bare_under_cloth(own) | dilate_mask(over_arms, MIXED_BORDER_PIXELS)
     texture = paint_shell(
-        figure.rgb, silhouette, labels.bare, hybrid.shell, filled, shown.mesh.triangles, unlike, hybrid.framed
+        figure.rgb, silhouette, labels.bare, hybrid.shell, filled, shown.mesh.triangles, unlike, hybrid.framed, skin
     )
     texture = with_the_trunks_colours(texture, hybrid, tiles, figure, silhouette)
     shell = bind_shell(shown, figure, silhouette, fitted, texture)

@@ -17,7 +17,7 @@ from engine.character.hybrid.hips import at_hips, hips_behind, within_the_outlin
 from engine.character.hybrid.hybrid import SHOULDER_NEARNESS, Hybrid
 from engine.character.hybrid.trunk import LIMB_LABELS
 from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, LEG_LABELS, TRUNK_LABEL
-from engine.character.shell.colours.paint import texels
+from engine.character.shell.colours.texels import texels
 from engine.character.texture.texture import Tiles
 from engine.geometry.mesh.surface import vertex_normals
 from engine.imaging.filling.nearest import nearest_colours

@@ -23,6 +23,7 @@ from engine.character.fit.template_fit import FittedBody, load_human
 from engine.character.parts.label_map import Labels
 from engine.character.shell.template_mesh import TemplateMesh, template_mesh
 from engine.geometry.rigging.joint_names import FINGER_NAMES
+from engine.imaging.histogram_matching import to_lab
 from engine.perception.face.landmarks import fiducials
 
 FINGER_CURL_DEGREES = (12.0, 20.0, 24.0, 28.0, 32.0)
@@ -92,21 +93,26 @@ def _skin_triangles(mesh: TemplateMesh) -> NDArray[np.int32]:
     return np.asarray(number[mesh.triangles[~mesh.eye[mesh.triangles[:, 0]]]], np.int32)
 
 
+def nose_colours(figure: Figure, silhouette: Silhouette) -> NDArray[np.uint8]:
+    """(M, 3) the grid's colours about the nose, which are skin; none where no face is seen."""
+    if figure.face is None:
+        return np.zeros((0, 3), np.uint8)
+    nose = fiducials(figure.face[:, :2])[NOSE_FIDUCIALS] @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
+    hull = cv2.convexHull(np.rint(nose).astype(np.int32))
+    return silhouette.rgb[cv2.fillConvexPoly(np.zeros(silhouette.mask.shape, np.uint8), hull, (1,)) > 0]
+
+
 def barefoot(figure: Figure, silhouette: Silhouette, labels: Labels, template: NDArray[np.float64]) -> bool:
     """Whether feet and shins have the colour of the face: brown shoes have it, too, but seldom below bare shins. Whose face, feet or
     shins are not seen is not. `template` (V, 3): the fitted one in the grid's picture space."""
-    if figure.face is None:
-        return False
     mesh = template_mesh()
     lab = cv2.cvtColor(silhouette.rgb.astype(np.float32) / 255, cv2.COLOR_RGB2LAB)
     height, width = labels.labels.shape
-    nose = fiducials(figure.face[:, :2])[NOSE_FIDUCIALS] @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
-    face = cv2.fillConvexPoly(np.zeros((height, width), np.uint8), cv2.convexHull(np.rint(nose).astype(np.int32)), (1,))
     legs = np.isin(labels.labels, [BODY_PARTS.index(name) for name in ("left_leg", "right_leg")])
-    skin = lab[face > 0]
+    skin = nose_colours(figure, silhouette)
     if len(skin) < MIN_COLOUR_PIXELS:
         return False
-    own = np.median(skin, axis=0)
+    own = np.median(to_lab(skin), axis=0)
 
     def alike(vertices: NDArray[np.bool_]) -> bool:
         near = np.zeros((height, width), np.uint8)

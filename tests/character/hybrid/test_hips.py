@@ -16,7 +16,7 @@ from engine.character.hybrid.hybrid import Hybrid, make_hybrid
 from engine.character.hybrid.seam import with_the_trunks_colours
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, TRUNK_LABEL
-from engine.character.shell.colours.paint import SHELL_TEXTURE_SIZE_TEXELS, texels
+from engine.character.shell.colours.texels import SHELL_TEXTURE_SIZE_TEXELS, texels
 from engine.character.shell.template_mesh import template_mesh
 from engine.character.texture.texture import Tiles
 from engine.geometry.mesh.surface import vertex_normals

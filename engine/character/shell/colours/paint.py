@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 
 import cv2
@@ -11,13 +12,17 @@ from numpy.typing import NDArray
 
 from engine.character.figure.silhouette import Silhouette
 from engine.character.parts.label_map import Labels
+from engine.character.shell.colours.bare_rows import BareRows, bare_rows, skin_colour
+from engine.character.shell.colours.bare_skin import BareSkin, metres_past_wrists
 from engine.character.shell.colours.ear_shade import ear_shade
 from engine.character.shell.colours.evidence import witness
 from engine.character.shell.colours.head_round import head_round
 from engine.character.shell.colours.light_of_the_picture import light_of_the_picture
+from engine.character.shell.colours.painted_hands import with_painted_hands
 from engine.character.shell.colours.round import BackTexture, coloured_round, with_the_other
 from engine.character.shell.colours.shoe_bands import level_round
 from engine.character.shell.colours.sole import above_the_sole, sole_shade
+from engine.character.shell.colours.texels import SHELL_TEXTURE_SIZE_TEXELS, texels
 from engine.character.shell.colours.unrolled import UNROLLED_COLUMNS, unrolled_parts
 from engine.character.shell.shell import Shell
 from engine.character.shell.template_mesh import template_mesh
@@ -25,10 +30,8 @@ from engine.compiled import njit
 from engine.imaging.filling.nearest import nearest_in
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.render.rasterisation.attributes import interpolate
-from engine.render.rasterisation.rasteriser import Raster, rasterise
+from engine.render.rasterisation.rasteriser import Raster
 
-SHELL_TEXTURE_SIZE_TEXELS = 2048
-"""Texels of the texture's sides."""
 FILL_BLEND_TEXELS = 6
 """Texels over which what is shown goes over into what is filled in."""
 GUTTER_TEXELS = 16
@@ -52,16 +55,6 @@ HEAD_ATTRIBUTE_INDEX, HEAD_COSINES = 4, (0.22, 0.42)
 picture, and it alone."""
 
 
-@cache
-def texels() -> Raster:
-    """What of the template each texel shows, (`SHELL_TEXTURE_SIZE_TEXELS`, `SHELL_TEXTURE_SIZE_TEXELS`), once for the process;
-    texels beside its chart show nothing."""
-    mesh = template_mesh()
-    flat = np.zeros((len(mesh.uv), 3), np.float32)
-    flat[:, :2] = mesh.uv * SHELL_TEXTURE_SIZE_TEXELS - 0.5
-    return rasterise(flat, mesh.uv_triangles, (SHELL_TEXTURE_SIZE_TEXELS, SHELL_TEXTURE_SIZE_TEXELS))
-
-
 def paint_shell(
     rgb: NDArray[np.uint8],
     silhouette: Silhouette,
@@ -71,6 +64,7 @@ def paint_shell(
     hides: NDArray[np.int32] | None = None,
     strange: NDArray[np.bool_] | None = None,
     framed: NDArray[np.float32] | None = None,
+    skin: BareSkin | None = None,
 ) -> NDArray[np.uint8]:
     """The texture (`SHELL_TEXTURE_SIZE_TEXELS`, `SHELL_TEXTURE_SIZE_TEXELS`, 3) of a shell, in the template's own chart.
 
@@ -83,6 +77,7 @@ def paint_shell(
         painted.
     strange : (h, w), pixels of the grid that have not the colours of what they are labelled as.
     framed : (V,), from 0 to 1, what of the head ends at hair beside it, and shows the picture at any slant.
+    skin : the person's, if any is seen: what is not shown of bare hands and arms has its colours.
 
     Raises
     ------
@@ -99,6 +94,7 @@ def paint_shell(
         points = interpolate(told.attributes, triangles, part.raster)
         seen = told.of(points)
         evidence[part.name] = seen.colours, seen.source & part.covered, points[..., 3]
+    bare = {} if skin is None else _bare_arms(evidence, skin)
     rows, sure = [], []
     trust: NDArray[np.float32] | None = None
     halves: NDArray[np.float32] | None = None
@@ -113,7 +109,8 @@ def paint_shell(
         else:
             if (other := OPPOSITE_LIMB.get(part.name)) in evidence:
                 own = with_the_other(own, evidence[other])
-            around, known = coloured_round(*own, back, part.yoke, part.name in OPPOSITE_LIMB, part.name.endswith("leg"))
+            ring, leg = part.name in OPPOSITE_LIMB, part.name.endswith("leg")
+            around, known = coloured_round(*own, back, part.yoke, ring, leg, bare.get(part.name))
         rows.append(around)
         sure.append(known)
     firsts = np.cumsum([0, *(len(each) for each in rows)])
@@ -145,6 +142,8 @@ def paint_shell(
     model = np.zeros_like(painted)
     _filled(model, np.zeros_like(soft), drawn, raster.barycentrics, triangles, places.astype(np.float32),
             np.concatenate(rows), np.concatenate(sure), firsts)  # fmt: skip
+    if skin is not None:
+        model = with_painted_hands(model, skin.hands)
     model += light_of_the_picture(painted - model, soft)
     painted = soft[..., None] * painted + (1 - soft[..., None]) * model
     folds = np.column_stack([ear_shade(), above_the_sole()])
@@ -153,6 +152,24 @@ def paint_shell(
     painted *= np.where(drawn >= 0, soft + (1 - soft) * shade, 1)[..., None]
     out = np.clip(painted + 0.5, 0, 255).astype(np.uint8)
     return _beyond_the_chart(out)
+
+
+def _bare_arms(
+    evidence: Mapping[str, tuple[NDArray[np.float32], NDArray[np.bool_], NDArray[np.floating]]], skin: BareSkin
+) -> dict[str, BareRows]:
+    """Which rows of unrolled arms, by their names, are bare; both are of one colour. `evidence` is of unrolled parts, as `coloured_round` takes it."""
+    found = {}
+    for part in unrolled_parts():
+        if part.name in evidence and part.name.endswith("arm"):
+            own, other = evidence[part.name], evidence.get(OPPOSITE_LIMB[part.name])
+            told = own if other is None else with_the_other(own, other)
+            past = metres_past_wrists()[("left_arm", "right_arm").index(part.name)]
+            wrist = int(part.along[np.nanargmin(np.abs(past))])
+            found[part.name] = bare_rows(told[0], told[1], skin.tone, wrist)
+    if not found:
+        return {}
+    colour = skin_colour(np.concatenate([cells for _, cells in found.values()]), skin.tone)
+    return {name: BareRows(rows, colour) for name, (rows, _) in found.items()}
 
 
 def _at(values: NDArray[np.float32], rows: NDArray[np.floating], angles: NDArray[np.floating]) -> NDArray[np.float32]:

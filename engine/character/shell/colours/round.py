@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
+from engine.character.shell.colours.bare_rows import BareRows
 from engine.character.shell.colours.between_hems import between_hems
 from engine.character.shell.colours.unrolled import ROW_METRES, UNROLLED_COLUMNS
 from engine.imaging.filling.pull_push import pull_push
@@ -41,6 +42,9 @@ MIXED_EDGE_METRES = 0.008
 """Metres around what is not of the kind, in which colours are mixed."""
 FILL_BLEND_METRES = 0.04
 """Metres over which what is filled in comes to be as it is made, from where it meets what is seen."""
+BARE_BLEND_METRES = 0.15
+"""Metres along an arm over which what is filled of bare skin comes to be as it is made: its light changes softly, and once round an arm columns are a
+quarter as wide as rows."""
 MIN_ROW_CELLS = 6.0
 """Cells, as well seen as can be, from which on a row's side is known; with fewer, the nearest row that is says the rest."""
 ROBUST_SCALE_LEVELS = 40.0
@@ -89,6 +93,7 @@ def coloured_round(
     yoke: int | None = None,
     ring: bool = False,
     at_the_border: bool = False,
+    bare: BareRows | None = None,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """The colours (A, `UNROLLED_COLUMNS`, 3) of an unrolled part, sRGB levels: those of its `source` (A, `UNROLLED_COLUMNS`), and
     continued round it; and how sure (A,) each row is of them, from 0 to 1.
@@ -96,7 +101,7 @@ def coloured_round(
     `facing` (A, `UNROLLED_COLUMNS`): cosine to the viewer of each cell, negative behind. From the row `yoke` upwards a front has
     a neckline and no back has one: there the rows below are mirrored. A `ring`, as a limb is, is told by all that is seen
     of a row, and not by its sides alone. What is seen is laid behind as it lies before, or, `at_the_border`, reflected where it ends: of legs,
-    which are seen over as much of their girth everywhere. Where nothing is a source, nothing changes.
+    which are seen over as much of their girth everywhere. What is not seen of `bare` rows is skin. Where nothing is a source, nothing changes.
     """
     if not source.any():
         return colours, np.zeros(len(colours), np.float32)
@@ -116,7 +121,12 @@ def coloured_round(
     detail = np.zeros_like(seen)
     for partner, share in ways:
         detail += share[..., None] * own[rows[:, None], partner]
-    filled = joined(model.colours + detail, seen, known, known * kind)
+    filled, reach = model.colours + detail, np.full((len(seen), 1), FILL_BLEND_METRES, np.float32)
+    if bare is not None and bare.rows.any():
+        share = _blurred(bare.rows[:, None].astype(np.float32), ROW_SMOOTHING_METRES)[..., None]
+        filled, kind = filled + share * (bare.colour - filled), np.maximum(kind, share[..., 0])
+        reach += share[..., 0] * (BARE_BLEND_METRES - reach)
+    filled = joined(filled, seen, known, known * kind, reach)
     return turned_rows(np.where(known[..., None], seen, filled), turns), model.sure
 
 
@@ -286,17 +296,22 @@ def continued_rows(colours: NDArray[np.floating], weight: NDArray[np.floating]) 
 
 
 def joined(
-    filled: NDArray[np.floating], seen: NDArray[np.floating], known: NDArray[np.bool_], trust: NDArray[np.floating]
+    filled: NDArray[np.floating],
+    seen: NDArray[np.floating],
+    known: NDArray[np.bool_],
+    trust: NDArray[np.floating],
+    reach: NDArray[np.floating] | float = FILL_BLEND_METRES,
 ) -> NDArray[np.float32]:
-    """What is `filled` in, (A, `UNROLLED_COLUMNS`, 3), moved to what is `seen` where both meet, as far as that is of its kind: `trust`
-    (A, `UNROLLED_COLUMNS`)."""
+    """What is `filled` in, (A, `UNROLLED_COLUMNS`, 3), moved to what is `seen` where both meet, as far as that is of its kind, `trust`
+    (A, `UNROLLED_COLUMNS`), and less and less over a `reach`, metres along the part, one or of each
+    row (A, 1)."""
     moved = continued_rows(seen - filled, trust)
     wide = np.concatenate([known, known, known], 1)
     away = (
         cv2.distanceTransform((~wide).astype(np.uint8), cv2.DIST_L2, 5)[:, UNROLLED_COLUMNS : 2 * UNROLLED_COLUMNS]
         * ROW_METRES
     )
-    return np.asarray(filled + moved * np.exp(-away / FILL_BLEND_METRES)[..., None], np.float32)
+    return np.asarray(filled + moved * np.exp(-away / reach)[..., None], np.float32)
 
 
 def _blurred(values: NDArray[np.floating], metres: float) -> NDArray[np.float32]:

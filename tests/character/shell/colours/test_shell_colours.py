@@ -15,7 +15,8 @@ from engine.character.fit.template_fit import load_human
 from engine.character.parts.label_map import Labels
 from engine.character.shell.colours.ear_shade import ear_shade
 from engine.character.shell.colours.evidence import witness
-from engine.character.shell.colours.paint import SHELL_TEXTURE_SIZE_TEXELS, paint_shell, texels
+from engine.character.shell.colours.paint import paint_shell
+from engine.character.shell.colours.texels import SHELL_TEXTURE_SIZE_TEXELS, texels
 from engine.character.shell.shell import Shell
 from engine.character.shell.template_mesh import template_mesh
 from engine.render.rasterisation.attributes import interpolate
