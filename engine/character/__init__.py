@@ -26,9 +26,11 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
 def _prepare() -> None:
     from engine.character import pipeline  # noqa: F401 - importing it is half of the preparation
     from engine.character.fit.template_fit import load_human
+    from engine.character.shell.colours.bare_skin import hands_of_the_template
     from engine.character.shell.extremities import shoe_shapes
 
     load_human()  # a job may not read the user's cache, in which it lies
+    hands_of_the_template()
     shoe_shapes()
 
 
