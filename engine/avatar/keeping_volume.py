@@ -1,4 +1,4 @@
-"""The avatar on half joints: shoulders, elbows, hips and knees that stay round where the avatar bends."""
+"""The avatar on half joints: shoulders, elbows and knees that stay round where the avatar bends."""
 
 from __future__ import annotations
 

@@ -29,6 +29,29 @@ def test_views_that_agree_outvote_those_that_are_wrong() -> None:
     assert found.agreeing == 8
 
 
+def test_a_place_that_more_views_agree_on_is_believed() -> None:
+    """Five of twelve views have the other hand."""
+    cameras, place, other = _ring(12), np.array([0.4, 1.3, 0.1]), np.array([-0.4, 1.1, 0.1])
+    pixels = np.stack(
+        [camera.project(other if k % 12 in (0, 2, 5, 7, 9) else place)[:2] for k, camera in enumerate(cameras)]
+    )
+    found = triangulate_robustly(cameras, pixels, np.ones(12), np.full(12, 6.0))
+    assert found is not None and found.agreeing == 7
+    np.testing.assert_allclose(found.place, place, atol=1e-3)
+
+
+def test_a_pixel_of_a_near_view_counts_more_than_one_of_a_far_view() -> None:
+    """Two views a metre away and two ten metres away have places that are 4 mm apart: a third of a pixel far away, and 3.6 near by."""
+    near, other = np.array([0.0, 1.0, 0.0]), np.array([0.0, 1.004, 0.0])
+    lens = _ring(1)[0]
+    eyes = [(0, 1, 1), (1, 1, 0), (0, 1, -10), (-10, 1, 0)]
+    cameras = [lens.aimed(eye, near) for eye in eyes]
+    pixels = np.stack([camera.project(near if k < 2 else other)[:2] for k, camera in enumerate(cameras)])
+    found = triangulate_robustly(cameras, pixels, np.ones(4), np.full(4, 100.0))
+    assert found is not None
+    np.testing.assert_allclose(found.place, near + (other - near) / 101, atol=2e-5)  # weights are 1 and 1/100
+
+
 def test_parallel_lines_of_sight_meet_nowhere() -> None:
     cameras = [_ring(12)[0]] * 3
     assert triangulate_robustly(cameras, np.full((3, 2), 300.0), np.ones(3), np.full(3, 6.0)) is None

@@ -16,7 +16,7 @@ from engine.face_animation.mouth.seen_teeth import seen_teeth, teeth_shares
 from engine.perception.face.landmarks import INNER_LOWER_LIP_VERTEX, INNER_UPPER_LIP_VERTEX
 from engine.perception.face_track.face_crop import crop_face
 
-SKIN, TEETH, DARK, TONGUE = (210, 160, 140), (220, 205, 190), (50, 20, 20), (190, 100, 100)
+SKIN, TEETH, DARK, TONGUE = (210, 160, 140), (220, 205, 190), (50, 20, 20), (235, 140, 140)
 TOP, BOTTOM = 100, 140
 
 

@@ -86,6 +86,10 @@ def test_hands_are_painted_in_their_tones_beyond_their_sleeves() -> None:
     changed = (painted != ground).any(-1) & there
     assert not changed[past[..., 0] < 0.025].any()
     assert changed[past[..., 0] > 0.05].all()
+    ends = (past[..., 0] > 0.03) & (past[..., 0] < 0.04)
+    cuff, bare = (with_painted_hands(ground, (BareHand(TONE, at), None))[ends] for at in (0.026, 0.0))
+    away = [float(np.abs(hand - ground[ends]).mean()) for hand in (cuff, bare)]
+    assert away[1] < 0.7 * away[0], "a hand begins at once at a sleeve's end, and softly where the arm is bare"
     middle = np.median(to_lab(painted[past[..., 0] > 0.05]), 0)
     assert np.linalg.norm(middle - TONE) < 4
     assert to_lab(painted[past[..., 0] > 0.05])[:, 0].std() > 1, "nails, knuckles and creases"
