@@ -23,13 +23,13 @@ from engine.character.hybrid.hybrid import make_hybrid
 from engine.character.hybrid.suited_surface import suited_surface
 from engine.character.options import CharacterOptions
 from engine.character.parts.unseen_limbs import with_limbs_hidden
+from engine.character.rig.fewer_triangles import fewer_triangles
 from engine.character.rig.left_out import warn_of_silhouette
 from engine.character.rig.measures import measure, picture_camera
 from engine.character.shell.extremities import with_relaxed_hands
 from engine.character.shell.shell import make_shell
 from engine.character.stages import (
     build_mesh,
-    fewer_triangles,
     fit_drawn,
     fit_template,
     label,

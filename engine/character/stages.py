@@ -37,7 +37,8 @@ from engine.character.parts.label_map import LabelHints, Labels, label_parts
 from engine.character.parts.labels import ARM_LABELS, LEG_LABELS, TRUNK_LABEL
 from engine.character.parts.limb_edges import border
 from engine.character.parts.unfound_hands import unfound_hands
-from engine.character.rig.measures import picture_camera, pose
+from engine.character.rig.fewer_triangles import fewer_triangles
+from engine.character.rig.measures import picture_camera
 from engine.character.rig.relaxing import relaxed
 from engine.character.rig.rigging import Character, bind
 from engine.character.rig.shell_binding import bind_shell
@@ -53,8 +54,6 @@ from engine.character.texture.limb_texture import LimbSurfaces
 from engine.character.texture.rings import limb_heights
 from engine.character.texture.round_sides import with_round_sides
 from engine.character.texture.texture import BackTexture, PictureOnGrid, Tiles, atlas, paint_tiles
-from engine.geometry.rigging.skinned_mesh import SkinnedMesh
-from engine.geometry.simplification.decimation import decimate, joint_importance
 from engine.imaging.masks.mask_distance import dilate_mask
 from engine.media.limits import Limits
 
@@ -66,8 +65,6 @@ MOVING_ARM_JOINT_NAMES, MIN_ARM_WEIGHT = ("Arm", "Hand"), 0.05
 """What is in the names of joints of arms, and the share in what moves the body from which on it is moved by them."""
 MIN_MOVED_BY_HAND_WEIGHT = 0.3
 """Share in what moves an arm from which on it is moved by the hand."""
-HEAD_TRIANGLE_WEIGHT = 6.0
-"""How much more a triangle of the head counts where triangles are saved."""
 MIXED_BORDER_PIXELS = 2
 """Pixels of the trunk beside a limb in which colours of both are mixed."""
 TRUNK_MARGIN_PIXELS = 6
@@ -388,14 +385,3 @@ def _sleeve(mesh: ClosedMesh, arm: int, labels: Labels) -> NDArray[np.bool_]:
     hand = np.array(["Hand" in name for name in load_human().rig.names])
     worn = (mesh.limb == arm) & ((mesh.weights * hand[mesh.bones]).sum(1) < MIN_MOVED_BY_HAND_WEIGHT)
     return mesh.pixels(np.flatnonzero(worn), labels.labels.shape)
-
-
-def fewer_triangles(character: Character, triangles: int) -> SkinnedMesh:
-    """Its mesh with so many triangles at most: silhouette and face are kept longest. What that changes is measured as it is
-    pictured, since in T-pose creases are drawn out."""
-    mesh = character.mesh
-    if len(mesh.triangles) <= triangles:
-        return mesh
-    pictured = replace(mesh, vertices=pose(character, character.pictured))
-    fewer, kept = decimate(pictured, triangles, joint_importance(mesh, {"Head": HEAD_TRIANGLE_WEIGHT}))
-    return replace(fewer, vertices=mesh.vertices[kept])

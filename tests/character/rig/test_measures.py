@@ -9,9 +9,9 @@ import pytest
 from scipy.spatial import cKDTree
 from template_character import template_character
 
+from engine.character.rig.fewer_triangles import fewer_triangles
 from engine.character.rig.measures import border_edges, count_loops, pose, projected_areas, unseen_share
 from engine.character.rig.rigging import Character
-from engine.character.stages import fewer_triangles
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.motion.library import built_in
 from engine.render.rasterisation.rasteriser import rasterise
