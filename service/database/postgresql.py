@@ -106,12 +106,9 @@ def engine(url: str, connections: int) -> Engine:
 
     @event.listens_for(made, "do_connect")
     def connect(dialect: Dialect, _: Any, positional: list[Any], named: dict[str, Any]) -> Any:
-        try:
-            return dialect.connect(*positional, **named)
-        except OSError as error:  # pg8000 lets some through, which then nobody takes for a fault of the database
-            from pg8000 import InterfaceError  # whoever has SQLite does without
+        from service.database.postgresql_connection import PostgresqlConnection  # whoever has SQLite does without
 
-            raise InterfaceError(f"network error: {error}") from error
+        return PostgresqlConnection(*positional, **named)
 
     @event.listens_for(made, "connect")
     def prepare(connection: Any, _: Any) -> None:

@@ -123,7 +123,7 @@ def test_a_running_job_and_its_followers_survive_a_restart_of_the_database(
     assert running.client.get("/readyz").json()["checks"]["database"] is False
     postgres.start()
     ended = running.until(job["id"], "succeeded", "failed")
-    assert ended["status"] == "succeeded"
+    assert ended["status"] == "succeeded", ended["error"]
     assert attempts(running, job["id"]) == 1, "it went on as if nothing had been"
     assert running.client.get(ended["artifacts"]["animation.mp4"]["url"]).status_code == 200
 

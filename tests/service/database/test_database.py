@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import os
+import signal
+import threading
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime
 
 import pytest
+from servers import PostgresServer
 from sqlalchemy import text
 from sqlalchemy.exc import DBAPIError, IntegrityError
 
-from service.database.sessions import Database
+from service.database.sessions import Database, database_unavailable
 from service.ids import is_id, new_id
 from service.tables.files import File
 from service.tables.kept import Driver
@@ -99,6 +103,27 @@ def test_who_reads_cannot_write_on_postgresql(database: Database) -> None:
     with pytest.raises(DBAPIError, match="read-only"), database.read() as session:
         session.add(file())
         session.flush()
+
+
+def test_a_connection_that_is_reset_is_a_database_that_is_away(postgres: PostgresServer) -> None:
+    """The server's process behind an idle connection is killed with a question unread, so that the system answers by a reset."""
+    database = Database(postgres.new_database())
+    with database.read() as session:
+        process = session.scalar(text("SELECT pg_backend_pid()"))
+    os.kill(process, signal.SIGSTOP)
+    killing = threading.Timer(0.5, os.kill, (process, signal.SIGKILL))
+    killing.start()
+    try:
+        with database.read() as session:
+            session.scalar(text("SELECT 1"))
+    except DBAPIError as error:
+        assert database_unavailable(error)
+    killing.join()
+    postgres.stop()
+    postgres.start()
+    with database.read() as session:
+        assert session.scalar(text("SELECT 1")) == 1
+    database.close()
 
 
 def test_ids_grow_with_time_and_differ() -> None:
