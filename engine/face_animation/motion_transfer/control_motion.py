@@ -142,7 +142,7 @@ class MotionTransfer:
         if proxy is not None:
             around, trust = frames.periphery - self._around, frames.trust * self._trust
             motion = refine_pose(motion, self._driver, frames.meshes, around, trust)
-        expression, look, ratio, thickness = self._acted(motion)
+        expression, look, ratio, thickness, philtrum = self._acted(motion)
         scaled = scale_motion(motion, self._head)
         offsets = np.zeros((len(frames.meshes), len(control.points), 2), np.float32)
         depths, behind = np.zeros(offsets.shape[:2], np.float32), np.zeros_like(offsets)
@@ -151,6 +151,7 @@ class MotionTransfer:
             placed = self._corrected(frames, control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE])
             carried = target[:, :2] + _face_in_plane(phi, scaled, np.zeros_like(expression), target)
             construct_lips(placed, carried, thickness)
+            keep_lips_off_skin(placed, carried, philtrum)
             offsets[:, control.periphery] = self._carried_around(frames)
         else:
             held = hold_back(scaled, phi, control.room, self._turned, control.face_room)
@@ -165,6 +166,7 @@ class MotionTransfer:
             open_lids(placed, rigid, ratio)
             keep_lids_below_brows(placed, rigid, control.bare)
             construct_lips(placed, rigid, thickness)
+            keep_lips_off_skin(placed, rigid, philtrum)
             offsets[:, MESH_SIZE:] = self._around_face(frames, motion, held, proxy, solid[..., :2], placed)
         offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
         if proxy is not None:
@@ -182,9 +184,9 @@ class MotionTransfer:
 
     def _acted(
         self, motion: HeadMotion
-    ) -> tuple[NDArray[np.float64], NDArray[np.float32], NDArray[np.float64], NDArray[np.float64]]:
-        """The expression on the target's upright face, (N, 478, 3) offsets; where its irises look; how far its lids open, (N, 14) as `lid_ratio`; and
-        how thick its lips are, (N, 2) as `thickness_shares`."""
+    ) -> tuple[NDArray[np.float64], NDArray[np.float32], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """The expression on the target's upright face, (N, 478, 3) offsets; where its irises look; how far its lids open, (N, 14) as `lid_ratio`;
+        how thick its lips are, (N, 2) as `thickness_shares`; and how far the skin under its nose is pressed, (N,) as `philtrum_compression`."""
         rest, target = self._rest, self._target
         even = even_out_turned(motion)
         expression = self._acts @ carry_expression(self._maps, self._phi, even)
@@ -192,12 +194,11 @@ class MotionTransfer:
         ratio = 1 + self._eyes * (lid_ratio(upright, rest, target) - 1)
         self._smile.lift(acted, upright, self._mouth)
         self._lips.close(acted, upright, self._mouth)
-        keep_lips_off_skin(acted, target, philtrum_compression(upright, rest))
         ratio = np.clip(ratio, 0, np.repeat(gap_limits(target), 7))  # however strongly
         expression = constrain_lids_and_lips(acted, target, ratio, self._control.bare) - target
         look = self._eyes * gaze(rest + motion.expression, rest, np.clip(ratio[:, [3, 10]], 0, 1))
         thickness = 1 + self._mouth * (thickness_shares(upright, rest) - 1)
-        return expression, look.astype(np.float32), ratio, thickness
+        return expression, look.astype(np.float32), ratio, thickness, philtrum_compression(upright, rest)
 
     def _carried_around(self, frames: DriverFrames) -> NDArray[np.floating]:
         """(N, P, 2) what the driver's tracked points around the face say of the target's peripheral points, pixels."""

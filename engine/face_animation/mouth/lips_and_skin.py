@@ -61,12 +61,12 @@ def philtrum_compression(faces: NDArray[np.floating], neutral: NDArray[np.floati
 
 
 def keep_lips_off_skin(faces: NDArray[np.floating], rest: NDArray[np.floating], room: NDArray[np.floating]) -> None:
-    """Lead lips of faces (N, 478, 2 or 3), upright as at rest, that go over the skin beside them back to its edge, in place
+    """Lead lips of faces (N, 478, 2 or 3), inclined as at rest, that go over the skin beside them back to its edge, in place
     and along the face.
 
     Parameters
     ----------
-    rest : (478, 2 or 3) the same face at rest. room : (N,) share of its breadth that the skin under the nose keeps.
+    rest : (478, 2 or 3) the same face at rest; or (N, 478, 2 or 3), of each. room : (N,) share of its breadth that the skin under the nose keeps.
     """
     least = np.full_like(room, MIN_SKIN_SHARE)
     for lips, skin, share, way in (
@@ -75,20 +75,20 @@ def keep_lips_off_skin(faces: NDArray[np.floating], rest: NDArray[np.floating], 
     ):
         columns = np.array(skin)
         out = way * _down(rest)
-        usual = np.diff(rest[columns, :2] @ out, axis=1)
-        along = faces[:, columns, :2] @ out
+        usual = np.diff(_along(rest[..., columns, :2], out), axis=-1)
+        along = _along(faces[:, columns, :2], out)
         moved = in_order(along, np.minimum(usual, usual * _kept_share(along, usual, share)[..., None])) - along
         moved[..., 0] = with_neighbours(moved[..., 0])
-        faces[:, columns, :2] += moved[..., None] * out
-        faces[:, np.array(lips), :2] += moved[:, :, :1, None] * out
+        faces[:, columns, :2] += moved[..., None] * out[..., None, None, :]
+        faces[:, np.array(lips), :2] += moved[:, :, :1, None] * out[..., None, None, :]
 
 
 def _kept_share(
     along: NDArray[np.floating], usual: NDArray[np.floating], least: NDArray[np.floating]
 ) -> NDArray[np.float64]:
     """(N, C) the share of its usual breadth that each part of columns of skin at places (N, C, K) keeps: they give way evenly, and `least` (N,)
-    where there is no more room. usual : (C, K - 1)."""
-    left = (along[..., -1] - along[..., 0]) / np.maximum(usual.sum(axis=1), 1e-6)
+    where there is no more room. usual : (C, K - 1) or (N, C, K - 1)."""
+    left = (along[..., -1] - along[..., 0]) / np.maximum(usual.sum(axis=-1), 1e-6)
     return np.asarray(np.maximum(least[:, None], np.minimum(EVEN_SHARE * left, MAX_EVEN_SHARE)), float)
 
 
@@ -114,6 +114,11 @@ def with_neighbours(moves: NDArray[np.floating]) -> NDArray[np.floating]:
 
 
 def _down(face: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(2,) the way down a face (478, 2 or 3)."""
-    axis = face[CHIN_VERTEX, :2].astype(float) - face[FOREHEAD_VERTEX, :2]
-    return np.asarray(axis / np.linalg.norm(axis), float)
+    """(..., 2) the way down faces (..., 478, 2 or 3)."""
+    axis = face[..., CHIN_VERTEX, :2].astype(float) - face[..., FOREHEAD_VERTEX, :2]
+    return np.asarray(axis / np.linalg.norm(axis, axis=-1, keepdims=True), float)
+
+
+def _along(places: NDArray[np.floating], way: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(..., C, K) how far places (..., C, K, 2) are along a way (..., 2)."""
+    return np.asarray(np.einsum("...ckd,...d->...ck", places, way))

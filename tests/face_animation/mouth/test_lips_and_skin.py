@@ -112,6 +112,19 @@ def test_a_head_that_is_inclined_is_led_back_along_itself(roll: float) -> None:
     np.testing.assert_allclose(inclined, led_back(acted) @ turn, atol=0.02)
 
 
+def test_each_face_is_led_back_by_its_own_rest() -> None:
+    """Faces that turn, as a picture shows them in each frame, are led back as each is alone."""
+    torn_ones = np.stack([torn(REST, 0.5), torn(REST, 0.2)]).astype(float)
+    rests, turns = np.stack([REST, REST]).astype(float), np.array([[[1, 0], [0, 1]], [[0, -1], [1, 0]]], float)
+    for faces in (torn_ones, rests):
+        faces[..., :2] = faces[..., :2] @ turns
+    alone = torn_ones.copy()
+    for k in range(2):
+        keep_lips_off_skin(alone[k : k + 1], rests[k], np.array([MIN_SKIN_SHARE]))
+    keep_lips_off_skin(torn_ones, rests, np.full(2, MIN_SKIN_SHARE))
+    np.testing.assert_allclose(torn_ones, alone, atol=1e-9)
+
+
 def test_the_driver_says_how_far_the_skin_under_the_nose_is_pressed() -> None:
     nose, lip = (float(REST[v, 1]) for v in (SKIN_ABOVE_COLUMNS[4][2], SKIN_ABOVE_COLUMNS[4][0]))
     usual = (lip - nose) / UNIT
