@@ -16,7 +16,7 @@ from engine.perception.face.landmarks import LIPS_INNER, LIPS_OUTER
 
 ENAMEL_COLOUR, DENTINE_COLOUR = np.array([216, 209, 197.0]), np.array([198, 185, 162.0])
 GUM_COLOUR, TONGUE_COLOUR = np.array([176, 96, 95.0]), np.array([196, 110, 108.0])
-LINING_COLOUR, THROAT_COLOUR = np.array([140, 60, 58.0]), np.array([52, 19, 18.0])
+LINING_COLOUR, THROAT_COLOUR = np.array([140, 60, 58.0]), np.array([76, 32, 31.0])
 """Colours (sRGB) of mouths whose skin has the luminance `USUAL_SKIN_LUMINANCE`."""
 USUAL_SKIN_LUMINANCE = 165.0
 SKIN_LIGHT_RANGE = (0.35, 1.25)
