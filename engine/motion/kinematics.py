@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from engine.compiled import njit
 from engine.geometry.rigging.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
@@ -15,11 +16,8 @@ Array = NDArray[np.float64]
 
 def world_rotations(parents: NDArray[np.integer], rotations: ArrayLike) -> Array:
     """(..., J, 4) rotations of joints in the world, from their rotations in their parents' axes."""
-    local = np.asarray(rotations, np.float64)
-    world = local.copy()
-    for joint, parent in enumerate(parents):
-        if parent >= 0:
-            world[..., joint, :] = rotation.multiply(world[..., parent, :], local[..., joint, :])
+    world = np.array(rotations, np.float64, order="C")
+    _turn_with_parents(np.ascontiguousarray(parents, np.int32), world.reshape(-1, *world.shape[-2:]))
     return world
 
 
@@ -34,15 +32,11 @@ def local_rotations(parents: NDArray[np.integer], world: ArrayLike) -> Array:
 def place_joints(parents: NDArray[np.integer], offsets: ArrayLike, world: ArrayLike, root: ArrayLike) -> Array:
     """(..., J, 3) places of joints, from world rotations (..., J, 4), offsets in parents' axes (..., J, 3) and the
     root's place (..., 3)."""
-    rotations, steps = np.asarray(world, np.float64), np.asarray(offsets, np.float64)
-    places = np.empty((*rotations.shape[:-1], 3))
-    for joint, parent in enumerate(parents):
-        if parent < 0:
-            places[..., joint, :] = root
-        else:
-            places[..., joint, :] = places[..., parent, :] + rotation.rotate(
-                rotations[..., parent, :], steps[..., joint, :]
-            )
+    rotations = np.array(world, np.float64, order="C")
+    places = np.array(np.broadcast_to(offsets, (*rotations.shape[:-1], 3)), np.float64, order="C")
+    parents = np.ascontiguousarray(parents, np.int32)
+    places[..., parents < 0, :] = np.asarray(root, np.float64)[..., None, :]
+    _move_with_parents(parents, rotations.reshape(-1, *rotations.shape[-2:]), places.reshape(-1, *places.shape[-2:]))
     return places
 
 
@@ -84,3 +78,33 @@ def pose_transforms(
     transforms[..., :3, 3] = places - np.einsum("fjik,jk->fji", matrices, skeleton.heads.astype(np.float64))
     transforms[..., 3, 3] = 1
     return transforms
+
+
+@njit(nogil=True, boundscheck=False)  # no fastmath: the same turns, bit by bit, as `rotation.multiply` makes
+def _turn_with_parents(parents: np.ndarray, rotations: np.ndarray) -> None:
+    """Rotations (N, J, 4) in parents' axes become those in the world, in place; parents come before their children."""
+    for n in range(len(rotations)):
+        for joint in range(len(parents)):
+            if parents[joint] < 0:
+                continue
+            ax, ay, az, aw = rotations[n, parents[joint]]
+            bx, by, bz, bw = rotations[n, joint]
+            rotations[n, joint, 0] = aw * bx + ax * bw + ay * bz - az * by
+            rotations[n, joint, 1] = aw * by - ax * bz + ay * bw + az * bx
+            rotations[n, joint, 2] = aw * bz + ax * by - ay * bx + az * bw
+            rotations[n, joint, 3] = aw * bw - ax * bx - ay * by - az * bz
+
+
+@njit(nogil=True, boundscheck=False)  # as `rotation.rotate` turns
+def _move_with_parents(parents: np.ndarray, rotations: np.ndarray, places: np.ndarray) -> None:
+    """Ways (N, J, 3) from parents, in the axes of these, become places, in place; parents come before their children."""
+    for n in range(len(places)):
+        for joint in range(len(parents)):
+            if parents[joint] < 0:
+                continue
+            x, y, z, w = rotations[n, parents[joint]]
+            vx, vy, vz = places[n, joint]
+            tx, ty, tz = 2 * (y * vz - z * vy), 2 * (z * vx - x * vz), 2 * (x * vy - y * vx)
+            places[n, joint, 0] = places[n, parents[joint], 0] + (vx + w * tx + (y * tz - z * ty))
+            places[n, joint, 1] = places[n, parents[joint], 1] + (vy + w * ty + (z * tx - x * tz))
+            places[n, joint, 2] = places[n, parents[joint], 2] + (vz + w * tz + (x * ty - y * tx))
