@@ -40,7 +40,7 @@ from engine.render.textures.mipmap import build_mipmap
 
 LIP_SOFTNESS_EYE_DISTANCES, MIN_LIP_SOFTNESS_PIXELS = 0.012, 0.8
 """Eye distances, and pixels, over which the inside passes into the lips: their edges are round, and the mesh's have corners."""
-AMBIENT_LIGHT_SHARE, TEETH_AMBIENT_LIGHT_SHARE = 0.6, 0.5
+AMBIENT_LIGHT_SHARE, TEETH_AMBIENT_LIGHT_SHARE = 0.8, 0.5
 """Of the light on a surface, that it has wherever it faces: a tongue is round by it; and on teeth, whose crowns are told apart by it."""
 TEETH_FALLOFF_EYE_DISTANCES = 0.35
 """Eye distances behind the upper teeth at which a third of the light is left on teeth: cheeks are beside them. Ramps of the other parts have theirs."""

@@ -16,7 +16,7 @@ from engine.perception.face.landmarks import LIPS_INNER, LIPS_OUTER
 
 ENAMEL_COLOUR, DENTINE_COLOUR = np.array([216, 209, 197.0]), np.array([198, 185, 162.0])
 GUM_COLOUR, TONGUE_COLOUR = np.array([176, 96, 95.0]), np.array([196, 110, 108.0])
-LINING_COLOUR, THROAT_COLOUR = np.array([140, 60, 58.0]), np.array([76, 32, 31.0])
+LINING_COLOUR, THROAT_COLOUR = np.array([160, 76, 74.0]), np.array([76, 32, 31.0])
 """Colours (sRGB) of mouths whose skin has the luminance `USUAL_SKIN_LUMINANCE`."""
 USUAL_SKIN_LUMINANCE = 165.0
 SKIN_LIGHT_RANGE = (0.35, 1.25)
@@ -28,7 +28,7 @@ between light and dark would cut it off. The last is the share of its half width
 TONGUE_BACK_DARKNESS, TONGUE_SIDES_DARKNESS = 1.0, 0.9
 """Of the way from the lining's colour to the throat's, that of the tongue's back, and of its sides: as what is behind them, since an outline would
 make it a block."""
-TONGUE_FURROW_SHADE, TONGUE_FURROW_HALF_WIDTHS = 0.1, 0.16
+TONGUE_FURROW_SHADE, TONGUE_FURROW_HALF_WIDTHS = 0.12, 0.12
 """By how much a tongue is darker along its middle, and over how much of its half width."""
 MAX_TEETH_LEVEL = 250.0
 """The lightest a tooth becomes in any channel: cut off one by one, they would leave no hue of a warm light."""
@@ -52,10 +52,10 @@ TEETH_TINT_SHARES = (0.16, 0.3)
 little as a collar has in a flash's light looks blue between lips."""
 LOWER_TEETH_LIGHT_SHARE = 0.75
 """Of the upper teeth's light, that lower ones have."""
-BAG_LIGHT_SHARES = (0.75, 1.4)
+BAG_LIGHT_SHARES = (0.9, 1.1)
 """Of the bag's light, what its roof has behind the upper lip, and its floor, on which light falls."""
-BAG_DARK_DEPTH_SHARE = 0.65
-"""Of the bag's depth, from which on it is as dark as the throat."""
+BAG_DEPTH_SHARES = (0.2, 0.9)
+"""Of the bag's depth, up to which it is in the light, and from which on it is as dark as the throat."""
 COLOUR_RAMP_PIXELS = (64, 16)
 """Width and height of a ramp of colours, pixels."""
 
@@ -114,7 +114,7 @@ def mouth_colours(
     for share, dark in ((back[None, :, None], TONGUE_BACK_DARKNESS), (sides[:, None, None], TONGUE_SIDES_DARKNESS)):
         flat = flat + share * (flesh["lining"] + dark * (flesh["throat"] - flesh["lining"]) - flat)
     furrow = 1 - TONGUE_FURROW_SHADE * np.exp(-0.5 * (aside / TONGUE_FURROW_HALF_WIDTHS) ** 2)
-    deep = np.clip(along / BAG_DARK_DEPTH_SHARE, 0, 1)[:, None] ** 0.7
+    deep = smoothstep(along, *BAG_DEPTH_SHARES)[:, None]
     floor = np.interp(aside, (0, 1), BAG_LIGHT_SHARES)[:, None, None]
     bag = floor * (flesh["lining"] + deep * (flesh["throat"] - flesh["lining"]))
     ramps = [upper, LOWER_TEETH_LIGHT_SHARE * upper, furrow[:, None, None] * flat, bag]

@@ -27,9 +27,9 @@ OVERBITE_EYE_DISTANCES, OVERJET_EYE_DISTANCES = 0.03, 0.05
 """Eye distances by which lower teeth end above the upper ones' edges, and lie behind them, where the jaw is closed."""
 TONGUE_SIZE_SHARES = (1.0, 0.5, 0.45)
 """Of the template's tongue, along x, y and z from its tip: so that it lies within the row of teeth, and its root within a face without a neck."""
-TONGUE_ARCH_EYE_DISTANCES = 0.08
-"""Eye distances by which the middle of a tongue's back is higher than its sides, as at rest: the template's is flat,
-and seen from the front a block."""
+TONGUE_ARCH_EYE_DISTANCES, TONGUE_DOME_EYE_DISTANCES = 0.08, 0.2
+"""Eye distances by which a tongue's back is higher in the middle of its length than at its ends, and its middle than its sides, as at rest: the template's is flat,
+and seen from the front a block with a straight border."""
 TONGUE_JAW_SHARE = 0.8
 """Of the jaw's angle, by which the tongue lies lower where it opens: its back is lifted off the floor of the mouth."""
 TONGUE_SECTIONS = 8
@@ -39,8 +39,15 @@ UPPER_GUM_EYE_DISTANCES, LOWER_GUM_EYE_DISTANCES = 0.34, 0.2
 UPPER_ROW_DEPTH_EYE_DISTANCES, LOWER_ROW_DEPTH_EYE_DISTANCES = 0.5, 0.25
 """Eye distances from their front up to which there are teeth: the face has no more room, and of lower molars, which lie in the dark beside the tongue, specks would
 be seen."""
-BAG_RINGS = ((0.0, 0.0, 1.0), (0.04, 0.1, 1.03), (0.15, 0.25, 1.15), (0.35, 0.28, 1.15), (0.55, 0.18, 0.9))
-"""Of the bag: eye distances behind the lips, by which it is higher and deeper than their opening, and its share of their width."""
+BAG_RINGS = (
+    (0.0, 0.0, 0.0, 1.0),
+    (0.04, 0.1, 0.1, 1.03),
+    (0.15, 0.25, 0.25, 1.15),
+    (0.25, 0.12, 0.28, 1.1),
+    (0.55, -0.35, 0.3, 0.5),
+)
+"""Of the bag: eye distances behind the lips, by which its roof is higher and its floor deeper than their opening, and its share of their width. Behind the teeth the
+roof comes down as a palate does, so that this is seen above a tongue, and the throat, which is dark, just above its back: a wall there is one flat dark band."""
 BAG_BOTTOM_EYE_DISTANCES = 0.05
 """Eye distances behind the last ring at which the bag ends."""
 CROWN_SHADE_FACTORS = (0.9, 1.1)
@@ -128,7 +135,8 @@ def tongue(at: RestingMouth) -> MouthPart:
     places = tip + (places - tip) * TONGUE_SIZE_SHARES
     depth = (places[:, 2] - places[:, 2].min()) / np.ptp(places[:, 2])
     aside = np.abs(places[:, 0]) / _half_width(places[:, 0], depth)
-    places[:, 1] -= TONGUE_ARCH_EYE_DISTANCES * (1 - np.minimum(aside, 1) ** 2) * np.sin(np.pi * depth)
+    places[:, 1] -= TONGUE_ARCH_EYE_DISTANCES * np.sin(np.pi * depth)
+    places[:, 1] += TONGUE_DOME_EYE_DISTANCES * np.minimum(aside, 1) ** 2
     shift = np.array([at.middle, at.edge - OVERBITE_EYE_DISTANCES, at.depth + OVERJET_EYE_DISTANCES])
     uv = np.column_stack([depth, aside]).astype(np.float32)
     return MouthPart(places + shift, triangulate(finer.quads), uv, np.ones(len(uv), np.float32))
@@ -165,9 +173,9 @@ def mouth_bag(lips: NDArray[np.floating], deeper: float = 1.0, width: float = 0.
     wider = max(1.0, width / max(float(np.ptp(lips[:, 0])), 1e-6))
     up = _up(len(lips))
     rings = []
-    for depth, higher, share in BAG_RINGS:
+    for depth, higher, lower, share in BAG_RINGS:
         ring = middle + (lips - middle) * (share * (wider if depth > 0 else 1), 1, 1)
-        ring[:, 1] += higher * up
+        ring[:, 1] += np.where(up < 0, higher, lower) * up
         ring[:, 2] += deeper * depth
         rings.append(ring)
     end = rings[-1].mean(axis=0) + np.array([0, 0, deeper * BAG_BOTTOM_EYE_DISTANCES])

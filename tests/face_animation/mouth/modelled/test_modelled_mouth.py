@@ -26,8 +26,10 @@ from engine.face_animation.mouth.modelled.mouth_colours import (
 )
 from engine.face_animation.mouth.modelled.mouth_light import mouth_light
 from engine.face_animation.mouth.modelled.mouth_parts import (
+    BAG_RINGS,
     OVERBITE_EYE_DISTANCES,
     OVERJET_EYE_DISTANCES,
+    bag_surface,
     modelled_teeth,
     mouth_bag,
     tongue,
@@ -339,7 +341,7 @@ def test_a_tongue_is_arched_and_ends_in_the_dark() -> None:
     middle, aside = (
         part.vertices[back & (part.uv[:, 1] > low) & (part.uv[:, 1] < low + 0.2), 1] for low in (-0.1, 0.6)
     )
-    assert middle.min() < aside.min() - 0.02, "y is down"
+    assert middle.min() < aside.min() - 0.06, "y is down"
     colours = mouth_colours(picture((200, 150, 130)), seen(front(0.0)))
     along = colours.tongue[0].astype(float).sum(axis=-1)
     assert along[-1] < 0.35 * along[0] and abs(along[-1] - colours.bag[8, -1].astype(float).sum()) < 30
@@ -371,6 +373,20 @@ def test_a_row_of_teeth_is_seen_as_crowns_or_not_at_all(mouth: ModelledMouth) ->
     assert lowest[1] < lowest[2] < lowest[3]
     np.testing.assert_allclose(np.diff(lowest[3:]), 0.02, atol=2e-3)
     assert stubs(STUB_EYE_DISTANCES[1]) == 0 == stubs(1.0)
+
+
+def test_a_palate_comes_down_to_the_throat_and_grows_dark_there() -> None:
+    """Behind an opening its roof is seen, and not a wall of one dark colour; and the bag has room however near the lips are."""
+    for angle in (0.0, 0.3, 0.6):
+        lips = front(angle)[list(LIPS_INNER)]
+        rings = mouth_bag(lips)[:-1].reshape(-1, *lips.shape)
+        roof, floor = rings[:, 1:10, 1].min(axis=1), rings[:, 11:, 1].max(axis=1)
+        assert roof[-2] < roof[0] < roof[-1], "above the upper lip, and from there down into the opening"
+        assert (floor[1:] > roof[1:] + 0.1).all()
+    depth = bag_surface()[1][:, 0].reshape(-1)[[(len(BAG_RINGS) - 2) * len(LIPS_INNER), -len(LIPS_INNER) - 1]]
+    ramp = mouth_colours(picture((200, 150, 130)), seen(front(0.0))).bag[0].astype(float).sum(axis=-1)
+    before, behind = ramp[np.rint(63 * depth).astype(int)]
+    assert before > 1.7 * behind
 
 
 def test_rounded_lips_narrow_the_opening_alone() -> None:
