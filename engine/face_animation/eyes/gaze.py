@@ -15,6 +15,9 @@ from engine.face_animation.eyes.eyeball import EYE_OUTLINE_IRIS_CORNERS, Eyeball
 
 MIN_CORNER_DISTANCE_IRIS_RADII = 1.1
 """Radii of the iris that are between its middle and a corner of the eye, at least: two people who glance aside as far as they can have 1.05 to 1.2."""
+CARUNCLE_EYE_WIDTHS = 0.08
+"""Eye widths at the inner corner that the caruncle takes. The iris of an eye that turns inwards ends before it: laid into the corner itself it goes up to twice as
+far as the other, which turns outwards."""
 MIN_WAY_EYE_WIDTHS = 0.05
 """Eye widths from where an iris rests to where it may go, at least: irises that are large, or aside, still move."""
 MIN_VERGENCE_IRIS_RADII = 0.45
@@ -92,7 +95,8 @@ def iris_shifts(
 def _way(eye: Eyeball, inward: float) -> float:
     """Eye widths from where the iris of an eye rests to where it may go toward its inner corner, or where `inward` is below 0, its outer one."""
     rest = np.copysign(1.0, inward) * eye.centre[0]
-    return float(max(0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * eye.radius - rest, MIN_WAY_EYE_WIDTHS))
+    end = 0.5 - CARUNCLE_EYE_WIDTHS if inward > 0 else 0.5
+    return float(max(end - MIN_CORNER_DISTANCE_IRIS_RADII * eye.radius - rest, MIN_WAY_EYE_WIDTHS))
 
 
 def _position(meshes: NDArray[np.floating], side: tuple) -> NDArray[np.float64]:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from engine.face_animation.eyes.eyeball import Eyeball, prepare_eyes
 from engine.face_animation.eyes.eyes import draw_eye
 from engine.face_animation.eyes.gaze import (
+    CARUNCLE_EYE_WIDTHS,
     MIN_CORNER_DISTANCE_IRIS_RADII,
     MIN_VERGENCE_IRIS_RADII,
     conjugate,
@@ -91,17 +92,19 @@ def test_gaze_does_not_see_the_head_move(mesh: NDArray) -> None:
 
 
 def test_irises_that_rest_apart_come_to_their_corners_together(mesh: NDArray, eyes: tuple[Eyeball, Eyeball]) -> None:
-    """Of a face whose irises rest unevenly none looks at its corner while the other looks ahead, and both go as far as they are told in their mean."""
+    """Of a face whose irises rest unevenly none looks at its corner while the other looks ahead, and both go as far as they are told in their mean. The inner
+    corner begins at the caruncle, which no iris covers."""
     right, left = eyes
     uneven = (replace(right, centre=np.array([-0.1, 0.0])), replace(left, centre=np.array([-0.1, 0.0])))
     for far in (9.0, -9.0):
         for eye, shift, sign in zip(uneven, shifted(uneven, far * TO_THE_RIGHT), (1, -1), strict=True):
-            corner = np.sign(sign * far) * (0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * eye.radius)
+            end = 0.5 - CARUNCLE_EYE_WIDTHS if sign * far > 0 else 0.5
+            corner = np.sign(sign * far) * (end - MIN_CORNER_DISTANCE_IRIS_RADII * eye.radius)
             assert eye.centre[0] + shift[0] == pytest.approx(corner)
     little = [shift[0] for shift in shifted(uneven, 0.3 * TO_THE_RIGHT)]
     ways = [
-        0.5 - MIN_CORNER_DISTANCE_IRIS_RADII * eye.radius - sign * -0.1
-        for eye, sign in zip(uneven, (1, -1), strict=True)
+        end - MIN_CORNER_DISTANCE_IRIS_RADII * eye.radius - sign * -0.1
+        for eye, sign, end in zip(uneven, (1, -1), (0.5 - CARUNCLE_EYE_WIDTHS, 0.5), strict=True)
     ]
     assert little[0] > 0 > little[1]
     assert little[0] / -little[1] == pytest.approx(ways[0] / ways[1])
@@ -109,6 +112,14 @@ def test_irises_that_rest_apart_come_to_their_corners_together(mesh: NDArray, ey
     assert np.mean([abs(way) * eye.width for way, eye in zip(little, uneven, strict=True)]) == pytest.approx(
         0.3 * radius
     )
+
+
+def test_people_s_irises_go_alike_far_when_they_glance_aside(eyes: tuple[Eyeball, Eyeball]) -> None:
+    """An iris is 11.7 mm across, an eye 30 mm wide, with a caruncle of 3 to 4 mm, and rests in the middle of what is left: it is as far to either side."""
+    usual = tuple(replace(eye, centre=np.array([-0.06, 0.0]), radius=0.195, width=eyes[0].width) for eye in eyes)
+    for far in (9.0, -9.0):
+        right, left = shifted((usual[0], usual[1]), far * TO_THE_RIGHT)
+        assert right[0] == pytest.approx(-left[0], rel=0.2)
 
 
 def test_an_eye_without_an_eyeball_is_left_out(eyes: tuple[Eyeball, Eyeball]) -> None:
