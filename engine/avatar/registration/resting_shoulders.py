@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.template_skin.skin import grown
-from engine.avatar.registration.template_skin.smooth_field import smooth_field
+from engine.geometry.deformation.smooth_field import smooth_field
 from engine.geometry.rigging.joint_names import SIDE_NAMES
 
 MIN_SHARED_WEIGHT = 0.01

@@ -11,7 +11,6 @@ from scipy.spatial import cKDTree
 
 from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
-from engine.avatar.mouth_chart import mouth_faces
 from engine.avatar.registration.eyes.tucked_lids import LidColumns
 from engine.avatar.registration.template_skin.lid_rims import behind_rims, lid_rim, upper_lid_columns
 from engine.avatar.registration.template_skin.skin import EYE_PARTS
@@ -19,7 +18,7 @@ from engine.avatar.texture.lid_folds import in_lid_fold
 from engine.avatar.texture.views import ChartedSurface
 from engine.avatar.worn import Attachments
 from engine.body.rig import Rig
-from engine.body.template import Template
+from engine.body.template import Template, mouth_faces
 from engine.geometry.mesh.surface import triangulate
 from engine.geometry.rigging.joint_names import SIDE_NAMES, Side
 from engine.geometry.texture_charts.texture_atlas import TextureAtlas, atlas_from_uv

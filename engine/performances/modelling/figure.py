@@ -10,10 +10,10 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from engine.body import Phenotype, Template, load_shape_space, load_template
+from engine.body import Phenotype, Template, load_shape_space
 from engine.body.rig import Rig
 from engine.body.subdivision import catmull_clark
-from engine.body.template import load_rig
+from engine.body.template import load_drawn_template, load_rig
 from engine.geometry.mesh.surface import triangulate
 from engine.geometry.rigging.skinning import bone_transforms, skin
 from engine.performances.modelling.eyes import EYEBALL_RADIUS_METRES, build_eyeball, profile
@@ -125,8 +125,11 @@ class PosedFigure:
 
 
 def build_figure() -> Figure:
-    """Make the actor's body."""
-    template, rig = load_template(), load_rig("default")
+    """Make the actor's body.
+
+    Its jaw is the drawn one: the videos that ship were rendered with it.
+    """
+    template, rig = load_drawn_template(), load_rig("default")
     shape = load_shape_space().shape(FIGURE_PHENOTYPE, FACE_FEATURES) + template.face_units.displacement(CLOSED_LIPS)
     arms_down = _arms_down(rig, shape)
     skin_quads = template.quads[template.faces("body")]

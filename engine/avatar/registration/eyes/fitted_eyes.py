@@ -17,8 +17,8 @@ from engine.avatar.registration.eyes.eye_outline import EyeOutline, outline_of_l
 from engine.avatar.registration.eyes.eyeballs import LID_GAP_METRES, before_eyeball, sphere
 from engine.avatar.registration.template_skin.lid_rims import lid_rim
 from engine.avatar.registration.template_skin.skin import EYE_PARTS, Skin, grown
-from engine.avatar.registration.template_skin.smooth_field import smooth_field
 from engine.body.template import Template
+from engine.geometry.deformation.smooth_field import smooth_field
 from engine.geometry.registration.rigid import Similarity, fit_similarity
 
 BALL_RADII = (0.012, 0.0175)

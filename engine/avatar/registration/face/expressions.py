@@ -9,7 +9,6 @@ from scipy.spatial import cKDTree
 from engine.avatar.registration.eyes.blinking import EYE_OF_BLINK_UNIT, before_the_eye, meeting_rims
 from engine.avatar.registration.eyes.tucked_lids import LidColumns
 from engine.avatar.registration.face.face_parts import head_change
-from engine.avatar.registration.face.hanging_lip import UNITS_OF_HANGING_LIP, hanging_lip
 from engine.avatar.registration.template_skin.lid_rims import upper_lid_columns
 from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import FACE_UNITS, Template
@@ -43,8 +42,6 @@ def transferred_units(template: Template, skin: Skin, rest: NDArray[np.floating]
     moves by itself it rises to its place in the template.
     """
     dense = template.face_units.dense(FACE_UNITS)
-    for name, share in UNITS_OF_HANGING_LIP.items():
-        dense[FACE_UNITS.index(name), skin.vertices] += share * hanging_lip(template, skin)
     own = np.asarray(rest, np.float64)
     moving = np.linalg.norm(dense, axis=2).max(0) > 0
     patch = _Patch(template, skin, own, moving)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.registration.template_skin.skin import Skin
-from engine.avatar.registration.template_skin.smooth_field import smooth_field
+from engine.geometry.deformation.smooth_field import smooth_field
 from engine.geometry.mesh.closest_points import closest_points
 from engine.geometry.mesh.winding_number import winding_numbers
 

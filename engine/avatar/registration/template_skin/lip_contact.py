@@ -7,8 +7,8 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
-from engine.avatar.registration.template_skin.smooth_field import bending_of
 from engine.geometry.deformation.handles import surface_points
+from engine.geometry.deformation.smooth_field import bending_of
 from engine.geometry.mesh.closest_points import closest_points
 from engine.geometry.mesh.surface import face_normals, vertex_normals
 

@@ -11,15 +11,14 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from engine.avatar.mouth_chart import mouth_faces
 from engine.avatar.registration.template_skin.face_landmarks import landmark_vertices
 from engine.avatar.registration.template_skin.lid_rims import lid_rim
 from engine.avatar.registration.template_skin.lip_contact import lip_contact
-from engine.avatar.registration.template_skin.lip_sides import lip_rims, lip_sides
 from engine.body.body_space import BodySpace
 from engine.body.cache import cached_arrays
+from engine.body.lip_sides import lip_rims, lip_sides
 from engine.body.rig import Rig
-from engine.body.template import Template, vertex_mask
+from engine.body.template import Template, mouth_faces, vertex_mask
 from engine.geometry.camera import Camera
 from engine.geometry.mesh.adjacency import edge_table, neighbours
 from engine.geometry.mesh.surface import triangulate
@@ -57,7 +56,7 @@ class Skin:
     visible : (T,) seen from outside; the mouth's inside and the eyes' sockets are not.
     bones, weights : (S, K) the joints that move each, and by how much, summing to one.
     regions : masks (S,) by name: `head`, `face`, `lips` (with the skin around), `upper_lip` and `lower_lip` (outside and
-        within: `engine.avatar.registration.template_skin.lip_sides`), `lids`, `hands`, `whole_hands` (those that no forearm moves), `feet`, `lower_feet` (what a shoe covers at least), `inner` (part of no visible
+        within: `engine.body.lip_sides`), `lids`, `hands`, `whole_hands` (those that no forearm moves), `feet`, `lower_feet` (what a shoe covers at least), `inner` (part of no visible
         triangle), `hidden_by_cloth` (nipples, navel). `left_eye_rim` and `right_eye_rim` are where lids end before the
         eyeball (`engine.avatar.registration.template_skin.lid_rims`), `left_eye_lids` and `right_eye_lids` what is
         close to there. `left_ear` and `right_ear` are the person's own.

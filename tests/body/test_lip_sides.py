@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.avatar.registration.models import HumanModels
-from engine.avatar.registration.template_skin.lip_sides import lip_rims, lip_sides
+from engine.body.lip_sides import lip_rims, lip_sides
 
 
 def test_of_two_sheets_that_touch_each_keeps_what_hangs_together_with_it() -> None:
@@ -32,21 +31,3 @@ def test_the_rims_are_both_ways_around_a_hole_from_corner_to_corner() -> None:
     within = np.arange(36) >= 24
     upper, lower = lip_rims(vertices, np.concatenate([skin, inside]).astype(np.int32), within)
     assert sorted(upper) == [1, 2, 3, 4, 5] and sorted(lower) == [7, 8, 9, 10, 11]
-
-
-def test_each_corner_of_the_mouth_is_of_both_lips(models: HumanModels) -> None:
-    skin = models.skin
-    width = np.ptp(models.template.vertices[skin.vertices][skin.face_points[[48, 54]], 0])
-    for lip in ("upper_lip", "lower_lip"):
-        across = models.template.vertices[skin.vertices[skin.regions[lip] & ~skin.regions["inner"]], 0]
-        assert np.ptp(across) > width and abs(across.max() + across.min()) < 0.005
-
-
-def test_lips_have_an_inside_each_and_one_is_above_the_other(models: HumanModels) -> None:
-    skin = models.skin
-    upper, lower = skin.regions["upper_lip"], skin.regions["lower_lip"]
-    assert not (upper & lower).any()
-    for lip in (upper, lower):
-        assert (lip & skin.regions["inner"]).sum() > 20 and (lip & ~skin.regions["inner"]).sum() > 50
-    height = models.template.vertices[skin.vertices, 1]
-    assert height[upper & ~skin.regions["inner"]].mean() > height[lower & ~skin.regions["inner"]].mean() + 0.005
