@@ -8,13 +8,11 @@ et al., Laplacian surface editing, 2004, for such fields).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.body.lip_sides import lip_rims
+from engine.body.mouth_skin import MouthSkin
 from engine.geometry.deformation.smooth_field import smooth_field
 
 MANDIBLE_WEIGHT = 0.7
@@ -31,35 +29,16 @@ CLOSING_METRES = 0.04
 """Metres about the rims of the lips in which skin of the chin is drawn up by lips that close over an open jaw."""
 
 
-@dataclass(frozen=True)
-class JawSkin:
-    """A skin about a closed mouth.
-
-    vertices : (S, 3) metres, x across, the middle of the face at 0, and y up.
-    triangles : (T, 3) int.
-    inside : (T,) which are the mouth's inside.
-    jaw : (S,) what the jaw's bone weighs.
-    lips : (S,) which are lips.
-    """
-
-    vertices: NDArray[np.float64]
-    triangles: NDArray[np.integer]
-    inside: NDArray[np.bool_]
-    jaw: NDArray[np.floating]
-    lips: NDArray[np.bool_]
-
-
 def hinged_jaw(
-    skin: JawSkin, drawn: NDArray[np.floating], turned: NDArray[np.floating]
+    skin: MouthSkin, drawn: NDArray[np.floating], turned: NDArray[np.floating]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """What opens the jaw, and what then closes the lips: displacements (S, 3) each, metres.
 
     `drawn` (S, 3) is what opened the jaw before, and `turned` (S, 3) where all of the skin would go with the lower teeth.
     """
     count = len(skin.vertices)
-    within = np.zeros(count, np.bool_)
-    within[skin.triangles[skin.inside]] = True
-    upper, lower = lip_rims(skin.vertices, skin.triangles, skin.inside)
+    within = skin.within()
+    upper, lower = skin.rims()
     rims = np.concatenate([upper, lower])
     away = cKDTree(skin.vertices[rims]).query(skin.vertices)[0]
     whole = (skin.jaw > MANDIBLE_WEIGHT) & (away > CHEEK_METRES) & ~within

@@ -11,8 +11,10 @@ from numpy.typing import NDArray
 
 from engine.body import makehuman
 from engine.body.cache import cached_arrays
-from engine.body.hinged_jaw import JawSkin, hinged_jaw
+from engine.body.hinged_jaw import hinged_jaw
+from engine.body.mouth_skin import MouthSkin
 from engine.body.rig import HUMAN_RIG, Rig, build_rig, with_face, with_toes
+from engine.body.smile_cheeks import with_cheeks
 from engine.body.targets import METRES_PER_COUNT, Targets, gather
 from engine.geometry.mesh.surface import triangulate
 from engine.geometry.registration.rigid import fit_rigid
@@ -49,6 +51,8 @@ FACE_UNITS = (
 )
 """ARKit's 52 face units, in alphabetical order. Left and right are the character's own."""
 
+SMILES = ("mouthSmileLeft", "mouthSmileRight")
+"""The face units that move cheeks (`engine.body.smile_cheeks`)."""
 MOUTH_RADIUS_METRES = 0.04
 """Metres from the middle of the tongue, along each axis, within which the mouth's bag lies."""
 
@@ -84,14 +88,14 @@ class Template:
 
 @cache
 def load_template() -> Template:
-    """Load the template, whose jaw opens about its hinges; the first time, convert it from the installed package (some seconds).
+    """Load the template, whose jaw opens about its hinges and whose smiles move its cheeks; the first time, convert it from the installed package (some seconds).
 
     Raises
     ------
     engine.body.makehuman.TemplateMissing : the package is not installed.
     """
     drawn = load_drawn_template()
-    stored = cached_arrays("face-units", lambda: _with_hinged_jaw(drawn))
+    stored = cached_arrays("face-units", lambda: _face_units_made(drawn))
     return replace(drawn, face_units=_face_units(stored, len(drawn.vertices)))
 
 
@@ -124,11 +128,12 @@ def _stored_units(units: Targets) -> dict[str, np.ndarray]:
     return {"unit_starts": units.starts, "unit_moved": units.moved, "unit_counts": units.counts}
 
 
-def _with_hinged_jaw(drawn: Template) -> dict[str, np.ndarray]:
+def _face_units_made(drawn: Template) -> dict[str, np.ndarray]:
+    """The face units with those that are made in place of the drawn ones, as `_face_units` reads them."""
     fields = {name: drawn.face_units.displacement({name: 1.0}).astype(np.float64) for name in FACE_UNITS}
     skin, teeth = drawn.vertices_of("body"), drawn.vertices_of("lower_teeth")
     places = drawn.vertices.astype(np.float64)
-    jaw = JawSkin(
+    mouth = MouthSkin(
         vertices=places[skin],
         triangles=triangulate(np.searchsorted(skin, drawn.quads[drawn.faces("body")])),
         inside=np.tile(mouth_faces(drawn), 2),
@@ -137,7 +142,9 @@ def _with_hinged_jaw(drawn: Template) -> dict[str, np.ndarray]:
     )
     opened = fields["jawOpen"]
     turn = fit_rigid(places[teeth], places[teeth] + opened[teeth])
-    opened[skin], fields["mouthClose"][skin] = hinged_jaw(jaw, opened[skin], turn(places[skin]) - places[skin])
+    opened[skin], fields["mouthClose"][skin] = hinged_jaw(mouth, opened[skin], turn(places[skin]) - places[skin])
+    for name in SMILES:
+        fields[name][skin] = with_cheeks(mouth, fields[name][skin])
     moved = {name: np.flatnonzero(np.abs(offsets).max(1) > METRES_PER_COUNT / 2) for name, offsets in fields.items()}
     return _stored_units(gather({name: (at, fields[name][at]) for name, at in moved.items()}, len(places)))
 

@@ -127,7 +127,7 @@ class PosedFigure:
 def build_figure() -> Figure:
     """Make the actor's body.
 
-    Its jaw is the drawn one: the videos that ship were rendered with it.
+    Its face units are the drawn ones: the videos that ship were rendered with them.
     """
     template, rig = load_drawn_template(), load_rig("default")
     shape = load_shape_space().shape(FIGURE_PHENOTYPE, FACE_FEATURES) + template.face_units.displacement(CLOSED_LIPS)
