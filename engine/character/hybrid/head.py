@@ -17,7 +17,8 @@ from engine.character.figure.face_region import face_ellipse, in_profile
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import FittedBody, load_human
-from engine.character.hair.mask import hair_beside_the_face, hair_on_the_shoulders
+from engine.character.hair.mask import hair_mask
+from engine.character.hair.regions import TemplateHead
 from engine.character.hybrid.limbs import WEIGHT_SMOOTHING_ROUNDS, Limbs
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, TRUNK_LABEL
@@ -27,7 +28,7 @@ from engine.character.surface.front_and_back import ClosedMesh
 from engine.geometry.mesh.adjacency import neighbours
 from engine.geometry.mesh.welding import same_rows
 from engine.imaging.masks.mask_distance import dilate_mask
-from engine.imaging.masks.mask_pieces import largest_piece, mask_height
+from engine.imaging.masks.mask_pieces import largest_piece
 from engine.render.rasterisation.rasteriser import rasterise
 
 MIN_SHOWN_HEAD_WEIGHT = 0.3
@@ -43,8 +44,6 @@ MAX_UNKNOWN_SHARE = 0.22
 NECK_SURROUND_SHARE, COLLAR_DEPTH_SHARE, MAX_FALLEN_HAIR_SHARE = 0.25, 0.03, 0.22
 """How far about jaw and neck falling hair is looked for, and how far off them it is at least, both in heights of the
 head. And how much of it there may be, as a share of what jaw and neck cover."""
-FALLEN_HAIR_SHARE = 1.2
-"""How far from that of the head hair is looked for on the body, in heights of the head and its neck."""
 MOUTH_LANDMARK = 62
 """Of the 68 points of a face, the middle of the upper lip's lower edge."""
 NECK_OVERLAP_METRES = 0.1
@@ -115,10 +114,10 @@ def hair_beside_the_head(
     face = face_ellipse(figure, silhouette.to_grid, head)
     if face is None:
         return np.zeros_like(head)
-    covered = _covered(mesh, template, mesh.parts[:, HEAD_LABEL] > MIN_SHOWN_HEAD_WEIGHT, labels.labels.shape)
-    hair = hair_beside_the_face(silhouette.rgb, head, covered, face)
+    shown = (mesh.parts[:, HEAD_LABEL] > MIN_SHOWN_HEAD_WEIGHT, mesh.ear)
+    covered, ears = (_covered(mesh, template, own, head.shape) for own in shown)
     body = np.isin(labels.labels, (TRUNK_LABEL, *ARM_LABELS))
-    return hair | hair_on_the_shoulders(silhouette.rgb, hair, body, face, FALLEN_HAIR_SHARE * mask_height(covered))
+    return hair_mask(silhouette.rgb, head, body, TemplateHead(covered, ears, face))
 
 
 def _turned_to_the_viewer(

@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from engine.character.figure.face_region import face_ellipse, within_oval
 from engine.character.figure.figure import Figure
 from engine.character.figure.silhouette import Silhouette
-from engine.character.hair.mask import (
+from engine.character.hair.mask import HAIR_COLOUR_VARIANCE, SEGMENTATION_ROUNDS, STRANGE_COST, USUAL_QUANTILE
+from engine.character.hair.regions import (
     BROW_HEIGHT_SHARE,
     FACE_SHARE,
-    HAIR_COLOUR_VARIANCE,
     MOUTH_DEPTH_SHARE,
-    SEGMENTATION_ROUNDS,
     SKIN_SHARE,
+    SURE_CLOTH_SHARES,
 )
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import HEAD_LABEL, TRUNK_LABEL
@@ -33,9 +33,8 @@ from engine.imaging.masks.colour_segmentation import (
 )
 from engine.imaging.masks.mask_pieces import pieces_touching, without_small_pieces
 
-CLOTH_REACH_SHARE, SURE_CLOTH_SHARES = 1.2, (1.2, 4.0)
-"""How far below the head's label cloth is told from what is bare, and between which heights below it the trunk is surely in its clothes, in half
-heights of the face."""
+CLOTH_REACH_SHARE = 1.2
+"""How far below the head's label cloth is told from what is bare, in half heights of the face."""
 SHADES = tuple(np.linspace(1.0, 0.4, 13))
 """How light skin may be beneath a chin, as shares of the face's."""
 MIN_CLOTH_PIECE_PIXELS = 12
@@ -45,9 +44,6 @@ MIN_HAIR_BESIDE_SHARE = 0.4
 EARS_DEPTH_SHARE, MAX_CLOTH_BESIDE_SHARE = 0.15, 0.3
 """How far below a face's middle ears are, as a share of half its height, and the share of what is beside it down to there that may have the clothes'
 colours: of more, what was taken for clothes is hair."""
-USUAL_QUANTILE, STRANGE_COST = 0.95, 18.0
-"""Quantile of how unlikely colours of skin are among themselves, up to which others are skin; and the negative logarithm of a density, levels
-to the minus third, that a colour has at most of all that is told apart. One that is nowhere else, as a lining's, is what its surroundings are."""
 
 
 def with_neck_cloth(figure: Figure, silhouette: Silhouette, labels: Labels) -> Labels:

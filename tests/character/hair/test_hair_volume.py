@@ -1,4 +1,4 @@
-"""Hair that falls beside a face: told from skin and clothes, and a shell around the head. The template stands for the person."""
+"""Hair that falls beside a face: a shell around the head. The template stands for the person."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from engine.character.figure.face_region import within_oval
 from engine.character.fit.template_fit import load_human, pose_template
 from engine.character.hair.colours import COLUMNS, INSIDE_COLUMNS, hair_round
-from engine.character.hair.mask import hair_beside_the_face, hair_on_the_shoulders
 from engine.character.hair.volume import HairedHead, hair_volume
 from engine.character.parts.labels import HEAD_LABEL
 from engine.character.shell.piece import Piece
@@ -20,7 +19,7 @@ from engine.render.rasterisation.rasteriser import rasterise
 from tests.character.shell.test_displacement import SHAPE, arms_down, covered, on_grid
 from tests.character.shell.test_pieces import volume
 
-SKIN, HAIR, SHIRT, HAT = (215, 170, 145), (50, 34, 26), (225, 225, 220), (160, 30, 40)
+SKIN, HAIR, HAT = (215, 170, 145), (50, 34, 26), (160, 30, 40)
 STANDS_OFF, FALLS = 9, 14
 """Pixels that hair is wider than the head to each side, and ends below the chin."""
 
@@ -66,95 +65,6 @@ def hair(skull: NDArray[np.float64], face: NDArray[np.float64]) -> NDArray[np.bo
 
 def noisy(rgb: NDArray[np.integer]) -> NDArray[np.uint8]:
     return np.clip(rgb + np.random.default_rng(1).normal(0, 4, rgb.shape), 0, 255).astype(np.uint8)
-
-
-def test_hair_is_told_from_the_face_and_the_neck(
-    head: NDArray[np.bool_], hair: NDArray[np.bool_], face: NDArray[np.float64]
-) -> None:
-    rgb = noisy(np.where(hair[..., None], HAIR, np.where(head[..., None], SKIN, SHIRT)))
-    found = hair_beside_the_face(rgb, head | hair, head, face)
-    assert (found & hair).sum() > 0.95 * (found | hair).sum()
-    bald = noisy(np.where(head[..., None], SKIN, SHIRT))
-    assert not hair_beside_the_face(bald, head, head, face).any(), "nothing is loose"
-
-
-def test_what_hangs_free_below_the_mouth_is_no_hair(
-    head: NDArray[np.bool_], hair: NDArray[np.bool_], face: NDArray[np.float64], skull: NDArray[np.float64]
-) -> None:
-    """A dark clasp at the collar, which the head's label takes in."""
-    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
-    clasp = np.hypot(x - face[0] - 1.6 * face[2], y - skull[:, 1].max() - 8) < 6
-    short = hair & (y < face[1])
-    rgb = noisy(np.where((short | clasp)[..., None], HAIR, np.where(head[..., None], SKIN, SHIRT)))
-    found = hair_beside_the_face(rgb, head | short | clasp, head, face)
-    assert not found[clasp].any() and found[short].mean() > 0.9
-
-
-@pytest.mark.parametrize(("shirt", "is_found"), [(SHIRT, True), (HAIR, False)], ids=["on white", "on its own colour"])
-def test_it_is_followed_down_the_shoulders_where_they_have_other_colours(
-    body: NDArray[np.float64],
-    head: NDArray[np.bool_],
-    hair: NDArray[np.bool_],
-    face: NDArray[np.float64],
-    shirt: tuple[int, int, int],
-    is_found: bool,
-) -> None:
-    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
-    trunk = covered(body) & ~head & ~hair
-    last = np.flatnonzero(hair.any(1))[-1]
-    lock = trunk & (y < last + 40) & (np.abs(x - face[0]) > face[2]) & (np.abs(x - face[0]) < face[2] + 14)
-    rgb = noisy(np.where((hair | lock)[..., None], HAIR, np.where(head[..., None], SKIN, shirt)))
-    found = hair_on_the_shoulders(rgb, hair, trunk, face, 80)
-    assert (found & lock).sum() > 0.9 * (found | lock).sum() if is_found else not found.any()
-
-
-def test_temples_are_skin_and_a_crown_is_hair(
-    head: NDArray[np.bool_], hair: NDArray[np.bool_], face: NDArray[np.float64]
-) -> None:
-    """Dark hair with a bare temple beside the oval above the brow; and one whose crown shines in the skin's own colour."""
-    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
-    temple = (
-        hair
-        & head
-        & (y < face[1] - 0.3 * face[3])
-        & (y > face[1] - 0.8 * face[3])
-        & (np.abs(x - face[0]) < 1.15 * face[2])
-    )
-    rgb = noisy(np.where((hair & ~temple)[..., None], HAIR, np.where(head[..., None], SKIN, SHIRT)))
-    found = hair_beside_the_face(rgb, head | hair, head, face)
-    assert temple.sum() > 30 and found[temple].mean() < 0.2
-    crown = hair & (y < face[1] - 1.1 * face[3])
-    rgb = noisy(np.where((hair & ~crown)[..., None], HAIR, np.where((head | crown)[..., None], SKIN, SHIRT)))
-    found = hair_beside_the_face(rgb, head | hair, head, face)
-    assert crown.sum() > 30 and found[crown].mean() > 0.95
-
-
-def test_a_coat_of_its_colour_is_no_hair(
-    body: NDArray[np.float64], head: NDArray[np.bool_], hair: NDArray[np.bool_], face: NDArray[np.float64]
-) -> None:
-    """It goes on from the hair without a border, and is much more than hair is; trousers below are white."""
-    y = np.arange(SHAPE[0])[:, None]
-    trunk = covered(body) & ~head & ~hair
-    last = np.flatnonzero(hair.any(1))[-1]
-    for length, is_hair in ((30, True), (110, False)):
-        coat = trunk & (y < last + length)
-        rgb = noisy(np.where((hair | coat)[..., None], HAIR, np.where(head[..., None], SKIN, SHIRT)))
-        found = hair_on_the_shoulders(rgb, hair, trunk, face, 150)
-        assert found.any() == is_hair, "as much as that may lie there, and that may not"
-
-
-def test_a_scarf_of_its_colour_at_the_throat_is_no_hair(
-    body: NDArray[np.float64], head: NDArray[np.bool_], hair: NDArray[np.bool_], face: NDArray[np.float64]
-) -> None:
-    y, x = np.mgrid[: SHAPE[0], : SHAPE[1]]
-    trunk = covered(body) & ~head & ~hair
-    last = np.flatnonzero(hair.any(1))[-1]
-    aside = np.abs(x - face[0])
-    scarf = trunk & (y < last + 40) & (aside < face[2] + 14)
-    rgb = noisy(np.where((hair | scarf)[..., None], HAIR, np.where(head[..., None], SKIN, SHIRT)))
-    found = hair_on_the_shoulders(rgb, hair, trunk, face, 80)
-    assert found[scarf & (aside > face[2])].mean() > 0.9, "beside it hair falls"
-    assert not found[aside < 0.35 * face[2]].any()
 
 
 @pytest.fixture(scope="module")
