@@ -54,7 +54,7 @@ LOWER_TEETH_LIGHT_SHARE = 0.75
 """Of the upper teeth's light, that lower ones have."""
 BAG_LIGHT_SHARES = (0.9, 1.1)
 """Of the bag's light, what its roof has behind the upper lip, and its floor, on which light falls."""
-BAG_DEPTH_SHARES = (0.2, 0.9)
+BAG_DEPTH_SHARES = (0.2, 0.8)
 """Of the bag's depth, up to which it is in the light, and from which on it is as dark as the throat."""
 COLOUR_RAMP_PIXELS = (64, 16)
 """Width and height of a ramp of colours, pixels."""
