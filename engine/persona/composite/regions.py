@@ -10,11 +10,12 @@ from engine.perception.face.landmarks import LEFT_BROW, LEFT_EYE, LIPS_OUTER, RI
 from engine.persona.texture.appearance_subspace import REFERENCE_WIDTH_PIXELS
 from engine.persona.texture.texture_frame import TextureFrame
 
-NOSE_TIP_AND_WING_VERTICES = (98, 327, 2, 1, 4, 19, 94, 97, 326, 129, 358, 48, 278)
-"""The nose's tip and wings: nostrils that are a pixel off would be doubled."""
+WHOLE_NOSE_VERTICES = (168, 193, 417, 122, 351, 98, 327, 2, 1, 4, 19, 94, 97, 326, 129, 358, 48, 278)
+"""The nose, from between the eyes to its wings: it has hardly a crease, nostrils that are a pixel off would be doubled, and the light and the shade on
+both sides of its bridge, which stand there as the mean of photographs has them, would lie beside the photograph's."""
 SKIN_RAMP_PIXELS = (4.0, 16.0)
 """Pixels of a frame 194 wide from the face's rim, between which the skin begins and is whole."""
-EYE_ENLARGEMENT_AND_RAMP_PIXELS, NOSE_WING_ENLARGEMENT_AND_RAMP_PIXELS, LIP_ENLARGEMENT_AND_RAMP_PIXELS = (
+EYE_ENLARGEMENT_AND_RAMP_PIXELS, NOSE_ENLARGEMENT_AND_RAMP_PIXELS, LIP_ENLARGEMENT_AND_RAMP_PIXELS = (
     (3.0, 2.0),
     (1.0, 1.5),
     (1.0, 1.5),
@@ -24,7 +25,7 @@ BROW_ENLARGEMENT_AND_RAMP_PIXELS = (1.0, 1.5)
 
 
 def retouched_skin(frame: TextureFrame) -> NDArray[np.float32]:
-    """(H, W) in [0, 1] the skin of a persona's frame: the face without brows, eyes, the nose's tip and wings, and lips, and nothing at
+    """(H, W) in [0, 1] the skin of a persona's frame: the face without brows, eyes, nose and lips, and nothing at
     its rim."""
     inside = cv2.distanceTransform(frame.face.astype(np.uint8), cv2.DIST_L2, 3) * (
         REFERENCE_WIDTH_PIXELS / frame.size[1]
@@ -35,7 +36,7 @@ def retouched_skin(frame: TextureFrame) -> NDArray[np.float32]:
         (LEFT_EYE, EYE_ENLARGEMENT_AND_RAMP_PIXELS),
         (RIGHT_BROW, BROW_ENLARGEMENT_AND_RAMP_PIXELS),
         (LEFT_BROW, BROW_ENLARGEMENT_AND_RAMP_PIXELS),
-        (NOSE_TIP_AND_WING_VERTICES, NOSE_WING_ENLARGEMENT_AND_RAMP_PIXELS),
+        (WHOLE_NOSE_VERTICES, NOSE_ENLARGEMENT_AND_RAMP_PIXELS),
         (LIPS_OUTER, LIP_ENLARGEMENT_AND_RAMP_PIXELS),
     ):
         skin = skin * (1 - _grown(frame, contour, reach))

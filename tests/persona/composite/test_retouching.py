@@ -64,6 +64,11 @@ def test_creases_come_onto_skin_and_nowhere_else(frame: TextureFrame) -> None:
     for contour in (LEFT_EYE, RIGHT_EYE, LIPS_OUTER):
         inner = cv2.erode(mask(face, contour, shape), np.ones((3, 3), np.uint8))
         assert changed[inner > 0].max() <= 1
+    nose = cv2.convexHull(np.rint(face[[168, 193, 417, 98, 327], :2]).astype(np.int32))
+    bridge = cv2.fillConvexPoly(np.zeros(shape, np.uint8), nose, 1)
+    assert changed[cv2.erode(bridge, np.ones((3, 3), np.uint8)) > 0].max() <= 1, (
+        "its light and shade are the photograph's"
+    )
     for brow in (LEFT_BROW, RIGHT_BROW):  # its hairs are a pixel elsewhere in each photograph
         x, y = np.rint(face[list(brow), :2].mean(axis=0)).astype(int)
         assert changed[y - 3 : y + 4, x - 12 : x + 13].max() <= 1
