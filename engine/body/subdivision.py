@@ -12,6 +12,8 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from engine.geometry.mesh.adjacency import unique_edges
+
 
 @dataclass(frozen=True)
 class Subdivision:
@@ -33,7 +35,7 @@ def catmull_clark(quads: NDArray[np.integer], vertex_count: int, smooth: bool = 
     faces = np.asarray(quads, np.int64)
     count = len(faces)
     sides = np.stack([faces, np.roll(faces, -1, 1)], 2)  # (F, 4, 2): side k runs from corner k to corner k + 1
-    edges, edge_of = np.unique(np.sort(sides.reshape(-1, 2), 1), axis=0, return_inverse=True)
+    edges, edge_of = unique_edges(sides.reshape(-1, 2))
     edge_of = edge_of.reshape(count, 4)
     shared = np.bincount(edge_of.ravel(), minlength=len(edges))
     mean_of_face = _rows(np.arange(count).repeat(4), faces.ravel(), 0.25, (count, vertex_count))

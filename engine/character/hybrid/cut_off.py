@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.character.hybrid.limbs import Limbs
 from engine.character.shell.template_mesh import TemplateMesh
-from engine.character.surface.rim import open_edges
+from engine.geometry.mesh.adjacency import open_edges
 
 
 def cut_off(mesh: TemplateMesh, limbs: Limbs) -> TemplateMesh:
@@ -33,7 +33,7 @@ def _without_pinches(
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Triangles (T, 3), and the same of the chart, without those around vertices that open border passes twice."""
     while True:
-        passes = np.bincount(open_edges(triangles.astype(np.intp), int(triangles.max()) + 1).ravel())
+        passes = np.bincount(open_edges(triangles).ravel())
         kept = ~(passes > 2)[np.minimum(triangles, len(passes) - 1)].any(1)
         if kept.all():
             return triangles, charted

@@ -24,8 +24,7 @@ from engine.character.surface.depth_order import INSET_PIXELS, MAX_FORWARD_PIXEL
 from engine.character.surface.front_and_back import Layer
 from engine.character.surface.legs_beneath import LEG_UNDER_CLOTH_SHARE
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.rim import open_edges
-from engine.geometry.mesh.adjacency import neighbours
+from engine.geometry.mesh.adjacency import neighbours, open_edges
 from engine.geometry.mesh.surface import area_vectors
 from engine.imaging.filling.nearest import nearest_in
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
@@ -288,7 +287,7 @@ def _ends_drawn_in(mesh: TemplateMesh, vertices: NDArray[np.float64], limbs: Lim
     """Vertices (V, 3) with the borders at which limbs end in the trunk drawn in towards their middle: what closes them is inside, whatever
     way the surface bends."""
     shown = (limbs.limb >= 0)[mesh.triangles].all(1)
-    edges = open_edges(mesh.triangles[shown].astype(np.intp), len(vertices))
+    edges = open_edges(mesh.triangles[shown])
     edges = edges[limbs.overlap[edges].all(1)]
     graph = sp.coo_array((np.ones(len(edges)), edges.T), (len(vertices), len(vertices)))
     loop = connected_components(graph, directed=False)[1]

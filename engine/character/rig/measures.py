@@ -15,6 +15,7 @@ from engine.character.fit.template_fit import FittedBody
 from engine.character.rig.left_out import LeftOut, left_out
 from engine.character.rig.rigging import Character
 from engine.geometry.camera import Camera
+from engine.geometry.mesh.adjacency import unique_edges
 from engine.geometry.mesh.welding import is_closed, weld
 from engine.geometry.rigging.skinning import skin
 from engine.imaging.masks.mask_pieces import rows_apart
@@ -76,9 +77,9 @@ def measure(figure: Figure, silhouette: Silhouette, fitted: FittedBody, characte
 
 def border_edges(faces: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
     """The edges (E, 2) of one triangle alone, and how many have more than two."""
-    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), 1)
-    found, count = np.unique(edges, axis=0, return_counts=True)
-    return np.asarray(found[count == 1], np.intp), int((count > 2).sum())
+    found, which = unique_edges(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]))
+    count = np.bincount(which)
+    return found[count == 1], int((count > 2).sum())
 
 
 def count_loops(border: NDArray[np.intp]) -> int:

@@ -14,6 +14,7 @@ from engine.character.figure.silhouette import Silhouette
 from engine.character.parts.labels import ARM_LABELS
 from engine.character.shell.piece import Piece
 from engine.character.shell.template_mesh import TemplateMesh
+from engine.geometry.mesh.adjacency import open_edges
 
 VERTEX_SPACING_PIXELS = 2
 """Pixels between the vertices of a piece."""
@@ -100,9 +101,7 @@ def lens_over(
     a, b, c, d = lattice.cells.T
     faces = np.concatenate([np.stack([a, d, c], 1), np.stack([a, c, b], 1)])
     count = len(x)
-    ends = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-    _, which, times = np.unique(np.sort(ends, 1), axis=0, return_inverse=True, return_counts=True)
-    p, q = ends[times[which.ravel()] == 1].T
+    p, q = open_edges(faces).T
     wall = np.concatenate([np.stack([q, p, p + count], 1), np.stack([q, p + count, q + count], 1)])
     triangles = np.concatenate([faces, faces[:, ::-1] + count, wall]).astype(np.int32)
     bones, weights = _carried(mesh, rim[nearest], lattice, carrier)

@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
 from engine.character.surface.part_surface import Surface
-from engine.character.surface.rim import joining_strip, open_edges, smoothed_border, to_the_edge
+from engine.character.surface.rim import joining_strip, smoothed_border, to_the_edge
 from engine.character.surface.solid_limb import SolidLimb, places_on_the_picture
+from engine.geometry.mesh.adjacency import open_edges
 from engine.geometry.rigging.skinning import MAX_VERTEX_INFLUENCES
 from engine.render.rasterisation.rasteriser import rasterise
 
@@ -97,7 +98,7 @@ def stitch_front_and_back(
     """
     places, owners, sources, triangles = _sheet(layers)
     count = len(places)
-    rim = open_edges(triangles, count)
+    rim = open_edges(triangles)
     border = np.zeros(count, np.bool_)
     border[rim.ravel()] = True
     ys, xs = places.T
@@ -229,7 +230,7 @@ def _parted(
 def _without_pinches(triangles: NDArray[np.intp], count: int) -> NDArray[np.intp]:
     """Triangles without those around vertices where the sheet is joined by nothing but that vertex."""
     while True:
-        passes = np.bincount(open_edges(triangles, count).ravel(), minlength=count)
+        passes = np.bincount(open_edges(triangles).ravel(), minlength=count)
         pinched = passes > 2
         if not pinched.any():
             return triangles

@@ -16,13 +16,6 @@ BORDER_SMOOTHING_ROUNDS = 3
 """How often the border is smoothed: a silhouette of pixels is jagged."""
 
 
-def open_edges(triangles: NDArray[np.intp], count: int) -> NDArray[np.intp]:
-    """Edges (E, 2) that only one triangle has, as it turns."""
-    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    there, back = edges[:, 0] * count + edges[:, 1], edges[:, 1] * count + edges[:, 0]
-    return edges[~np.isin(there, back)]
-
-
 def joining_strip(rim: NDArray[np.intp], again: NDArray[np.intp], within: NDArray[np.intp]) -> NDArray[np.intp]:
     """The triangles (T, 3) that join the sheets along the border `rim` (E, 2). `again` (N,): the other sheet's vertices beneath
     those of the front; `within` (N,): what lies inside a hem above them, -1 elsewhere."""

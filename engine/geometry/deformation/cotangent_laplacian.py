@@ -9,6 +9,8 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from engine.geometry.mesh.adjacency import unique_edges
+
 MIN_EDGE_WEIGHT, MAX_EDGE_WEIGHT = 1e-3, 10.0
 """Of an edge. Obtuse pairs of triangles have negative cotangents, slivers boundless ones: within these bounds harmonic
 functions keep between the values that they are given, and no system is nearly singular."""
@@ -34,11 +36,11 @@ def cotangent_edges(
         along = (one * other).sum(1)
         steepest = MAX_EDGE_WEIGHT * np.maximum(across, np.finfo(np.float64).tiny)
         cotangents.append(np.clip(along, -2 * steepest, 2 * steepest) / np.maximum(across, np.finfo(np.float64).tiny))
-        ends.append(np.sort(corners[:, [(k + 1) % 3, (k + 2) % 3]], 1))
+        ends.append(corners[:, [(k + 1) % 3, (k + 2) % 3]])
     pairs = np.concatenate(ends)
     apart = pairs[:, 0] != pairs[:, 1]
-    edges, index = np.unique(pairs[apart], axis=0, return_inverse=True)
-    weights = np.bincount(index.ravel(), np.concatenate(cotangents)[apart] / 2, len(edges))
+    edges, which = unique_edges(pairs[apart])
+    weights = np.bincount(which, np.concatenate(cotangents)[apart] / 2, len(edges))
     return edges, np.clip(weights, MIN_EDGE_WEIGHT, MAX_EDGE_WEIGHT)
 
 

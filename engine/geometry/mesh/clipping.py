@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.mesh.adjacency import unique_edges
+
 MIN_CUT_SHARE = 0.02
 """Share of an edge from either end within which no edge is cut: slivers have no normal."""
 
@@ -39,12 +41,11 @@ def clip(triangles: NDArray[np.integer], field: NDArray[np.floating]) -> Clippin
     alone = _turned(triangles[count == 1], inside)  # the first corner is within
     without = _turned(triangles[count == 2], ~inside)  # the first corner is beyond
     pairs = np.concatenate([alone[:, [0, 1]], alone[:, [0, 2]], without[:, [0, 1]], without[:, [0, 2]]])
-    ends, number = np.unique(np.sort(pairs, 1), axis=0, return_inverse=True)
-    ends = ends.reshape(-1, 2).astype(np.intp)
+    ends, number = unique_edges(pairs)
     low, high = field[ends[:, 0]].astype(np.float64), field[ends[:, 1]].astype(np.float64)
     shares = np.clip(low / np.where(low == high, 1, low - high), MIN_CUT_SHARE, 1 - MIN_CUT_SHARE)
     parts = [len(alone), 2 * len(alone), 2 * len(alone) + len(without)]
-    one, two, near, far = np.split(number.ravel() + len(field), parts)
+    one, two, near, far = np.split(number + len(field), parts)
     made = [
         whole,
         np.stack([alone[:, 0], one, two], 1),

@@ -8,6 +8,8 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from engine.geometry.mesh.adjacency import unique_edges
+
 FOUR_POINT_WEIGHTS = (-1 / 16, 9 / 16, 9 / 16, -1 / 16)
 """Of the curve between the second and the third of four vertices that follow one another (N. Dyn, D. Levin, J. A. Gregory, A 4-point
 interpolatory subdivision scheme for curve design, CAGD 1987)."""
@@ -29,8 +31,7 @@ def midpoint_subdivision(
     ring = np.asarray(curve, np.int64)
     for _ in range(rounds):
         known = matrix.shape[0]
-        edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-        unique, place = np.unique(edges, axis=0, return_inverse=True)
+        unique, place = unique_edges(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]))
         a, b, c = known + place.reshape(3, -1)
         old_a, old_b, old_c = faces.T
         corners = ((old_a, a, c), (a, old_b, b), (c, b, old_c), (a, b, c))

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from engine.geometry.mesh.adjacency import edge_table, edges, neighbours
+from engine.geometry.mesh.adjacency import edge_table, edges, neighbours, open_edges, unique_edges
 
 TETRAHEDRON = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], np.int32)
 STRIP = np.array([[0, 1, 2], [1, 3, 2]], np.int32)
@@ -34,3 +34,16 @@ def test_a_tetrahedron_has_six_edges_and_a_square_a_border() -> None:
     # the square's diagonal has two vertices at one end, which are one point
     square = edge_table(np.array([[0, 1, 2], [0, 4, 3]], np.int32), np.array([0, 1, 2, 3, 2], np.int32))
     assert (square[:, 3] < 0).sum() == 4 and len(square) == 5
+
+
+def test_pairs_find_their_edge_whichever_way_they_run() -> None:
+    pairs = np.array([[5, 2], [0, 1], [2, 5], [1, 0], [5, 5]], np.int32)
+    found, which = unique_edges(pairs)
+    assert found.tolist() == [[0, 1], [2, 5], [5, 5]] and which.tolist() == [1, 0, 1, 0, 2]
+    nothing = unique_edges(np.zeros((0, 2), np.int32))
+    assert nothing[0].shape == (0, 2) and nothing[1].shape == (0,)
+
+
+def test_a_square_is_open_at_its_four_sides_which_run_as_its_triangles_turn() -> None:
+    assert sorted(open_edges(STRIP).tolist()) == [[0, 1], [1, 3], [2, 0], [3, 2]]
+    assert len(open_edges(TETRAHEDRON)) == 0

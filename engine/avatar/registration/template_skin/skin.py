@@ -20,7 +20,7 @@ from engine.body.lip_sides import lip_rims, lip_sides
 from engine.body.rig import Rig
 from engine.body.template import Template, mouth_faces, vertex_mask
 from engine.geometry.camera import Camera
-from engine.geometry.mesh.adjacency import edge_table, neighbours
+from engine.geometry.mesh.adjacency import edge_table, edges, neighbours
 from engine.geometry.mesh.surface import triangulate
 from engine.geometry.rigging.joint_names import SIDE_NAMES
 from engine.render.rasterisation.rasteriser import rasterise
@@ -135,9 +135,7 @@ def _regions(
         fields = template.face_units.dense(units)[:, vertices]
         return np.asarray(np.linalg.norm(fields, axis=2).max(0) > MIN_UNIT_MOTION_METRES)
 
-    joined = np.unique(
-        np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), 1), axis=0
-    )
+    joined = edges(triangles)
     lengths = np.linalg.norm(mean[joined[:, 0]] - mean[joined[:, 1]], axis=1).repeat(2)
     edge = np.bincount(joined.ravel(), lengths) / np.bincount(joined.ravel())
     trunk = ((mean > NIPPLE_BOX_METRES[0]) & (mean < NIPPLE_BOX_METRES[1])).all(1)
