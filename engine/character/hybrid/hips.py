@@ -15,6 +15,7 @@ from engine.character.fit.template_fit import load_human
 from engine.character.hybrid.hybrid import Hybrid
 from engine.character.parts.label_map import Labels
 from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, LEG_LABELS, TRUNK_LABEL
+from engine.character.texture.plain_cloth import TRUNK_SIDE_RADIANS
 from engine.character.texture.trunk_back import with_trunk_back
 from engine.imaging.filling.nearest import nearest_colours
 from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
@@ -27,6 +28,9 @@ ROWS_AROUND_PIXELS = 10
 """Rows of the grid above and below of which is known, too, what is behind them."""
 BODY_OUTLINE_MARGIN_PIXELS, BESIDE_OTHERS_PIXELS = 2.5, 4.0
 """Pixels of the grid within the outline, and around arms and what is held, in which the body's colours are mixed with others."""
+HIP_WIDTH_RADIANS = 0.0, TRUNK_SIDE_RADIANS[1]
+"""Radians from the middle between which hips tell how high a hem is: over all their width, as the legs of shorts rise towards the sides, and hips
+have no ties."""
 SURE_JOINT_WEIGHT = 0.9
 """Weight of a joint from which on a vertex moves with it alone."""
 
@@ -81,7 +85,8 @@ def hips_behind(
     if not clean.any():
         return rgb
     rgb = nearest_colours(rgb, clean)
-    return with_trunk_back(rgb, shown, clean, before, pictured(labels.labels == HEAD_LABEL), scale)
+    head = pictured(labels.labels == HEAD_LABEL)
+    return with_trunk_back(rgb, shown, clean, before, head, scale, told=HIP_WIDTH_RADIANS, necked=False)
 
 
 def within_the_outline(silhouette: Silhouette) -> NDArray[np.bool_]:

@@ -22,7 +22,11 @@ FINE_METRES, MAX_FINE_LEVELS = 0.012, 16.0
 
 
 def cloth_behind(
-    seen: NDArray[np.float32], known: NDArray[np.bool_], angle: NDArray[np.floating], step: float
+    seen: NDArray[np.float32],
+    known: NDArray[np.bool_],
+    angle: NDArray[np.floating],
+    step: float,
+    told: tuple[float, float] = TRUNK_SIDE_RADIANS,
 ) -> NDArray[np.float32]:
     """Cloth behind rows of something round, (A, N, 3).
 
@@ -31,11 +35,12 @@ def cloth_behind(
     seen, known : (A, N, 3), levels, what is before, and (A, N) which of it may be a source.
     angle : (N,) radians from the middle, from about -pi / 2 to pi / 2.
     step : metres from row to row.
+    told : radians from the middle between which either side is told.
 
     Where nothing is known of any side, it is what is before.
     """
     rows = max(2, round(len(seen) * step / SIDE_ROW_METRES))
-    sides, sure = _sides(seen, known, angle, rows)
+    sides, sure = _sides(seen, known, angle, rows, told)
     if not sure.any():
         return np.asarray(seen, np.float32)
     whole = _without_the_odd(*_both(sides, sure))
@@ -49,12 +54,16 @@ def cloth_behind(
 
 
 def _sides(
-    seen: NDArray[np.floating], known: NDArray[np.bool_], angle: NDArray[np.floating], rows: int
+    seen: NDArray[np.floating],
+    known: NDArray[np.bool_],
+    angle: NDArray[np.floating],
+    rows: int,
+    told: tuple[float, float],
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
     """The colours (R, 2, 3) of the left and the right side at so many rows, in the median of what is known of each, and which are known (R, 2)."""
     first = np.linspace(0, len(seen), rows + 1)
     found, sure = np.zeros((rows, 2, 3), np.float32), np.zeros((rows, 2), np.bool_)
-    least, most = TRUNK_SIDE_RADIANS
+    least, most = told
     for k, sign in enumerate((-1, 1)):
         aside = (sign * angle > least) & (sign * angle < most)
         part, there = seen[:, aside], known[:, aside]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.texture.kept_front import kept_front, levelled_to
-from engine.character.texture.plain_cloth import cloth_behind
+from engine.character.texture.plain_cloth import TRUNK_SIDE_RADIANS, cloth_behind
 from engine.imaging.masks.mask_distance import dilate_mask
 
 USUAL_HEIGHT_METRES = 1.7
@@ -77,6 +77,9 @@ def with_trunk_back(
     others: NDArray[np.bool_],
     head: NDArray[np.bool_],
     scale: float,
+    *,
+    told: tuple[float, float] = TRUNK_SIDE_RADIANS,
+    necked: bool = True,
 ) -> NDArray[np.uint8]:
     """A picture (H, W, 3) with what goes round it in place of the `trunk` (H, W).
 
@@ -86,6 +89,8 @@ def with_trunk_back(
     others : (H, W) what lies before it or hangs beside it: what is close to that is in its shadow.
     head : (H, W) where that is.
     scale : pixels for each of the grid's.
+    told : radians from the middle between which its sides tell what is behind.
+    necked : whether the trunk goes up to its neck, and has a neckline in front.
     """
     clean = shown & ~dilate_mask(others, round(NEIGHBOUR_MARGIN_PIXELS * scale))
     if not clean.any():
@@ -105,13 +110,13 @@ def with_trunk_back(
     known = np.asarray(cv2.remap(clean.astype(np.uint8), *where, cv2.INTER_NEAREST) > 0)
     step = USUAL_HEIGHT_METRES / rgb.shape[0]
     chest = half[: max(1, round(CHEST_HEIGHT_METRES / step))]
-    yoke = int(np.argmax(chest >= SHOULDER_WIDTH_SHARE * chest.max()))
+    yoke = int(np.argmax(chest >= SHOULDER_WIDTH_SHARE * chest.max())) if necked else 0
     source = np.arange(rows)
     below = max(1, round(YOKE_SOURCE_METRES / step))
     away = (yoke - source[:yoke]) % (2 * below)
     source[:yoke] = np.minimum(yoke + np.minimum(away, 2 * below - away), rows - 1)
     seen, known = seen[source], known[source]
-    behind = cloth_behind(seen, known, angle, step)
+    behind = cloth_behind(seen, known, angle, step, told)
     mirrored = ~known & known[:, ::-1]  # of a pattern, what an arm hides is as it is on the other side
     front = np.where(mirrored[..., None], seen[:, ::-1], seen)
     share = kept_front(front, known | mirrored, behind, angle, step)

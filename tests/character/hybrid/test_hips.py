@@ -110,6 +110,46 @@ def test_neither_the_wall_nor_an_arm_beside_them_is_on_hips(seen: Seen) -> None:
     assert np.abs(behind[about].astype(int) - TROUSERS).max() < 12
 
 
+def _hips(seen: Seen, narrow: int = 0) -> tuple[Labels, np.ndarray, int, float]:
+    """Labels of somebody of whose trunk, down to so many rows above a hem at the hips, arms leave a middle alone; their body (H, W) in the picture;
+    and the hem's row on the grid and in the picture."""
+    _, _, silhouette, labels = seen
+    hem = int(np.flatnonzero(np.isin(labels.labels, LEG_LABELS).any(1))[0]) + 12
+    found = labels.labels.copy()
+    if narrow:
+        above = found[: hem - narrow]
+        middle = int(np.median(np.nonzero(above == TRUNK_LABEL)[1]))
+        beside = np.abs(np.arange(found.shape[1]) - middle)[None] > 10
+        above[(above == TRUNK_LABEL) & beside] = ARM_LABELS[0]
+    labels = replace(labels, labels=found)
+    body = np.isin(_in_picture(labels, silhouette), (TRUNK_LABEL, *LEG_LABELS)) & (silhouette.alpha > 0.99)
+    return labels, body, hem, (hem - silhouette.to_grid[1, 2]) / silhouette.to_grid[1, 1]
+
+
+def test_legs_of_shorts_that_rise_towards_the_sides_are_as_long_behind_as_in_their_middle(seen: Seen) -> None:
+    labels, body, hem, row = _hips(seen)
+    rows, columns = np.indices(body.shape)
+    at_hem = np.flatnonzero(body[int(row)])
+    middle, half = (at_hem[0] + at_hem[-1]) / 2, (at_hem[-1] - at_hem[0]) / 2
+    rising = row - 30 * (np.abs(columns - middle) > 0.65 * half)
+    rgb = np.where((rows < rising)[..., None], TROUSERS, SKIN).astype(np.uint8)
+    behind = hips_behind(rgb, labels, seen[2], np.array([[210.0, hem - 30], [210.0, hem + 30]]))
+    band = body & (rows > row - 24) & (rows < row - 5)
+    assert band.sum() > 500
+    assert (np.abs(behind[band].astype(int) - TROUSERS).max(1) < 12).mean() > 0.98
+
+
+def test_hips_have_no_neckline(seen: Seen) -> None:
+    """What arms leave of a shirt above them is no neck."""
+    labels, body, hem, row = _hips(seen, narrow=15)
+    rows, step = np.indices(body.shape)[0], 1 / seen[2].to_grid[1, 1]
+    rgb = np.where((rows < row)[..., None], SHIRT, TROUSERS).astype(np.uint8)
+    behind = hips_behind(rgb, labels, seen[2], np.array([[210.0, hem - 30], [210.0, hem + 30]]))
+    band = body & (rows > row - 38 * step) & (rows < row - 6 * step)
+    assert band.sum() > 200
+    assert (np.abs(behind[band].astype(int) - SHIRT).max(1) < 12).mean() > 0.95
+
+
 def _in_picture(labels: Labels, silhouette: Silhouette) -> np.ndarray:
     """The label (H, W) of each pixel of the picture."""
     height, width = silhouette.alpha.shape

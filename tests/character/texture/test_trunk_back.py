@@ -183,3 +183,14 @@ def test_hair_over_both_shoulders_is_not_on_the_back() -> None:
     rgb[hair] = RED
     found = back(rgb, TRUNK, hair)
     assert off(found, CLOTH)[TRUNK].max() < 6
+
+
+def test_a_trunk_without_a_neck_has_no_neckline() -> None:
+    trunk = TRUNK.copy()
+    trunk[60:80, :60] = trunk[60:80, 100:] = False
+    rgb = dressed()
+    rgb[60:80] = WHITE
+    found = with_trunk_back(rgb, trunk, trunk, NOBODY, HEAD, 1.0, necked=False)
+    assert off(found, WHITE)[64:76, 64:96].max() < 6
+    found = with_trunk_back(rgb, trunk, trunk, NOBODY, HEAD, 1.0)
+    assert off(found, CLOTH)[64:76, 64:96].max() < 6
