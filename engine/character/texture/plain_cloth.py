@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import median_filter
+from scipy.ndimage import binary_dilation, median_filter
 
 from engine.character.shell.colours.between_hems import between_hems
 
@@ -17,6 +17,10 @@ LIGHT_METRES = 0.2
 """Metres of rows to each side over which the light is one."""
 ODD_METRES = 0.4
 """Metres over which it is told what is usual for both sides."""
+ARM_SHADOW_METRES = 0.04
+"""Metres above and below rows that arms hide wholly in which the cloth is in their shadow."""
+MAX_SHADE_RATIO, MAX_HUE_LEVELS = 2.0, 18.0
+"""How much lighter one cloth is in the light than in the shade of arms, at most, and sRGB levels by which its hue differs there."""
 FINE_METRES, MAX_FINE_LEVELS = 0.012, 16.0
 """Metres about a cell off whose mean its fine detail is, and sRGB levels up to which that is the cloth's, and no line of a print."""
 
@@ -43,6 +47,7 @@ def cloth_behind(
     sides, sure = _sides(seen, known, angle, rows, told)
     if not sure.any():
         return np.asarray(seen, np.float32)
+    sure = sure & ~_in_the_shadow_of_arms(np.asarray(sure.any(1)))[:, None]
     whole = _without_the_odd(*_both(sides, sure))
     plain = between_hems(whole, sure, SIDE_ROW_METRES)
     tall = plain[((np.arange(len(seen)) + 0.5) * rows / len(seen)).astype(np.intp)]  # what steps there steps here
@@ -75,6 +80,16 @@ def _sides(
     return found, sure
 
 
+def _in_the_shadow_of_arms(told: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which rows (R,) are close to some between others that are not `told` (R,): arms cross before them."""
+    rows = np.flatnonzero(told)
+    within = np.zeros_like(told)
+    within[rows[0] : rows[-1] + 1] = True
+    near = binary_dilation(within & ~told, iterations=round(ARM_SHADOW_METRES / SIDE_ROW_METRES))
+    near[rows[[0, -1]]] = False
+    return np.asarray(near)
+
+
 def _both(sides: NDArray[np.float32], sure: NDArray[np.bool_]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Sides (R, 2, 3) of which all are known: what is missing of one is as the other is there, in its own light; and by how much (R, 1, 3) the right one is
     lighter."""
@@ -91,9 +106,22 @@ def _both(sides: NDArray[np.float32], sure: NDArray[np.bool_]) -> tuple[NDArray[
     for k, sign in ((0, -1), (1, 1)):
         instead = ~sure[:, k] & sure[:, 1 - k]
         whole[instead, k] = sides[instead, 1 - k] + sign * light[instead]
-    told = np.flatnonzero(sure.any(1))
-    nearest = told[np.abs(told[None] - rows[:, None]).argmin(1)]
-    return whole[nearest].astype(np.float32), light[:, None].astype(np.float32)
+    return _in_all_rows(whole, np.flatnonzero(sure.any(1))), light[:, None].astype(np.float32)
+
+
+def _in_all_rows(sides: NDArray[np.floating], told: NDArray[np.intp]) -> NDArray[np.float32]:
+    """Sides (R, 2, 3) of which some rows are `told` (N,): between two that are of one cloth it goes over from the light of one into that of the other,
+    and between two that are not, each goes on half the way."""
+    rows = np.arange(len(sides))
+    after = np.minimum(np.searchsorted(told, rows), len(told) - 1)
+    last, first = told[after], told[np.maximum(after - 1, 0)]
+    way = np.clip((rows - first) / np.maximum(last - first, 1), 0, 1)
+    one, other = sides[first].mean(1), sides[last].mean(1)
+    lighter = (other.mean(-1) + 1) / (one.mean(-1) + 1)
+    hue = np.linalg.norm(other / lighter[:, None] - one, axis=-1)
+    alike = (np.abs(np.log(lighter)) < np.log(MAX_SHADE_RATIO)) & (hue < MAX_HUE_LEVELS)
+    share = np.where(alike, way, way > 0.5)[:, None, None]
+    return np.asarray((1 - share) * sides[first] + share * sides[last], np.float32)
 
 
 def _without_the_odd(sides: NDArray[np.float32], light: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -185,6 +185,30 @@ def test_hair_over_both_shoulders_is_not_on_the_back() -> None:
     assert off(found, CLOTH)[TRUNK].max() < 6
 
 
+def test_where_arms_cross_cloth_goes_over_from_its_light_above_into_its_shade_below() -> None:
+    """Beside the arms it is in their shadow."""
+    seen, angle = round_trunk()
+    seen[:80] *= 1.6
+    seen[72:80] *= 0.6
+    seen[120:126] *= 0.6
+    known = np.ones((200, 120), np.bool_)
+    known[80:120] = False
+    behind = cloth_behind(seen, known, angle, 0.005).mean(1)
+    np.testing.assert_allclose(behind[[20, 180]], [[48, 80, 240], [30, 50, 150]], atol=3)
+    assert np.abs(np.diff(behind, axis=0)).max() < 4, "no edge, and no band that is darker than both"
+    assert (np.diff(behind[:, 2]) < 1).all()
+
+
+def test_where_arms_cross_between_two_garments_each_goes_on_half_the_way() -> None:
+    seen, angle = round_trunk()
+    seen[:80] = WHITE
+    known = np.ones((200, 120), np.bool_)
+    known[80:120] = False
+    behind = cloth_behind(seen, known, angle, 0.005)
+    for rows, colour in ((slice(10, 96), WHITE), (slice(104, 190), (30, 50, 150))):
+        assert np.abs(behind[rows] - colour).max() < 6
+
+
 def test_a_trunk_without_a_neck_has_no_neckline() -> None:
     trunk = TRUNK.copy()
     trunk[60:80, :60] = trunk[60:80, 100:] = False
