@@ -325,7 +325,8 @@ def make_hybrid_character(
     own, trunk = hybrid.labels, hybrid.trunk
     held = np.zeros(own.labels.shape, np.bool_) if own.held is None else own.held >= 0
     limbs = np.isin(own.labels, own.apart) | held
-    around = dilate_mask(trunk.pixels(np.arange(len(trunk.vertices)), limbs.shape), TRUNK_MARGIN_PIXELS)
+    covered = trunk.pixels(np.arange(len(trunk.vertices)), limbs.shape)
+    around = dilate_mask(covered, TRUNK_MARGIN_PIXELS)
     below = np.isin(own.labels, LEG_LABELS) & dilate_mask(own.labels == TRUNK_LABEL, TRUNK_MARGIN_PIXELS)
     below &= own.cloth is None or not own.cloth.hangs  # at the waist nothing is behind legs, at a hem cloth is
     hidden = limbs & around & ~below & ~hybrid.at_shoulders()
@@ -335,7 +336,7 @@ def make_hybrid_character(
     gone, behind, before = (_in_the_picture(one, silhouette) for one in (limbs & ~around, hidden, other))
     alone = replace(silhouette, alpha=silhouette.alpha * (1 - gone))
     seen = mirrored_behind(figure.rgb, behind > 0, (silhouette.alpha > OPAQUE_ALPHA) & (gone == 0) & (before == 0))
-    nothing = LimbSurfaces(np.zeros_like(limbs), np.zeros_like(limbs), before=hybrid.hair)
+    nothing = LimbSurfaces(np.zeros_like(limbs), np.zeros_like(limbs), body=covered, before=hybrid.hair)
     tiles = _painted(replace(figure, rgb=seen), alone, own, nothing, back)
     shown = limbs_alone(hybrid)
     relief = _made_of(figure, alone, fitted, own, trunk, tiles, _left_for_a_relief(triangles, shown))

@@ -244,12 +244,14 @@ def _behind(
     size = (own.shape[1], own.shape[0])
     torso, head = (BODY_PARTS.index(name) for name in ("torso", "head"))
     limbs = np.isin(labels.labels, labels.apart)
-    within = labels.labels >= 0 if surfaces.body is None else surfaces.body & (labels.labels >= 0)
+    held = np.zeros_like(limbs) if labels.held is None else labels.held >= 0
+    of_somebody = (labels.labels >= 0) | held
+    within = of_somebody if surfaces.body is None else surfaces.body & of_somebody
     beneath = complete_labels(within, np.where(limbs, -1, labels.labels))
     if surfaces.along is not None:
         within &= ~(surfaces.along & limbs)
     shown = np.isin(labels.labels, (torso, *LEG_LABELS))
-    others = (labels.labels >= 0) & ~shown
+    others = of_somebody & ~shown
     if surfaces.before is not None:
         others |= surfaces.before
     masks = within & (beneath == torso), shown, others, labels.labels == head

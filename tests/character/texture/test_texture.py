@@ -261,3 +261,20 @@ def test_a_sleeve_that_is_hidden_but_for_its_hand_is_like_the_other_one() -> Non
     kept = paint_limbs(seen, everything, most, labels, LimbSurfaces(reach, most, sleeves=sleeves), None, 1.0)
     assert np.abs(kept[62:88, 111:125].astype(int) - (40, 130, 60)).max() < 12, "of what more is seen, like itself"
     np.testing.assert_array_equal(kept[2:18, 2:18], seen[2:18, 2:18], "and what is far from limbs stays")
+
+
+def test_behind_hair_that_falls_over_a_shoulder_is_the_cloth_beside_it() -> None:
+    rgb, found = person()
+    hair = np.zeros(found.shape, np.bool_)
+    hair[90:150, 80:105] = True
+    rgb[hair], found[hair] = BROWN, -1
+    held = np.where(hair, BODY_PARTS.index("head"), -1).astype(np.int8)
+    none = np.zeros(hair.shape, np.bool_)
+    arm = np.array([BODY_PARTS.index("right_arm")], np.int8)
+    labels = Labels(found.astype(np.int8), none, arm, none, np.full(hair.shape, -1, np.int8), held=held)
+    alpha = ((found >= 0) | hair).astype(np.float32)
+    body = none.copy()
+    body[90:220, 40:120] = True
+    surfaces = LimbSurfaces(none, none, body=body)
+    tiles = paint_tiles(PictureOnGrid(rgb, alpha, SAME), labels, surfaces, np.float32(FACE), "see_through")
+    assert np.abs(tiles.back[100:210, 50:110].astype(int) - GREEN).max() < 12
