@@ -11,11 +11,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.motion_transfer.lids_and_lips import (
-    CLOSED_GAP_SHARE,
-    LID_EDGE_VERTEX_PAIRS,
-    LID_SKIN_VERTEX_PAIRS,
-)
+from engine.face_animation.motion_transfer.lids_and_lips import LID_EDGE_VERTEX_PAIRS, LID_SKIN_VERTEX_PAIRS
+from engine.face_animation.motion_transfer.usual_lids import SHUT_SHARE
 
 FALLS_SECONDS, RISES_SECONDS = 0.1, 0.2
 """Seconds from open to shut, and back, at least."""
@@ -39,11 +36,11 @@ def slow_lids(meshes: NDArray[np.floating], neutral: int, fps: float) -> None:
 
 def held_openness(openness: NDArray[np.floating], neutral: int, fps: float) -> NDArray[np.float64]:
     """The largest (N, K) below the openness (N, K) of lids that does not change faster. Openness is 1 as usual and
-    `CLOSED_GAP_SHARE` shut. In a blink right beside the `neutral` frame lids are open as they were seen."""
+    `SHUT_SHARE` shut. In a blink right beside the `neutral` frame lids are open as they were seen."""
     whole = np.asarray(openness, np.float64)
     frames = np.arange(len(whole))[:, None]
-    falls, rises = ((1 - CLOSED_GAP_SHARE) / (seconds * fps) for seconds in (FALLS_SECONDS, RISES_SECONDS))
-    shut = np.maximum(np.minimum(whole, 1), CLOSED_GAP_SHARE)  # wide eyes narrow, and shut ones settle, as they do
+    falls, rises = ((1 - SHUT_SHARE) / (seconds * fps) for seconds in (FALLS_SECONDS, RISES_SECONDS))
+    shut = np.maximum(np.minimum(whole, 1), SHUT_SHARE)  # wide eyes narrow, and shut ones settle, as they do
     before = np.minimum.accumulate((shut + falls * frames)[::-1])[::-1] - falls * frames
     after = np.minimum.accumulate(shut - rises * frames) + rises * frames
     beside = frames - neutral

@@ -45,6 +45,7 @@ from engine.face_animation.motion_transfer.lids_and_lips import (
 from engine.face_animation.motion_transfer.lids_below_brows import keep_lids_below_brows
 from engine.face_animation.motion_transfer.pose_refinement import refine_pose
 from engine.face_animation.motion_transfer.turned_expression import even_out_turned
+from engine.face_animation.motion_transfer.usual_lids import AS_AT_REST, UsualLids, usual_lids
 from engine.face_animation.mouth.closing import ClosingLips
 from engine.face_animation.mouth.lip_curves import construct_lips, thickness_shares
 from engine.face_animation.mouth.lips_and_skin import keep_lips_off_skin, philtrum_compression
@@ -106,7 +107,7 @@ class MotionTransfer:
     Parameters
     ----------
     rest : one frame, in which the driver shows what the target shows. target : (478, 3) mesh, pixels. proxy : None keeps to
-        the plane.
+        the plane. lids : what the driver's are usually like.
     """
 
     def __init__(
@@ -117,9 +118,10 @@ class MotionTransfer:
         proxy: HeadProxy | None,
         options: ActingOptions,
         residuals: LandmarkResiduals | None = None,
+        lids: UsualLids = AS_AT_REST,
     ):
         self._rest, self._around, self._trust = rest.meshes[0], rest.periphery[0], rest.trust[0]
-        self._target, self._control, self._proxy, self._residuals = target, control, proxy, residuals
+        self._target, self._control, self._proxy, self._residuals, self._lids = target, control, proxy, residuals, lids
         self._driver = build_head_proxy(np.concatenate([self._rest[:, :2], self._around]), self._rest)
         self._phi = align(self._rest, target)
         self._turned = turned_in_picture(target)
@@ -191,7 +193,7 @@ class MotionTransfer:
         even = even_out_turned(motion)
         expression = self._acts @ carry_expression(self._maps, self._phi, even)
         upright, acted = rest + even, target + expression
-        ratio = 1 + self._eyes * (lid_ratio(upright, rest, target) - 1)
+        ratio = 1 + self._eyes * (lid_ratio(upright, rest, target, self._lids) - 1)
         self._smile.lift(acted, upright, self._mouth)
         self._lips.close(acted, upright, self._mouth)
         ratio = np.clip(ratio, 0, np.repeat(gap_limits(target), 7))  # however strongly
@@ -249,7 +251,8 @@ def carry_motion(
         some = slice(start, stop)
         return DriverFrames(track.meshes[some], track.periphery[some], track.trust[some], faces)
 
-    transfer = MotionTransfer(frames(neutral, neutral + 1), target, control, proxy, options, residuals)
+    lids = usual_lids(track.meshes, neutral, track.fps)
+    transfer = MotionTransfer(frames(neutral, neutral + 1), target, control, proxy, options, residuals, lids)
     for start in range(0, len(track), CONTROL_CHUNK_FRAMES):
         carried = transfer(frames(start, min(start + CONTROL_CHUNK_FRAMES, len(track))))
         for k, one in enumerate(zip(*carried, strict=True)):

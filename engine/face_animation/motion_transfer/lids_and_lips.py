@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.motion_transfer.usual_lids import AS_AT_REST, UsualLids
 from engine.face_animation.smoothstep import smoothstep
 from engine.perception.face.landmarks import CHIN_VERTEX, FOREHEAD_VERTEX, LEFT_IRIS, RIGHT_IRIS, eye_opening
 
@@ -24,10 +25,6 @@ LID_SKIN_VERTEX_PAIRS = (
 """Vertices of the skin above the upper lid, each with the edge vertex that it follows half-way."""
 INNER_LIP_PAIRS = ((191, 95), (80, 88), (81, 178), (82, 87), (13, 14), (312, 317), (311, 402), (310, 318), (415, 324))
 """Facing vertices (upper, lower) of the inner lips."""
-CLOSED_GAP_SHARE = 0.3
-"""Share of its usual gap below which an eye counts as shut."""
-OPEN_GAP_SHARE = 0.6
-"""Share of its usual gap above which an eye's gap is carried as it is."""
 LID_DIFFERENCE_SHARES = (0.25, 0.5)
 """Differences between the two eyes' gaps, as shares of their usual ones, up to which both open and close alike, and from which
 on one winks. Lids are moved together (Hering's law); a tracker sees one of two that close a frame behind the other, and what
@@ -45,10 +42,14 @@ MIN_GAP_LIMIT = 1.08
 
 
 def lid_ratio(
-    meshes: NDArray[np.floating], neutral: NDArray[np.floating], target: NDArray[np.floating] | None = None
+    meshes: NDArray[np.floating],
+    neutral: NDArray[np.floating],
+    target: NDArray[np.floating] | None = None,
+    usual: UsualLids = AS_AT_REST,
 ) -> NDArray[np.float64]:
-    """(N, 14) gap of each pair of lid vertices against the neutral frame's; the tracker never reports a
-    gap of zero, so that ratios under `CLOSED_GAP_SHARE` become 0.
+    """(N, 14) how far each pair of lid vertices is to open, against the picture: 1 in the neutral frame, and 0 where a gap is no wider than that of lids that
+    meet. Which is more of a rest, the neutral frame or how eyes `usual`-ly are, is not known: between the one and half the way to the other
+    they are as the picture has them.
 
     Eyes of a `target` (478, 3) open no farther than their irises allow. Those that are narrower at rest than the
     driver's are narrowed no further than these are, by `eye_opening`: what is left of wide eyes is not a squint.
@@ -59,15 +60,15 @@ def lid_ratio(
     # an eye is judged as a whole by its middle, so that the corners do not flutter
     ratio = gap / np.maximum(rest, 1e-6)
     seen = np.stack([ratio[:, 2:5].mean(axis=1), ratio[:, 9:12].mean(axis=1)], axis=1)
-    alike = _alike(seen)
-    ratio = ratio * np.repeat(alike / np.maximum(seen, 1e-6), 7, axis=1)
-    middle = np.repeat(alike, 7, axis=1)
-    shut = np.clip((middle - CLOSED_GAP_SHARE) / (OPEN_GAP_SHARE - CLOSED_GAP_SHARE), 0, 1)
+    alike = _alike(seen / usual.opening) * usual.opening
+    carried = np.clip(1, *np.sort([alike, alike / np.sqrt(usual.opening)], axis=0))
+    ratio = ratio * np.repeat(carried / np.maximum(seen, 1e-6), 7, axis=1)
+    opened = smoothstep(np.repeat(alike, 7, axis=1), usual.shut, usual.opened)
     if target is not None:
         ratio = np.minimum(ratio, np.repeat(gap_limits(target), 7))
         least = np.minimum(eye_opening(meshes) / np.maximum(eye_opening(target), 1e-6), 1)
         ratio = np.maximum(ratio, np.repeat(least, 7, axis=1))
-    return np.asarray(np.clip(ratio, 0, MAX_GAP_RATIO) * (shut * shut * (3 - 2 * shut)), float)
+    return np.asarray(np.clip(ratio, 0, MAX_GAP_RATIO) * opened, float)
 
 
 def gap_limits(target: NDArray[np.floating]) -> NDArray[np.float64]:

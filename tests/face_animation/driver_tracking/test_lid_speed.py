@@ -8,19 +8,19 @@ from made_face import placed, shut
 
 from engine.face_animation.driver_tracking.lid_speed import FALLS_SECONDS, RISES_SECONDS, held_openness, slow_lids
 from engine.face_animation.motion_transfer.lids_and_lips import (
-    CLOSED_GAP_SHARE,
     LID_EDGE_VERTEX_PAIRS,
     LID_SKIN_VERTEX_PAIRS,
     lid_ratio,
 )
+from engine.face_animation.motion_transfer.usual_lids import SHUT_SHARE
 
 
 @pytest.mark.parametrize("fps", [24.0, 30.0, 60.0])
 def test_a_blink_of_one_frame_falls_and_rises_as_a_lid_does(fps: float) -> None:
     seen = np.ones((80, 1))
-    seen[40] = CLOSED_GAP_SHARE
+    seen[40] = SHUT_SHARE
     held = held_openness(seen, 0, fps)[:, 0]
-    assert held[40] == pytest.approx(CLOSED_GAP_SHARE)
+    assert held[40] == pytest.approx(SHUT_SHARE)
     moving = np.flatnonzero(held < 1 - 1e-9)
     assert 40 - moving[0] == pytest.approx(FALLS_SECONDS * fps, abs=1)
     assert moving[-1] - 40 == pytest.approx(RISES_SECONDS * fps, abs=1)
@@ -38,9 +38,9 @@ def test_what_is_slow_enough_stays_as_it_is() -> None:
 @pytest.mark.parametrize("away", [-3, -1, 1, 3])
 def test_the_frame_that_all_are_measured_by_stays_though_a_blink_is_beside_it(away: int) -> None:
     seen = np.ones((80, 1))
-    seen[40] = CLOSED_GAP_SHARE
+    seen[40] = SHUT_SHARE
     held = held_openness(seen, 40 + away, 30.0)[:, 0]
-    assert held[40 + away] == 1 and held[40] == pytest.approx(CLOSED_GAP_SHARE)
+    assert held[40 + away] == 1 and held[40] == pytest.approx(SHUT_SHARE)
     beyond = np.flatnonzero(held < 1 - 1e-9)
     assert beyond[-1] > 43 or beyond[0] < 38, "on the other side the lid takes its time"
 
@@ -49,10 +49,10 @@ def test_the_frame_that_all_are_measured_by_stays_though_a_blink_is_beside_it(aw
 def test_a_blink_that_is_far_enough_from_that_frame_is_as_slow_as_any(away: int) -> None:
     """At 30 frames a second a lid falls in 3 of them, and rises in 6."""
     seen = np.ones((80, 1))
-    seen[40] = CLOSED_GAP_SHARE
+    seen[40] = SHUT_SHARE
     held = held_openness(seen, 40 + away, 30.0)[:, 0]
-    assert held[40 + away] == 1 and held[40] == pytest.approx(CLOSED_GAP_SHARE)
-    steps = np.diff(held) * 30.0 / (1 - CLOSED_GAP_SHARE)
+    assert held[40 + away] == 1 and held[40] == pytest.approx(SHUT_SHARE)
+    steps = np.diff(held) * 30.0 / (1 - SHUT_SHARE)
     assert steps.min() > -1 / FALLS_SECONDS - 1e-9
     assert steps.max() < 1 / RISES_SECONDS + 1e-9
 
