@@ -21,9 +21,9 @@ from engine.imaging.filling.nearest import nearest_in
 HAIR_EDGE_RADIANS = {
     "nape": 2.45,
     "nose": 2.05,
-    "ears": 1.55,
-    "eyes": 1.42,
-    "brow": 1.28,
+    "ears": 1.28,
+    "eyes": 1.22,
+    "brow": 1.14,
     "forehead": 0.95,
     "crown": 0.0,
 }

@@ -91,14 +91,29 @@ class _Kinds:
     falls: bool
 
 
-def head_round(
-    colours: NDArray[np.float32], source: NDArray[np.bool_], facing: NDArray[np.float32]
-) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
-    """The colours (A, `UNROLLED_COLUMNS`, 3) of the unrolled head, as `round.coloured_round` has those of other parts. Then (A, `UNROLLED_COLUMNS`)
-    each, from 0 to 1, how far the picture is believed, and how far a place does not have the colours of the other half."""
+@dataclass(frozen=True)
+class HeadColours:
+    """The unrolled head all round.
+
+    colours : (A, `UNROLLED_COLUMNS`, 3) float32, sRGB levels, as `round.coloured_round` has those of other parts; around ears what is
+        there without them.
+    believed : (A, `UNROLLED_COLUMNS`) float32, from 0 to 1, how far the picture is believed.
+    own : (A, `UNROLLED_COLUMNS`) float32, from 0 to 1, how far a place does not have the colours of the other half.
+    ears : (3,) of the ears themselves; `None` where hair covers them, or nothing is known.
+    """
+
+    colours: NDArray[np.float32]
+    believed: NDArray[np.float32]
+    own: NDArray[np.float32]
+    ears: NDArray[np.floating] | None
+
+
+def head_round(colours: NDArray[np.float32], source: NDArray[np.bool_], facing: NDArray[np.float32]) -> HeadColours:
+    """The head's colours all round, from those (A, `UNROLLED_COLUMNS`, 3) of a picture that shows its `source` (A, `UNROLLED_COLUMNS`) of them, and
+    the cosines (A, `UNROLLED_COLUMNS`) to the viewer."""
     everywhere = np.ones(source.shape, np.float32)
     if not source.any():
-        return colours, everywhere, everywhere
+        return HeadColours(colours, everywhere, everywhere, None)
     head = head_map()
     known = source & (facing > MIN_WELL_SEEN_COSINE)
     first = _kinds(head, colours, known)
@@ -112,14 +127,12 @@ def head_round(
     begins = hairline(head, HeadSeen(known, kinds.hair, facing), falls=kinds.falls)
     streaks = strand_noise((len(colours), UNROLLED_COLUMNS))
     skin = _skin(head, colours, kinds)
+    ears, shows = (None, known) if kinds.falls else (kinds.skin, known & ~head.around_ears)
     if not kinds.hair.any():
-        return np.where(known[..., None], colours, skin).astype(np.float32), believed, halves.own
+        return HeadColours(np.where(shows[..., None], colours, skin).astype(np.float32), believed, halves.own, ears)
     share = _soft(hair_share(head, begins, HeadSeen(known, kinds.hair, facing), streaks, falls=kinds.falls))
     filled = share * _hair(colours, kinds, facing, streaks) + (1 - share) * skin
-    if not kinds.falls:
-        ear = _soft(head.ears)
-        filled = ear * kinds.skin + (1 - ear) * filled
-    return np.where(known[..., None], colours, filled).astype(np.float32), believed, halves.own
+    return HeadColours(np.where(shows[..., None], colours, filled).astype(np.float32), believed, halves.own, ears)
 
 
 def _strange(

@@ -14,9 +14,9 @@ from engine.character.figure.silhouette import Silhouette
 from engine.character.parts.label_map import Labels
 from engine.character.shell.colours.bare_rows import BareRows, bare_rows, skin_colour
 from engine.character.shell.colours.bare_skin import BareSkin, metres_past_wrists
-from engine.character.shell.colours.ear_shade import ear_shade
+from engine.character.shell.colours.ears import auricles, ear_shade
 from engine.character.shell.colours.evidence import witness
-from engine.character.shell.colours.head_round import head_round
+from engine.character.shell.colours.head_round import HeadColours, head_round
 from engine.character.shell.colours.light_of_the_picture import light_of_the_picture
 from engine.character.shell.colours.painted_hands import with_painted_hands
 from engine.character.shell.colours.round import BackTexture, coloured_round, with_the_other
@@ -96,12 +96,12 @@ def paint_shell(
         evidence[part.name] = seen.colours, seen.source & part.covered, points[..., 3]
     bare = {} if skin is None else _bare_arms(evidence, skin)
     rows, sure = [], []
-    trust: NDArray[np.float32] | None = None
-    halves: NDArray[np.float32] | None = None
+    head: HeadColours | None = None
     for part in parts:
         own = evidence[part.name]
         if part.name == "head":
-            (around, trust, halves), known = head_round(*own), np.ones(len(own[0]), np.float32)
+            head, known = head_round(*own), np.ones(len(own[0]), np.float32)
+            around = head.colours
         elif part.name.endswith("foot"):
             beside = OPPOSITE_LIMB.get(part.name)
             pair = next(((one, evidence[one.name]) for one in parts if one.name == beside), None)
@@ -129,11 +129,11 @@ def paint_shell(
         seen = told.of(points)
         believed = _well_seen(points[..., 3])
         around_it = 0.0 if framed is None else interpolate(framed[:, None], triangles, part_of_it)[..., 0]
-        if trust is not None and halves is not None:
-            head = [part.name for part in parts].index("head")
-            at = interpolate(places[:, head].astype(np.float32), triangles, part_of_it)
-            believed = believed * _at(trust, at[..., 1], at[..., 2])
-            around_it = around_it * _at(halves, at[..., 1], at[..., 2])
+        if head is not None:
+            which = [part.name for part in parts].index("head")
+            at = interpolate(places[:, which].astype(np.float32), triangles, part_of_it)
+            believed = believed * _at(head.believed, at[..., 1], at[..., 2])
+            around_it = around_it * _at(head.own, at[..., 1], at[..., 2])
         believed = np.maximum(believed, around_it)
         shown[strip] = np.minimum(seen.shown, 1 - points[..., HEAD_ATTRIBUTE_INDEX] * (1 - believed))
         painted[strip] = seen.colours
@@ -142,12 +142,14 @@ def paint_shell(
     model = np.zeros_like(painted)
     _filled(model, np.zeros_like(soft), drawn, raster.barycentrics, triangles, places.astype(np.float32),
             np.concatenate(rows), np.concatenate(sure), firsts)  # fmt: skip
+    on_template = np.column_stack([ear_shade(), above_the_sole(), auricles()])
+    shades = interpolate(on_template, triangles, Raster(drawn, raster.barycentrics, raster.depth))
+    if head is not None and head.ears is not None:
+        model += shades[..., 2:] * (head.ears.astype(np.float32) - model)
     if skin is not None:
         model = with_painted_hands(model, skin.hands)
     model += light_of_the_picture(painted - model, soft)
     painted = soft[..., None] * painted + (1 - soft[..., None]) * model
-    folds = np.column_stack([ear_shade(), above_the_sole()])
-    shades = interpolate(folds, triangles, Raster(drawn, raster.barycentrics, raster.depth))
     shade = shades[..., 0] * (sole_shade(shades[..., 1]) if shell.shod else 1)
     painted *= np.where(drawn >= 0, soft + (1 - soft) * shade, 1)[..., None]
     out = np.clip(painted + 0.5, 0, 255).astype(np.uint8)

@@ -13,7 +13,7 @@ from engine.body.parts import BODY_PARTS
 from engine.character.figure.silhouette import Silhouette
 from engine.character.fit.template_fit import load_human
 from engine.character.parts.label_map import Labels
-from engine.character.shell.colours.ear_shade import ear_shade
+from engine.character.shell.colours.ears import ear_shade
 from engine.character.shell.colours.evidence import witness
 from engine.character.shell.colours.paint import paint_shell
 from engine.character.shell.colours.texels import SHELL_TEXTURE_SIZE_TEXELS, texels
