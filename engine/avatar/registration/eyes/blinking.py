@@ -1,4 +1,4 @@
-"""Lids of the fitted face that close as a blink ends, and stay before the eyeball all the way."""
+"""Where the lids of the fitted face meet as a blink ends."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.registration.eyes.eyeballs import before_eyeball
 from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import Template
 
@@ -34,25 +33,6 @@ class MeetingRims:
         first, second = (np.asarray(vertices, np.float64)[self.between[:, k]] for k in (0, 1))
         return np.asarray(first + self.shares[:, None] * (second - first))
 
-    @property
-    def vertices(self) -> NDArray[np.intp]:
-        """(U + L,) those of the upper lid, then those of the lower, each once."""
-        return np.concatenate([self.upper, np.unique(self.between)])
-
-    def met(self, eyeball: NDArray[np.float64], vertices: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(U + L, 3) where `vertices` (V, 3) of both rims are as a blink ends. The upper ones lie on the lower rim,
-        before the eyeball (E, 3) all the way, and the lower ones as much before it as that takes."""
-        upper = vertices[self.upper]
-        end = upper + before_the_eye(eyeball, upper, self.lower(vertices) - upper)
-        ahead = end - self.lower(vertices)
-        below, index = np.unique(self.between, return_inverse=True)
-        weights = np.zeros((len(below), len(upper)))
-        at = np.arange(len(upper))
-        for k, share in enumerate((1 - self.shares, self.shares)):
-            np.add.at(weights, (index.reshape(-1, 2)[:, k], at), share)
-        weights /= np.maximum(weights.sum(1, keepdims=True), 1e-9)
-        return np.concatenate([end, vertices[below] + weights @ ahead])
-
 
 def meeting_rims(template: Template, skin: Skin, blink: str) -> MeetingRims:
     """Where the lids of one eye meet: each place of the upper lid's rim, between the corners, above the lower's, as they are in the
@@ -66,13 +46,3 @@ def meeting_rims(template: Template, skin: Skin, blink: str) -> MeetingRims:
     between = np.stack([below[after - 1], below[after]], 1)
     width = np.maximum(across[between[:, 1]] - across[between[:, 0]], 1e-9)
     return MeetingRims(rim[upper], rim[between], (across[upper] - across[between[:, 0]]) / width)
-
-
-def before_the_eye(
-    eyeball: NDArray[np.float64], rest: NDArray[np.float64], moved: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """The displacements `moved` (N, 3) of vertices at `rest` (N, 3) so that none lies in an eyeball (E, 3), neither
-    with all of them nor with half: morph targets move along straight lines, which cut a sphere."""
-    half = before_eyeball(eyeball, rest + moved / 2, 0.0)
-    out = 2 * (half - rest)
-    return np.asarray(before_eyeball(eyeball, rest + out) - rest)

@@ -22,6 +22,8 @@ TUCKED_EYE_WIDTHS = 0.035
 """Widths of an eye that a lid's skin takes when it is tucked."""
 TUCKED_FROM_CORNER_EYE_WIDTHS = 0.45
 """Widths of an eye from its corners over which tucking sets in."""
+CORNER_LID_SHARE = 0.35
+"""Of the lid's skin in the middle of the eye, what there is of it at the corners, where the fold ends."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +65,11 @@ class LidColumns:
             within = length < SLID_EYE_WIDTHS
             length[within] = np.interp(length[within], ends, own)
         return out
+
+    def up(self) -> NDArray[np.float64]:
+        """(C, K) how far up the skin of a lid that is tucked each vertex is: 0 at the rim, 1 at the fold, beyond more."""
+        folds = LID_SKIN_EYE_WIDTHS * (CORNER_LID_SHARE + (1 - CORNER_LID_SHARE) * self.tucked)
+        return np.asarray(self.untucked() / folds[:, None])
 
 
 _TUCKING = ([0.0, LID_SKIN_EYE_WIDTHS, SLID_EYE_WIDTHS], [0.0, TUCKED_EYE_WIDTHS, SLID_EYE_WIDTHS])

@@ -6,12 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.avatar.registration.eyes.blinking import EYE_OF_BLINK_UNIT, before_the_eye, meeting_rims
-from engine.avatar.registration.eyes.tucked_lids import LidColumns
+from engine.avatar.registration.eyes.blinking import EYE_OF_BLINK_UNIT, meeting_rims
+from engine.avatar.registration.eyes.eyeballs import sphere
+from engine.avatar.registration.eyes.shut_lids import drawn_back, shut_lid
 from engine.avatar.registration.face.face_parts import head_change
-from engine.avatar.registration.template_skin.lid_rims import upper_lid_columns
+from engine.avatar.registration.template_skin.lid_rims import lid_rim, upper_lid_columns
 from engine.avatar.registration.template_skin.skin import Skin
 from engine.body.template import FACE_UNITS, Template
+from engine.face_animation.smoothstep import smoothstep
 from engine.geometry.deformation.deformation_transfer import DeformationTransfer
 from engine.geometry.mesh.surface import triangle_areas
 from engine.geometry.registration.rigid import fit_rigid, fit_similarity
@@ -23,9 +25,8 @@ RIGID_PARTS = (
 """Parts that are no skin, each moved as a whole from the template to the person."""
 MARGIN_RINGS = 2
 """Rings of triangles about what any unit moves; the outermost vertices stay."""
-TARSUS_EYE_WIDTHS, STIFF_LID_EYE_WIDTHS = 0.07, 0.2
-"""Widths of an eye from the rims of its lids to where the stiff part of a lid ends, which goes down as a whole, and to its fold, out of
-which the skin between comes."""
+BEHIND_RIM_EYE_WIDTHS = 0.2
+"""Widths of an eye from the rim of its upper lid within which what is behind it goes along in a blink."""
 RIM_NEIGHBOURS = 3
 """Vertices of a rim whose motion, weighted by nearness, the lid goes along with."""
 SCREENING_METRES = 0.015
@@ -66,33 +67,48 @@ def transferred_units(template: Template, skin: Skin, rest: NDArray[np.floating]
 
 
 def _blink(template: Template, skin: Skin, rest: NDArray[np.float64], name: str, out: NDArray[np.floating]) -> None:
-    """Put the skin's displacements of a blink into `out` (V, 3): the rims meet, and the skin between them and the lids' folds goes
-    along smoothly. What lies beyond stays: the template's own blink moves as much as it has of skin below its brows, and a person's
-    brows may be there."""
-    rims = meeting_rims(template, skin, name)
-    eyeball = rest[template.vertices_of(EYE_OF_BLINK_UNIT[name])]
-    own = rest[skin.vertices]
-    told = skin.index_of(rims.vertices)
-    loop = np.flatnonzero(skin.regions[f"{EYE_OF_BLINK_UNIT[name]}_rim"])
-    moved = np.zeros_like(own)
-    moved[told] = rims.met(eyeball, rest) - own[told]
-    width = float(np.ptp(own[loop], axis=0).max())
-    found = cKDTree(own[loop]).query(own, k=RIM_NEIGHBOURS)
+    """Put the displacements of a blink into `out` (V, 3): the upper lid's skin comes out of its fold over the eyeball, which draws back
+    from it, down to the lower lid. What lies beyond the fold stays: the template's own blink moves as much as it has of skin below
+    its brows, and a person's brows may be there. What is behind the upper rim goes along with it, beneath the lid."""
+    part = EYE_OF_BLINK_UNIT[name]
+    rims, columns, ball = (
+        meeting_rims(template, skin, name),
+        upper_lid_columns(template, part),
+        template.vertices_of(part),
+    )
+    loop, eyeball = rest[lid_rim(template, part)], rest[ball]
+    ends = np.zeros_like(rest)
+    ends[rims.upper] = rims.lower(rest)
+    moved = np.zeros_like(rest)
+    moved[columns] = shut_lid(rest[columns], loop, ends[columns[:, 0]], eyeball) - rest[columns]
+    behind = skin.vertices[skin.regions["inner"]]
+    moved[behind] = _behind_lid(rest, behind, rims.upper, moved, eyeball)
+    out[skin.vertices] = moved[skin.vertices]
+    ahead = loop.mean(0) - eyeball.mean(0)
+    ahead /= np.linalg.norm(ahead)
+    out[ball] -= drawn_back(eyeball, rest[columns.ravel()], moved[columns.ravel()], ahead) * ahead
+
+
+def _behind_lid(
+    rest: NDArray[np.float64],
+    behind: NDArray[np.intp],
+    rim: NDArray[np.intp],
+    moved: NDArray[np.float64],
+    eyeball: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """(N, 3) the displacements of skin `behind` an upper lid's `rim` (U,), the less the farther from it, and into the eyeball (E, 3)."""
+    width = float(np.ptp(rest[rim], axis=0).max())
+    found = cKDTree(rest[rim]).query(rest[behind], k=RIM_NEIGHBOURS)
     away, near = np.asarray(found[0]), np.asarray(found[1])
     shares = 1 / np.maximum(away, 1e-6) ** 2
     shares /= shares.sum(1, keepdims=True)
-    along = np.einsum("sk,skc->sc", shares, moved[loop[near]])
-    lengths = away[:, 0] / width
-    columns = upper_lid_columns(template, EYE_OF_BLINK_UNIT[name])
-    upper = skin.index_of(columns)
-    lengths[upper] = LidColumns.of(rest[columns], own[loop]).untucked()
-    along[upper] = moved[upper[:, :1]]
-    unfolded = np.clip((STIFF_LID_EYE_WIDTHS - lengths) / (STIFF_LID_EYE_WIDTHS - TARSUS_EYE_WIDTHS), 0, 1)
-    along *= (unfolded**2 * (3 - 2 * unfolded))[:, None]
-    lids = (unfolded > 0) & ~skin.regions["inner"]
-    along[told] = moved[told]
-    along[lids] = before_the_eye(eyeball, own[lids], along[lids])
-    out[skin.vertices] = along
+    share = 1 - smoothstep(away[:, 0] / width, 0, BEHIND_RIM_EYE_WIDTHS)
+    along = share[:, None] * np.einsum("sk,skc->sc", shares, moved[rim[near]])
+    middle, radius = sphere(eyeball)
+    offset = rest[behind] + along - middle
+    distance = np.linalg.norm(offset, axis=1, keepdims=True)
+    inside = middle + offset * np.minimum(1, radius / np.maximum(distance, 1e-9))
+    return np.asarray(np.where(share[:, None] > 0, inside - rest[behind], 0))
 
 
 class _Patch:

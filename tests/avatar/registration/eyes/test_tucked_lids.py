@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.registration.eyes.tucked_lids import (
+    CORNER_LID_SHARE,
     LID_SKIN_EYE_WIDTHS,
     SLID_EYE_WIDTHS,
     TUCKED_EYE_WIDTHS,
@@ -43,6 +44,12 @@ def test_how_long_a_lid_is_out_of_its_tuck_is_known_again() -> None:
     columns = LidColumns.of(straight_columns(), RIM)
     again = LidColumns.of(tucked_lid(straight_columns(), RIM), RIM)
     np.testing.assert_allclose(again.untucked(), columns.lengths, atol=1e-9)
+
+
+def test_the_fold_of_a_tucked_lid_is_where_its_skin_ends_and_sooner_at_a_corner() -> None:
+    up = LidColumns.of(tucked_lid(straight_columns(), RIM), RIM).up()
+    np.testing.assert_allclose(up[0, [0, 2, 4]], [0, 0.5, 1], atol=1e-9)
+    np.testing.assert_allclose(up[1, :3], [0, 0.05 / (0.2 * CORNER_LID_SHARE), 0.1 / (0.2 * CORNER_LID_SHARE)])
 
 
 def test_rims_stay_and_the_surface_is_the_same(models: HumanModels) -> None:
