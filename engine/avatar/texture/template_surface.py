@@ -96,12 +96,12 @@ class TemplateSurface:
         return whole, np.asarray(within[self.triangles].any(1) & known[self.triangles].all(1) & ~whole)
 
     def lid_skin(self, part: str, vertices: NDArray[np.floating]) -> NDArray[np.float64]:
-        """(V, 2) of the template's `vertices` (V, 3), metres: widths of the eye along the skin from the rim of the upper lid about an
-        eyeball, as it is with lids tucked and untucked; 0 where they are of no column."""
+        """(V, 2) of the template's `vertices` (V, 3), metres, with lids tucked: widths of the eye along the skin from the rim of the upper
+        lid about an eyeball, and how far up the lid's own skin that is, 1 at its fold; 0 where they are of no column."""
         columns = self.lid_columns[part]
         found = LidColumns.of(vertices[columns], vertices[self.lid_rims[part]])
         out = np.zeros((len(vertices), 2))
-        out[columns] = np.stack([found.lengths, found.untucked()], 2)
+        out[columns] = np.stack([found.lengths, found.up()], 2)
         return out
 
     def _beside_hands(self, vertices: NDArray[np.float64], reach: float) -> NDArray[np.bool_]:

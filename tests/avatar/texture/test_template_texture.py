@@ -10,7 +10,7 @@ from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.registration.eyes.tucked_lids import with_tucked_lids
 from engine.avatar.texture.template_surface import TemplateSurface, template_surface
 from engine.avatar.texture.template_texture.eyes import Eyeballs, painted_eyes, persons_eyes
-from engine.avatar.texture.template_texture.lids import BELOW_BROW_EYE_WIDTHS, OWN_LID_EYE_WIDTHS, place_lids
+from engine.avatar.texture.template_texture.lids import place_lids
 from engine.avatar.texture.template_texture.mouth import (
     LINING_IN_MOUTH_RGB,
     MIN_MOUTH_LIGHT_SHARE,
@@ -99,40 +99,53 @@ def test_of_a_lower_lid_what_looks_ahead_is_in_no_fold(surface: TemplateSurface)
         assert lower.any() and (normals[lower] @ ahead / np.linalg.norm(ahead)).max() < 0.5
 
 
-@pytest.mark.parametrize(
-    ("shown_above", "bounds"),
-    [((150, 108, 92), OWN_LID_EYE_WIDTHS), ((40, 30, 25), BELOW_BROW_EYE_WIDTHS)],
-    ids=["skin", "brow"],
-)
-def test_the_skin_of_an_upper_lid_is_like_that_below_the_eye_and_goes_over_to_what_frames_show_above(
-    surface: TemplateSurface, shown_above: tuple[int, int, int], bounds: tuple[float, float]
+@pytest.mark.parametrize("shown_above", [(150, 108, 92), (40, 30, 25)], ids=["skin", "brow"])
+def test_an_upper_lid_is_skin_up_to_its_crease_and_goes_over_to_what_frames_show_above(
+    surface: TemplateSurface, shown_above: tuple[int, int, int]
 ) -> None:
-    """To skin early, and to a brow at the end of the lid."""
     vertices = with_tucked_lids(load_template(), surface.rest)
     folds = surface.lid_folds(vertices)
     raster = texel_raster(surface.atlas, 2048)
     light, dark = np.array([180, 130, 110]), np.array(shown_above)
     texture = np.full((2048, 2048, 3), light, np.uint8)
     eye = vertices[surface.lid_rims["left_eye"]]
-    shown = PartTexels.of(raster, surface.of("body") & ~surface.sockets & ~np.any(list(folds.values()), axis=0))
+    shown = PartTexels.of(raster, surface.of("body") & ~surface.sockets)
     places = shown.blend(vertices, surface.triangles)
     first, last = eye[eye[:, 0].argmin()], eye[eye[:, 0].argmax()]
     above = places[:, 1] > np.interp(places[:, 0], [first[0], last[0]], [first[1], last[1]])
     texture.reshape(-1, 3)[shown.texels[above]] = dark
     place_lids(texture, surface, vertices, raster)
-    whole = surface.tucked("left_eye", vertices)[0]
+    whole, partly = surface.tucked("left_eye", vertices)
     assert (folds["left_eye"] | ~whole).all()
-    lids = PartTexels.of(raster, whole)
+    lids = PartTexels.of(raster, whole | partly)
     up = lids.blend(surface.lid_skin("left_eye", vertices), surface.triangles)[:, 1]
     colours = texture.reshape(-1, 3)[lids.texels]
-    end = up > min(bounds[1], up.max() - 0.01)
-    assert end.sum() > 3
-    np.testing.assert_allclose(colours[end].mean(0), dark, atol=40)
-    own = (up > 0.7 * bounds[0]) & (up < bounds[0])  # beyond most of the lashes' shade
-    assert own.sum() > 20
-    np.testing.assert_allclose(colours[own].mean(0), light, rtol=0.27)
-    middle = (up > 0.1) & (up < 0.12)
-    assert middle.sum() > 5 and (colours[middle].mean(0) > 0.65 * light).all(), "no brow is drawn out over a lid"
+    places = lids.blend(vertices, surface.triangles)
+    across = (places[:, 0] - first[0]) / (last[0] - first[0])
+    mid = np.abs(across - 0.5) < 0.2
+    end, skin, rim = mid & (up > 0.95) & (up < 1.1), mid & (up > 0.3) & (up < 0.4), mid & (up < 0.05)
+    assert min(end.sum(), skin.sum(), rim.sum()) > 3
+    np.testing.assert_allclose(colours[end].mean(0), dark, atol=25)
+    share = colours[skin].mean(0) / light
+    assert share.min() > 0.7 and np.ptp(share) < 0.04, "no brow is drawn out over a lid"
+    assert colours[rim].mean() < 0.75 * colours[skin].mean(), "lashes"
+
+
+def test_a_shut_lid_has_a_crease_at_its_fold(surface: TemplateSurface) -> None:
+    """Which is darker than the lid below it, and than all around, where all skin has one colour."""
+    vertices = with_tucked_lids(load_template(), surface.rest)
+    raster = texel_raster(surface.atlas, 2048)
+    texture = np.full((2048, 2048, 3), (180, 130, 110), np.uint8)
+    place_lids(texture, surface, vertices, raster)
+    lids = PartTexels.of(raster, surface.tucked("left_eye", vertices)[0])
+    up = lids.blend(surface.lid_skin("left_eye", vertices), surface.triangles)[:, 1]
+    x = lids.blend(vertices, surface.triangles)[:, 0]
+    rim = vertices[surface.lid_rims["left_eye"], 0]
+    mid = np.abs(x - rim.mean()) < 0.2 * np.ptp(rim)
+    light = texture.reshape(-1, 3)[lids.texels].mean(1) / 140
+    crease, lid = light[mid & (up > 0.7) & (up < 0.85)], light[mid & (up > 0.4) & (up < 0.5)]
+    assert len(crease) > 3 and len(lid) > 3
+    assert crease.mean() < lid.mean() - 0.03 and lid.mean() > 0.95
 
 
 def test_what_a_hand_lies_on_is_not_taken_from_frames(surface: TemplateSurface) -> None:

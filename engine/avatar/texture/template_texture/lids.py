@@ -2,31 +2,34 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.avatar.registration.eyes.tucked_lids import LID_SKIN_EYE_WIDTHS, TUCKED_EYE_WIDTHS
+from engine.avatar.registration.eyes.tucked_lids import SLID_EYE_WIDTHS, TUCKED_EYE_WIDTHS
 from engine.avatar.texture.template_surface import TemplateSurface
-from engine.avatar.texture.template_texture.lit_skin import LitSkin
+from engine.avatar.texture.template_texture.lid_skin import LidSkin
 from engine.avatar.texture.template_texture.part_texels import PartTexels
 from engine.face_animation.smoothstep import smoothstep
 from engine.imaging.luminance import LUMINANCE_WEIGHTS
 from engine.render.rasterisation.rasteriser import Raster
 
-LOWER_LID_SKIN_EYE_WIDTHS = 0.5
-"""Widths of an eye from the rim of its lower lid within which the skin below has the lids' colour, in the median."""
-SHUT_LASH_SHADE_SHARE, SHUT_LASH_WIDTH_METRES = 0.5, 0.001
-"""Of the light, what lashes take along a shut lid's rim, and metres over which that fades."""
-OWN_LID_EYE_WIDTHS, BELOW_BROW_EYE_WIDTHS = (0.06, 0.15), (0.08, LID_SKIN_EYE_WIDTHS)
-"""Widths of an eye, along the skin that comes out of an upper lid's tuck, from its rim to where its colour begins to go over to what
-frames show above, and to where it is that: where they show skin there, and where they show brow or shade."""
-BROW_SHADE_SHARE = 0.12
-"""Of the light, what a lid below a brow, or deep in its socket, has less than the skin around."""
+LOWER_LID_SKIN_EYE_WIDTHS = 0.4
+"""Widths of an eye from the rim of its lower lid within which skin is that lid's."""
 LASHES_EYE_WIDTHS = 0.12
 """Widths of an eye from its lids' rims within which nothing is believed to be skin: lashes stand there, and their shade lies there."""
+RIM_SHADE_SHARE, RIM_SHADE_WIDTH_METRES = 0.5, 0.001
+"""Of the light, what lashes take along a rim that is not tucked, and metres over which that fades."""
+LASH_LINE_SHARE, LASH_LINE_LIDS = 0.55, 0.09
+"""Of the light, what lashes take along a shut lid's rim, and how much of the way up to its fold that fades over."""
+CREASE_SHARE, CREASE_LIDS, CREASE_END_SHARE = 0.28, 0.16, 0.25
+"""Of the light, what is lost in a shut lid's crease, how much of the way down from the fold that fades over, and over how much of the way
+from the eye's corners it sets in."""
+SOCKET_SHADE_SHARE = 0.6
+"""Of what a lid's surroundings above its fold are darker than its skin, as brows and the shade of a deep socket are, what the lid is at
+its fold."""
+FOLD_LIDS = (0.65, 1.0)
+"""Of the way up to the fold, between which a lid's colours go over to what frames show above: skin, or a brow, or shade."""
 OUT_OF_TUCK_EYE_WIDTHS = (TUCKED_EYE_WIDTHS, 0.07)
 """Widths of an eye from the rim of an upper lid that is tucked between which paint goes over to what frames show."""
 SEEN_ABOVE_EYE_WIDTHS, SEEN_ABOVE_TEXELS = 0.06, 100
@@ -39,76 +42,81 @@ LASH_RIM_STEPS = 8
 """Places between two vertices of a rim from which it is measured."""
 
 
-@dataclass(frozen=True)
-class _Lids:
-    """The N texels of an eye's lids that are painted.
-
-    texels : which they are.
-    places : (N, 3) where, metres.
-    tucked : (N,) bool, which are of the upper lid's tuck, or partly.
-    short, long : (N,) widths of the eye along the skin up from the upper lid's rim with the lid tucked, and untucked.
-    """
-
-    texels: PartTexels
-    places: NDArray[np.float64]
-    tucked: NDArray[np.bool_]
-    short: NDArray[np.float64]
-    long: NDArray[np.float64]
-
-
 def place_lids(
     texture: NDArray[np.uint8], surface: TemplateSurface, vertices: NDArray[np.floating], raster: Raster
 ) -> None:
-    """Paint what lies in the lids' folds of the person whose template vertices are (V, 3) like the lit skin around the eyes, with lashes along
-    the rim, into a `texture` (S, S, 3), in place. What comes out of an upper lid's tuck goes over to what frames show above it: early to
-    skin, and at its very end to a brow that reaches down there, or to a socket's shade."""
+    """Paint what lies in the lids' folds of the person whose template vertices are (V, 3) into a `texture` (S, S, 3), in place. It is a
+    smooth skin from the lower lid's to what is skin above the upper lid's fold. Lashes stand along its rim, and the fold is a crease."""
     places = np.asarray(vertices, np.float64)
     flat = texture.reshape(-1, 3)
     folds = surface.lid_folds(places)
     skin = surface.of("body") & ~surface.sockets & ~surface.mouth & ~np.any(list(folds.values()), axis=0)
-    middles = places[surface.triangles].mean(1)
     for part, folded in folds.items():
-        rim = places[surface.lid_rims[part]]
-        steps = np.arange(LASH_RIM_STEPS) / LASH_RIM_STEPS
-        loop = cKDTree((rim + steps[:, None, None] * (np.roll(rim, -1, 0) - rim)).reshape(-1, 3))
-        width = float(np.ptp(rim, axis=0).max())
-        near = skin & np.isfinite(loop.query(middles, distance_upper_bound=LOWER_LID_SKIN_EYE_WIDTHS * width)[0])
-        below = PartTexels.of(raster, near & (middles[:, 1] < rim[:, 1].mean()))
+        eye = _Eye(places[surface.lid_rims[part]])
         whole, partly = surface.tucked(part, places)
         texels = PartTexels.of(raster, folded | partly)
-        if not len(below.texels) or not len(texels.texels):
-            continue
         lid_skin = surface.lid_skin(part, places)
-        lids = _Lids(
-            texels,
-            texels.blend(places, surface.triangles),
-            (whole | partly)[texels.triangles],
-            *texels.blend(lid_skin, surface.triangles).T,
-        )
-        away = np.where(lids.tucked, lids.long * width, loop.query(lids.places)[0])
-        light = (1 - SHUT_LASH_SHADE_SHARE * np.exp(-away / SHUT_LASH_WIDTH_METRES))[:, None]
-        skin_light = float(np.median(flat[below.texels] @ LUMINANCE_WEIGHTS))
-        around = PartTexels.of(raster, near)
-        at = around.blend(places, surface.triangles)
-        bare = np.asarray(loop.query(at)[0]) > LASHES_EYE_WIDTHS * width
-        if not bare.any():
-            continue
-        middle = rim.mean(0)
-        lit = LitSkin.around(flat[around.texels[bare]], (at[bare] - middle) / width, skin_light)
-        skin_colours = lit.at((lids.places - middle) / width)
-        painted = light * skin_colours
+        middles = places[surface.triangles].mean(1)
+        near = skin & (eye.away(middles, SLID_EYE_WIDTHS) < SLID_EYE_WIDTHS)
         above = near & (lid_skin[surface.triangles, 0] > SEEN_ABOVE_EYE_WIDTHS).all(1)
-        distance, seen = np.empty(len(away)), np.empty_like(painted)
-        for some, shown, count in ((~lids.tucked, near, LID_BORDER_TEXELS), (lids.tucked, above, SEEN_ABOVE_TEXELS)):
-            beside = PartTexels.of(raster, shown)
-            on_skin = beside.blend(places, surface.triangles)
-            distance[some], seen[some] = _mean_near(flat[beside.texels], on_skin, lids.places[some], count)
-        early, late = (smoothstep(lids.long, *bounds) for bounds in (OWN_LID_EYE_WIDTHS, BELOW_BROW_EYE_WIDTHS))
-        over = np.where(lids.tucked, late + lit.trust(seen) * (early - late), np.exp(-distance / LID_BORDER_METRES))
-        painted *= 1 - np.where(lids.tucked, BROW_SHADE_SHARE * (1 - lit.trust(seen)), 0)[:, None]
+        below = skin & (eye.away(middles, LOWER_LID_SKIN_EYE_WIDTHS) < LOWER_LID_SKIN_EYE_WIDTHS)
+        below &= middles[:, 1] < eye.rim[:, 1].mean()
+        shown = {
+            name: PartTexels.of(raster, which) for name, which in (("near", near), ("above", above), ("below", below))
+        }
+        at = {name: some.blend(places, surface.triangles) for name, some in shown.items()}
+        bare = eye.away(at["below"]) > LASHES_EYE_WIDTHS
+        if not len(texels.texels) or not bare.any() or not len(at["above"]):
+            continue
+        colours = {name: flat[some.texels] for name, some in shown.items()}
+        lids = LidSkin.between(
+            colours["below"][bare], eye.across(at["below"][bare]), colours["above"], eye.across(at["above"])
+        )
+        here = texels.blend(places, surface.triangles)
+        length, up = texels.blend(lid_skin, surface.triangles).T
+        tucked = (whole | partly)[texels.triangles]
+        across = eye.across(here)
+        painted = lids.at(across, np.where(tucked, up, 0))
+        seen, over = np.empty_like(painted), smoothstep(up, *FOLD_LIDS)
+        _, seen[tucked] = _mean_near(colours["above"], at["above"], here[tucked], SEEN_ABOVE_TEXELS)
+        distance, seen[~tucked] = _mean_near(colours["near"], at["near"], here[~tucked], LID_BORDER_TEXELS)
+        over[~tucked] = np.exp(-distance / LID_BORDER_METRES)
+        darker = np.clip(1 - (seen @ LUMINANCE_WEIGHTS) / np.maximum(painted @ LUMINANCE_WEIGHTS, 1), 0, 1)
+        shut = _shut_light(across, np.minimum(up, 1), darker)
+        open_rim = 1 - RIM_SHADE_SHARE * np.exp(-eye.away(here) * eye.width / RIM_SHADE_WIDTH_METRES)
+        painted *= np.where(tucked, shut, open_rim)[:, None]
         painted += over[:, None] * (seen - painted)
-        out = smoothstep(lids.short, *OUT_OF_TUCK_EYE_WIDTHS)[:, None]
+        out = smoothstep(length, *OUT_OF_TUCK_EYE_WIDTHS)[:, None]
         texels.put(texture, painted + out * (flat[texels.texels] - painted))
+
+
+class _Eye:
+    """An eye about which lids end in a `rim` (R, 3), metres."""
+
+    def __init__(self, rim: NDArray[np.float64]) -> None:
+        self.rim, self.width = rim, float(np.ptp(rim, axis=0).max())
+        steps = np.arange(LASH_RIM_STEPS) / LASH_RIM_STEPS
+        self._loop = cKDTree((rim + steps[:, None, None] * (np.roll(rim, -1, 0) - rim)).reshape(-1, 3))
+        self._first, self._last = rim[np.argmin(rim[:, 0])], rim[np.argmax(rim[:, 0])]
+
+    def away(self, places: NDArray[np.float64], within: float = np.inf) -> NDArray[np.float64]:
+        """(N,) widths of the eye from `places` (N, 3) to its rim; inf where that is more than `within`."""
+        return np.asarray(self._loop.query(places, distance_upper_bound=within * self.width)[0]) / self.width
+
+    def across(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(N,) how far `places` (N, 3) are from one corner to the other, 0 to 1 between them."""
+        way = self._last - self._first
+        return np.asarray((places - self._first) @ way / (way @ way))
+
+
+def _shut_light(
+    across: NDArray[np.float64], up: NDArray[np.float64], darker: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(N,) the share of the light on a shut upper lid at places `across` the eye and `up` to its fold, above which it is `darker`."""
+    lashes = 1 - LASH_LINE_SHARE * np.exp(-up / LASH_LINE_LIDS)
+    ends = smoothstep(np.minimum(across, 1 - across), 0, CREASE_END_SHARE)
+    crease = 1 - CREASE_SHARE * ends * np.exp(-(1 - up) / CREASE_LIDS)
+    return np.asarray(lashes * crease * (1 - SOCKET_SHADE_SHARE * darker * up))
 
 
 def _mean_near(
