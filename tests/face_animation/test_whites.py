@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.skin_colour import skin_colour
 from engine.face_animation.whites import (
+    TEETH_HUE_SHARE,
     WHITE_HUE_SHARE_RANGE,
     eye_whites,
     hue_share,
@@ -59,18 +60,17 @@ def test_a_varnish_over_all_tints_whites_more_than_clean_light(mesh: NDArray) ->
     assert white_tint(warm, mesh)[2] < white_tint(rgb, mesh)[2] - 0.03
 
 
-def test_teeth_have_the_skin_s_hue_half_way_between_whites_and_the_lightest_of_the_picture(mesh: NDArray) -> None:
-    """The eyes' whites are as brown as shade makes them; a collar is white, or as yellow as the varnish over it."""
-    rgb = painted(mesh, SIZE)
-    white = np.abs(rgb.astype(int) - WHITE).max(axis=2) < 12
-    rgb[white] = np.array(WHITE) * (1.0, 0.8, 0.6)
-    found = []
-    for collar in ((255, 255, 255), (255, 248, 238), (255, 200, 140)):
-        rgb[-40:] = collar
-        found.append(share_in(teeth_tint(rgb, mesh, (0.05, 0.3)), skin_colour(rgb, mesh)))
-    assert found[0] == pytest.approx((0.05 + 0.3) / 2, abs=0.01) and found[0] < found[1] < found[2] == pytest.approx(
-        0.3, abs=0.01
-    )
+@pytest.mark.parametrize("light", [(1.0, 1.0, 1.0), (1.0, 0.8, 0.55)])
+def test_teeth_have_a_share_of_the_skin_s_hue_whatever_else_the_picture_shows(mesh: NDArray, light: tuple) -> None:
+    """A warm light makes them as much warmer; lashes and shade over the whites of eyes do not, nor does a collar in another light."""
+    rgb = (painted(mesh, SIZE) * np.array(light)).astype(np.uint8)
+    white = np.abs(rgb.astype(int) - np.array(WHITE) * light).max(axis=2) < 12
+    for seen in ((130, 60, 40), (200, 210, 255)):
+        rgb[white] = seen
+        rgb[-40:] = seen
+        skin = skin_colour(rgb, mesh)
+        expected = (skin / skin[0]) ** TEETH_HUE_SHARE
+        np.testing.assert_allclose(teeth_tint(rgb, mesh), expected / float(expected @ LUMINANCE_WEIGHTS), atol=1e-6)
 
 
 def test_the_skin_has_all_of_its_hue_and_grey_has_none(mesh: NDArray) -> None:

@@ -47,9 +47,6 @@ MIN_WHITES_TO_FACE_RATIO = 1.05
 """Of the luminance of a light place of the face, that eyes' whites have at least which are seen, and not lashes, shadow and skin."""
 LIGHT_PLACE_PERCENTILE = 75
 """Of the luminance within the face's oval, that of a light place."""
-TEETH_TINT_SHARES = (0.16, 0.3)
-"""Of the skin's hue in teeth beside that of enamel, least and most: whole colours have 0.09, 0.14, 0.16, 0.2 and 0.45 of it in portraits that show them. As
-little as a collar has in a flash's light looks blue between lips."""
 LOWER_TEETH_LIGHT_SHARE = 0.75
 """Of the upper teeth's light, that lower ones have."""
 BAG_LIGHT_SHARES = (0.9, 1.1)
@@ -95,7 +92,7 @@ def mouth_colours(
         )
     }
     edge = (
-        light * ENAMEL_COLOUR * teeth_tint(rgb, mesh, TEETH_TINT_SHARES)
+        light * float(ENAMEL_COLOUR @ LUMINANCE_WEIGHTS) * teeth_tint(rgb, mesh)
         if teeth is None
         else _of_a_tooth(teeth, rgb, mesh)
     )
