@@ -341,7 +341,6 @@ def make_hybrid_character(
     shown = limbs_alone(hybrid)
     relief = _made_of(figure, alone, fitted, own, trunk, tiles, _left_for_a_relief(triangles, shown))
     filled: BackTexture = "inpaint" if back == "inpaint" else "mirror"
-    over_arms = held & np.isin(labels.bare.labels, ARM_LABELS)  # hair on a shoulder does not go with the arm
     skin = bare_skin(
         silhouette.rgb,
         nose_colours(figure, silhouette),
@@ -351,7 +350,8 @@ def make_hybrid_character(
     )
     if skin is not None:
         hybrid = replace(hybrid, strange=hybrid.strange | skin.strange)
-    unlike = hybrid.strange | bare_under_cloth(own) | dilate_mask(over_arms, MIXED_BORDER_PIXELS)
+    hides = dilate_mask(hybrid.before_the_body(labels.bare), MIXED_BORDER_PIXELS)
+    unlike = hybrid.strange | bare_under_cloth(own) | hides
     texture = paint_shell(
         figure.rgb, silhouette, labels.bare, hybrid.shell, filled, shown.mesh.triangles, unlike, hybrid.framed, skin
     )

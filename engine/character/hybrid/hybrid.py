@@ -84,6 +84,13 @@ class Hybrid:
             rasterise(self.shell.pictured * [1, 1, -1], mesh.triangles[joint], (height, width)).triangle >= 0
         )
 
+    def before_the_body(self, labels: Labels) -> NDArray[np.bool_]:
+        """The pixels (h, w) of the grid at which hair, or what is held, lies before trunk and limbs, and the picture shows nothing of these. `labels`:
+        as they were before hair was told apart."""
+        if self.labels.held is None:
+            return self.hair
+        return np.asarray(self.hair | ((self.labels.held >= 0) & (labels.labels != HEAD_LABEL)))
+
 
 def make_hybrid(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> Hybrid:
     """Both surfaces of a person: `figure` and `silhouette` as they were found, the `fitted` template, and the `labels` of its parts. A head that is

@@ -19,11 +19,13 @@ from engine.character.hybrid.joined_characters import joined
 from engine.character.hybrid.limbs import limbs_of
 from engine.character.hybrid.outline_warp import drawn_to_the_outline
 from engine.character.parts.label_map import Labels
-from engine.character.parts.labels import ARM_LABELS, LEG_LABELS
+from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, LEG_LABELS
 from engine.character.rig.measures import pose
 from engine.character.rig.rigging import Character, bind
 from engine.character.rig.shell_binding import bind_shell
 from engine.character.shell.template_mesh import template_mesh
+from engine.character.stages import make_hybrid_character
+from engine.geometry.mesh.surface import vertex_normals
 from engine.geometry.mesh.welding import is_closed, weld
 from engine.geometry.rigging.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
@@ -207,3 +209,33 @@ def test_at_shoulders_the_trunk_ends_beneath_the_shell(made: tuple[Hybrid, Chara
     beside = cv2.dilate(arms.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     at = hybrid.at_shoulders() & beside & np.isfinite(shell) & np.isfinite(trunk)
     assert at.sum() > 20 and (shell > trunk)[at].mean() > 0.9
+
+
+def test_hair_before_a_shoulder_is_no_colour_of_the_body_s() -> None:
+    """Grey all over, and red hair down to the chest."""
+    figure, fitted, silhouette, labels = figure_and_outline()
+    hybrid = make_hybrid(figure, silhouette, fitted, labels)
+    arm = labels.labels == ARM_LABELS[0]
+    top, side = int(np.flatnonzero(arm.any(1))[0]), int(np.flatnonzero(arm.any(0))[0])
+    hair = np.zeros(SIZE, np.bool_)
+    hair[top - 20 : top + 30, side - 25 : side + 12] = True
+    hair &= labels.labels >= 0
+    held = np.where(hair, HEAD_LABEL, -1).astype(np.int8)
+    own = replace(hybrid.labels, labels=np.where(hair, -1, hybrid.labels.labels).astype(np.int8), held=held)
+    hybrid = replace(hybrid, labels=own)
+    body = hair & (labels.labels != HEAD_LABEL)
+    np.testing.assert_array_equal(hybrid.before_the_body(labels), body)
+    to_picture = cv2.warpAffine(
+        hair.astype(np.float32), silhouette.to_grid, (600, 800), flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+    )
+    rgb = np.where(to_picture[..., None] > 0.5, (200, 20, 20), (120, 120, 120)).astype(np.uint8)
+    figure = replace(figure, rgb=rgb)
+    character = make_hybrid_character(figure, silhouette, fitted, labels, hybrid, 60_000, "see_through")
+    mesh = character.mesh
+    texel = np.rint(mesh.uv * np.array(mesh.texture.shape[1::-1]) - 0.5).astype(int)
+    x, y = np.clip(texel, 0, np.array(mesh.texture.shape[1::-1]) - 1).T
+    red, green, _ = mesh.texture[y, x].astype(int).T
+    behind = vertex_normals(pose(character, character.pictured), mesh.triangles)[:, 2] < -0.3
+    shoulder = [mesh.skeleton.names.index(f"Left{name}") for name in ("Shoulder", "Arm")]
+    behind &= np.isin(mesh.bones[:, 0], shoulder)
+    assert behind.sum() > 300 and (red - green > 12)[behind].mean() < 0.005
