@@ -129,6 +129,13 @@ def test_an_upper_lid_is_skin_up_to_its_crease_and_goes_over_to_what_frames_show
     share = colours[skin].mean(0) / light
     assert share.min() > 0.7 and np.ptp(share) < 0.04, "no brow is drawn out over a lid"
     assert colours[rim].mean() < 0.75 * colours[skin].mean(), "lashes"
+    columns = np.isin(surface.triangles, surface.lid_columns["left_eye"]).all(1)
+    hidden = PartTexels.of(raster, folds["left_eye"] & columns & ~whole & ~partly)
+    beyond = hidden.blend(surface.lid_skin("left_eye", vertices), surface.triangles)[:, 1] > 1.05
+    assert beyond.sum() > 10
+    np.testing.assert_allclose(
+        texture.reshape(-1, 3)[hidden.texels[beyond]], dark + np.zeros((beyond.sum(), 1)), atol=12
+    )
 
 
 def test_a_shut_lid_has_a_crease_at_its_fold(surface: TemplateSurface) -> None:

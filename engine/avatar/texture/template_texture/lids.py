@@ -19,7 +19,7 @@ LOWER_LID_SKIN_EYE_WIDTHS = 0.4
 LASHES_EYE_WIDTHS = 0.12
 """Widths of an eye from its lids' rims within which nothing is believed to be skin: lashes stand there, and their shade lies there."""
 RIM_SHADE_SHARE, RIM_SHADE_WIDTH_METRES = 0.5, 0.001
-"""Of the light, what lashes take along a rim that is not tucked, and metres over which that fades."""
+"""Of the light, what lashes take along the rim of a lower lid, and metres over which that fades."""
 LASH_LINE_SHARE, LASH_LINE_LIDS = 0.55, 0.09
 """Of the light, what lashes take along a shut lid's rim, and how much of the way up to its fold that fades over."""
 CREASE_SHARE, CREASE_LIDS, CREASE_END_SHARE = 0.28, 0.16, 0.25
@@ -53,8 +53,7 @@ def place_lids(
     skin = surface.of("body") & ~surface.sockets & ~surface.mouth & ~np.any(list(folds.values()), axis=0)
     for part, folded in folds.items():
         eye = _Eye(places[surface.lid_rims[part]])
-        whole, partly = surface.tucked(part, places)
-        texels = PartTexels.of(raster, folded | partly)
+        texels = PartTexels.of(raster, folded | surface.tucked(part, places)[1])
         lid_skin = surface.lid_skin(part, places)
         middles = places[surface.triangles].mean(1)
         near = skin & (eye.away(middles, SLID_EYE_WIDTHS) < SLID_EYE_WIDTHS)
@@ -74,17 +73,17 @@ def place_lids(
         )
         here = texels.blend(places, surface.triangles)
         length, up = texels.blend(lid_skin, surface.triangles).T
-        tucked = (whole | partly)[texels.triangles]
+        upper = np.isin(surface.triangles[texels.triangles], surface.lid_columns[part]).all(axis=1)
         across = eye.across(here)
-        painted = lids.at(across, np.where(tucked, up, 0))
+        painted = lids.at(across, np.where(upper, up, 0))
         seen, over = np.empty_like(painted), smoothstep(up, *FOLD_LIDS)
-        _, seen[tucked] = _mean_near(colours["above"], at["above"], here[tucked], SEEN_ABOVE_TEXELS)
-        distance, seen[~tucked] = _mean_near(colours["near"], at["near"], here[~tucked], LID_BORDER_TEXELS)
-        over[~tucked] = np.exp(-distance / LID_BORDER_METRES)
+        _, seen[upper] = _mean_near(colours["above"], at["above"], here[upper], SEEN_ABOVE_TEXELS)
+        distance, seen[~upper] = _mean_near(colours["near"], at["near"], here[~upper], LID_BORDER_TEXELS)
+        over[~upper] = np.exp(-distance / LID_BORDER_METRES)
         darker = np.clip(1 - (seen @ LUMINANCE_WEIGHTS) / np.maximum(painted @ LUMINANCE_WEIGHTS, 1), 0, 1)
         shut = _shut_light(across, np.minimum(up, 1), darker)
         open_rim = 1 - RIM_SHADE_SHARE * np.exp(-eye.away(here) * eye.width / RIM_SHADE_WIDTH_METRES)
-        painted *= np.where(tucked, shut, open_rim)[:, None]
+        painted *= np.where(upper, shut, open_rim)[:, None]
         painted += over[:, None] * (seen - painted)
         out = smoothstep(length, *OUT_OF_TUCK_EYE_WIDTHS)[:, None]
         texels.put(texture, painted + out * (flat[texels.texels] - painted))
