@@ -17,6 +17,7 @@ from engine.character.hybrid.hips import at_hips, hips_behind, within_the_outlin
 from engine.character.hybrid.hybrid import SHOULDER_NEARNESS, Hybrid
 from engine.character.hybrid.trunk import LIMB_LABELS
 from engine.character.parts.labels import ARM_LABELS, HEAD_LABEL, LEG_LABELS, TRUNK_LABEL
+from engine.character.shell.colours.light_of_the_picture import light_of_the_picture
 from engine.character.shell.colours.texels import texels
 from engine.character.texture.texture import Tiles
 from engine.geometry.mesh.surface import vertex_normals
@@ -95,6 +96,9 @@ def with_the_trunks_colours(
     of_front, of_back = at[:, 4] * (1 - certain) * before, at[:, 4] * (1 - before)
     seen_share = np.clip((at[:, 3] - MIN_PICTURED_COSINE) / (FULLY_PICTURED_COSINE - MIN_PICTURED_COSINE), 0, 1)
     mixed = texture[y, x].astype(np.float32)
+    change, pictured = np.zeros(texture.shape, np.float32), np.zeros(texture.shape[:2], np.float32)
+    change[y, x], pictured[y, x] = picture - mixed, seen_share * certain
+    mixed += light_of_the_picture(change, pictured)[y, x]
     for weight, colours in (
         (of_front, front),
         (of_back, back),

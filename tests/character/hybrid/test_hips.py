@@ -92,6 +92,27 @@ def test_backs_of_hips_have_the_hem_where_it_is_in_front(seen: Seen, hybrid: Hyb
     assert before.sum() > 1000 and not texture[before].any(), "fronts are not what is behind"
 
 
+def test_what_is_seen_of_an_arm_goes_over_into_what_is_not_without_a_border(seen: Seen, hybrid: Hybrid) -> None:
+    """Lit in front by twenty grey levels more than what is filled: as light just beyond what is seen, and not at all behind."""
+    figure, _, silhouette, labels = seen
+    mesh, raster = hybrid.shell.mesh, texels()
+    facing = -vertex_normals(hybrid.shell.pictured, mesh.triangles)[:, 2]
+    arm = np.isin(hybrid.limbs.limb, ARM_LABELS) & (mesh.parts[:, TRUNK_LABEL] < 0.1) & (mesh.hand < 0.1)
+    turned, share = np.moveaxis(
+        interpolate(np.column_stack([facing, arm]).astype(np.float32), mesh.triangles, raster), -1, 0
+    )
+    arm = (raster.triangle >= 0) & (share > 0.999)
+    lit = np.full((*silhouette.alpha.shape, 3), 140, np.uint8)
+    dark = np.full((*labels.labels.shape, 3), 120, np.uint8)
+    tiles = Tiles(dark, dark, dark, np.zeros(labels.labels.shape, np.bool_), 1.0, np.zeros(2))
+    filled = np.full((SHELL_TEXTURE_SIZE_TEXELS, SHELL_TEXTURE_SIZE_TEXELS, 3), 120, np.uint8)
+    texture = with_the_trunks_colours(filled, hybrid, tiles, replace(figure, rgb=lit), silhouette)[..., 0].astype(int)
+    front, beside, behind = (arm & (low < turned) & (turned < high) for low, high in ((0.4, 1), (0, 0.12), (-1, -0.9)))
+    assert (texture[front] >= 139).mean() > 0.9
+    assert np.median(texture[beside]) > 134
+    assert np.median(texture[behind]) < 126
+
+
 def test_neither_the_wall_nor_an_arm_beside_them_is_on_hips(seen: Seen) -> None:
     """The template may be wider than who is pictured."""
     _, _, silhouette, labels = seen
