@@ -20,7 +20,7 @@ USUAL_WHITE_HUE_SHARE, WHITE_HUE_SHARE_RANGE = 0.25, (0.15, 0.45)
 WHITE_PERCENTILE = 60
 """Of the light beside an iris, from which on it is the white's: lids shade the rest."""
 TEETH_HUE_SHARE = 0.38
-"""Of the skin's hue in teeth: 0.2 to 0.6 in nineteen photographs of thirteen people, as little of it yellow as in their skin. Neither the whites of eyes nor the
+"""Of the skin's hue in teeth: 0.2 to 0.6 in nineteen photographs of fourteen people, as little of it yellow as in their skin. Neither the whites of eyes nor the
 lightest of the picture tell which of these (correlation 0.1)."""
 IRIS_MARGIN_RADII = 1.2
 """Radii of the iris within which nothing is white."""

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.mouth.lip_curves import (
     THICKNESS_SHARES,
+    TOUCHING_THICKNESS_SHARES,
     VOLUME_SHARES,
     construct_lips,
     thickness_shares,
@@ -123,15 +124,32 @@ def test_the_skin_around_goes_along(rest: NDArray) -> None:
     assert 0.5 < moved[around].max() <= moved[LIPS].max() + 1e-9
 
 
-def test_lips_keep_their_volume(rest: NDArray) -> None:
-    """Thicker the narrower the mouth is, and the driver's in what bounds that leaves."""
-    thin, none = rest.copy(), rest.copy()
+def with_lower_lip(face: NDArray, share: float) -> NDArray[np.float64]:
+    """The face with its lower lip so many times as thick."""
+    out = face.copy()
     for column in COLUMNS[1]:
-        thin[column] = thin[column[-2]] + 0.9 * (thin[column] - thin[column[-2]])
-        none[column] = none[column[-2]]
-    shares = thickness_shares(np.stack([rest, thin, none]), rest)
-    np.testing.assert_allclose(shares[:, 1], [1, 0.9, THICKNESS_SHARES[0]])
+        out[column] = out[column[-2]] + share * (out[column] - out[column[-2]])
+    return out
+
+
+def test_parted_lips_keep_their_volume(rest: NDArray) -> None:
+    """Thicker the narrower the mouth is, and the driver's in what bounds that leaves."""
+    apart = parted(rest, 20.0)
+    shares = thickness_shares(np.stack([with_lower_lip(apart, share) for share in (1, 0.9, 0, 2)]), apart)
+    np.testing.assert_allclose(shares[:, 1], [1, 0.9, *THICKNESS_SHARES])
     np.testing.assert_allclose(shares[:, 0], 1)
-    narrow = rest.copy()
+    narrow = apart.copy()
     narrow[:, 0] *= 0.5
-    assert (thickness_shares(narrow[None], rest) >= THICKNESS_SHARES[0] * VOLUME_SHARES[1] - 1e-9).all()
+    assert (thickness_shares(narrow[None], apart) >= THICKNESS_SHARES[0] * VOLUME_SHARES[1] - 1e-9).all()
+
+
+def test_lips_that_touch_are_as_thick_as_they_are_pressed_or_pout(rest: NDArray) -> None:
+    faces = np.stack([with_lower_lip(rest, share) for share in (0, 0.6, 0.9, 1, 1.3, 2)])
+    least, most = TOUCHING_THICKNESS_SHARES
+    np.testing.assert_allclose(thickness_shares(faces, rest)[:, 1], [least, 0.6, 0.9, 1, 1.3, most])
+
+
+def test_pressed_lips_part_without_a_jump(rest: NDArray) -> None:
+    gaps = np.linspace(0, 12, 200)
+    shares = thickness_shares(np.stack([with_lower_lip(parted(rest, gap), 0.4) for gap in gaps]), rest)[:, 1]
+    assert shares[0] < 0.6 < 0.8 < shares[-1] and np.abs(np.diff(shares)).max() < 0.03
