@@ -47,9 +47,13 @@ class HandBones:
     back: NDArray[np.float64]
 
 
-def hand_bones(rig: Rig, rest: NDArray[np.floating], side: Side) -> HandBones:
-    """Where the bones of a hand lie in the template's `rest` vertices (V, 3)."""
-    heads, tails = rig.joints(rest)
+def hand_bones(
+    rig: Rig, rest: NDArray[np.floating], side: Side, heads: NDArray[np.floating] | None = None
+) -> HandBones:
+    """Where the bones of a hand lie in the template's `rest` vertices (V, 3), or begin at the joints `heads` (B, 3) of who has been brought into
+    T-pose, where not all vertices that say where joints are have gone with them."""
+    told, tails = rig.joints(rest)
+    heads = told if heads is None else heads
     places = np.stack(
         [
             tails[rig.index(f"{side}Hand{name[:-1]}3")] if name.endswith("4") else heads[rig.index(f"{side}Hand{name}")]

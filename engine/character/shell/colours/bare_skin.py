@@ -15,8 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter, minimum_filter
 
-from engine.body.rig import HUMAN_RIG
-from engine.body.template import load_rig
 from engine.character.fit.template_fit import load_human
 from engine.character.parts.labels import ARM_LABELS
 from engine.character.shell.template_mesh import template_mesh
@@ -106,8 +104,8 @@ def bare_skin(
 @cache
 def hands_of_the_template() -> tuple[HandBones, HandBones]:
     """The left and the right hand of the mean body, once for the process."""
-    rig, mean = load_rig(HUMAN_RIG), load_human().space.mean
-    left, right = (hand_bones(rig, mean, side) for side in SIDE_NAMES)
+    human = load_human()
+    left, right = (hand_bones(human.rig, human.space.mean, side, human.space.joint_mean) for side in SIDE_NAMES)
     return left, right
 
 

@@ -62,8 +62,7 @@ def unrolled_parts() -> tuple[UnrolledPart, ...]:
     """Head, trunk, arms, legs and feet, once for the process."""
     mesh, human = template_mesh(), load_human()
     body = human.space.mean[mesh.ids].astype(np.float64)
-    heads = human.rig.joints(human.space.mean)[0].astype(np.float64)
-    joint = dict(zip(human.rig.names, heads, strict=True))
+    joint = dict(zip(human.space.names, human.space.joint_mean.astype(np.float64), strict=True))
     x, y, z = body.T
     found = []
     middle, along, radius = _head(mesh, body, joint)

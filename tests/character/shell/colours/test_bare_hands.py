@@ -11,11 +11,17 @@ from numpy.typing import NDArray
 from engine.character.fit.template_fit import load_human
 from engine.character.parts.labels import ARM_LABELS
 from engine.character.shell.colours.bare_rows import BareRows, bare_rows, skin_colour
-from engine.character.shell.colours.bare_skin import BareHand, BareSkin, bare_skin, metres_past_wrists
+from engine.character.shell.colours.bare_skin import (
+    BareHand,
+    BareSkin,
+    bare_skin,
+    hands_of_the_template,
+    metres_past_wrists,
+)
 from engine.character.shell.colours.painted_hands import with_painted_hands
 from engine.character.shell.colours.round import COLUMN_RADIANS, coloured_round
 from engine.character.shell.colours.texels import SHELL_TEXTURE_SIZE_TEXELS, texels
-from engine.character.shell.colours.unrolled import UNROLLED_COLUMNS
+from engine.character.shell.colours.unrolled import UNROLLED_COLUMNS, unrolled_parts
 from engine.character.shell.template_mesh import template_mesh
 from engine.imaging.histogram_matching import to_lab
 from engine.render.rasterisation.attributes import interpolate
@@ -125,3 +131,21 @@ def test_the_back_of_an_arm_that_shows_its_shade_is_as_bare_skin_is() -> None:
     assert np.abs(found[80:, behind] - SKIN).max() < np.abs(np.subtract(SKIN, SHADE)).max() / 2
     np.testing.assert_allclose(found[:40, behind], np.broadcast_to(SHADE, (40, int(behind.sum()), 3)), atol=3)
     assert (found[source] == SHADE).all()
+
+
+def test_both_hands_and_arms_lie_alike_about_their_bones() -> None:
+    left, right = hands_of_the_template()
+    mirror = np.array([-1, 1, 1])
+    np.testing.assert_allclose(left.along * mirror, right.along, atol=0.01)
+    np.testing.assert_allclose(left.back * mirror, right.back, atol=0.01)
+    parts = {part.name: part for part in unrolled_parts()}
+    places = []
+    for name, past in zip(("left_arm", "right_arm"), metres_past_wrists(), strict=True):
+        part = parts[name]
+        own = (past > -0.2) & (past < 0)  # a forearm
+        places.append(
+            (own.sum(), np.quantile(part.along[own], (0, 0.5, 1)), np.quantile(part.angle[own], (0.25, 0.75)))
+        )
+    assert abs(int(places[0][0]) - int(places[1][0])) < 5
+    for of_left, of_right in zip(places[0][1:], places[1][1:], strict=True):
+        np.testing.assert_allclose(of_left, of_right, rtol=0.05, atol=0.1)
