@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.character.figure.face_region import within_oval
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
-from engine.imaging.masks.mask_pieces import mask_height
+from engine.imaging.masks.mask_pieces import mask_height, pieces_touching
 
 MOUTH_DEPTH_SHARE = 0.35
 """How far below a face's middle, as a share of half its height, what is narrow or loose may be a collar."""
@@ -22,7 +22,7 @@ FACE_SHARE, SKIN_SHARE = 0.92, 0.7
 BROW_HEIGHT_SHARE = 0.25
 """How far above a face's middle, as a share of half its height, whatever is beside it is hair: there are no ears."""
 FOREHEAD_SHARE = 1.05
-"""How far above a face's middle its forehead ends at the latest, as a share of half its height: beyond is hair or a hat."""
+"""How far above a face's middle its forehead ends, as a share of half its height: beyond is hair or a hat, but for skin that goes on from the face."""
 MAX_SKIN_DISTANCE_LEVELS = 60.0
 """Levels from the face's median up to which a colour may be skin's."""
 MAX_FAIR_SHARE = 0.2
@@ -101,6 +101,7 @@ def head_regions(
     )
     beside = head & ~covered
     fair = beside.any() and like_skin[beside].mean() > MAX_FAIR_SHARE
+    high_forehead = np.zeros_like(head) if fair else pieces_touching(head & covered & like_skin, inner)
     end = int(np.flatnonzero(covered.any(1))[-1])
     first, last = (end + share * high for share in SURE_CLOTH_SHARES)
     return HeadRegions(
@@ -111,7 +112,7 @@ def head_regions(
         brow=brow,
         mouth=mouth,
         temples=brow & ~oval & bool(fair),
-        roots=head & (forehead | (off & brow)),
+        roots=head & ((forehead & ~high_forehead) | (off & brow)),
         ears=head & ~oval & dilate_mask(template.ears, LOOSE_HAIR_PIXELS),
         worn=body & (rows > first) & (rows < last),
         below=body & (distance_to(head) < FALLEN_HAIR_SHARE * size) & (np.abs(columns - x) > THROAT_SHARE * wide),

@@ -106,6 +106,14 @@ def test_bare_shoulders_are_no_hair() -> None:
     assert not shown[Y >= 104].any()
 
 
+def test_a_forehead_is_skin_as_high_as_it_is_seen() -> None:
+    """Hair combed back: bare skin above the face's oval, up to a hairline near the crown."""
+    bare = (np.hypot((X - 70) / 17, (Y - 46) / 26) < 1) & (Y < 46)
+    shown = found((BOB, HAIR), (bare & CAP, SKIN))
+    assert (bare & CAP & (Y < 60 - 28)).sum() > 200
+    assert not shown[bare & CAP].any() and alike(shown, BOB & ~bare) > 0.93
+
+
 def test_temples_are_skin_and_a_crown_is_hair() -> None:
     """Dark hair with a bare temple beside the oval above the brow; and one whose crown shines in the skin's own colour."""
     temple = BOB & TEMPLATE.covered & (Y < 52) & (Y > 38) & (ASIDE < 23)
