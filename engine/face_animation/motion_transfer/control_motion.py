@@ -100,6 +100,24 @@ class DriverFrames:
     faces: NDArray[np.float32]
 
 
+@dataclass(frozen=True)
+class _Acted:
+    """What the target acts in N frames, whatever its head does.
+
+    expression : (N, 478, 3) offsets on its upright face, pixels.
+    look : (N, 2, 2) of its irises, see `gaze.gaze`.
+    lids : (N, 14) how far they open, as `lid_ratio` has it.
+    lips : (N, 2) how thick they are, as `thickness_shares` has it.
+    philtrum : (N,) how far the skin under its nose is pressed, as `philtrum_compression` has it.
+    """
+
+    expression: NDArray[np.float64]
+    look: NDArray[np.float32]
+    lids: NDArray[np.float64]
+    lips: NDArray[np.float64]
+    philtrum: NDArray[np.float64]
+
+
 class MotionTransfer:
     """Equation 1 for any frame of a driver, against the driver at rest; with a `proxy`, the head's part of it in 3D; corrected
     by `residuals`. What holds for all frames is prepared once.
@@ -144,7 +162,8 @@ class MotionTransfer:
         if proxy is not None:
             around, trust = frames.periphery - self._around, frames.trust * self._trust
             motion = refine_pose(motion, self._driver, frames.meshes, around, trust)
-        expression, look, ratio, thickness, philtrum = self._acted(motion)
+        acted = self._acted(motion)
+        expression = acted.expression
         scaled = scale_motion(motion, self._head)
         offsets = np.zeros((len(frames.meshes), len(control.points), 2), np.float32)
         depths, behind = np.zeros(offsets.shape[:2], np.float32), np.zeros_like(offsets)
@@ -152,8 +171,8 @@ class MotionTransfer:
             offsets[:, :MESH_SIZE] = _face_in_plane(phi, scaled, expression, target)
             placed = self._corrected(frames, control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE])
             carried = target[:, :2] + _face_in_plane(phi, scaled, np.zeros_like(expression), target)
-            construct_lips(placed, carried, thickness)
-            keep_lips_off_skin(placed, carried, philtrum)
+            construct_lips(placed, carried, acted.lips)
+            keep_lips_off_skin(placed, carried, acted.philtrum)
             offsets[:, control.periphery] = self._carried_around(frames)
         else:
             held = hold_back(scaled, phi, control.room, self._turned, control.face_room)
@@ -165,17 +184,17 @@ class MotionTransfer:
             placed = self._corrected(frames, face[..., :2] + plane_share(target)[:, None] * plane)
             rigid = solid[:, :MESH_SIZE, :2]
             placed = rigid + self._even @ (placed - rigid)
-            open_lids(placed, rigid, ratio)
+            open_lids(placed, rigid, acted.lids)
             keep_lids_below_brows(placed, rigid, control.bare)
-            construct_lips(placed, rigid, thickness)
-            keep_lips_off_skin(placed, rigid, philtrum)
+            construct_lips(placed, rigid, acted.lips)
+            keep_lips_off_skin(placed, rigid, acted.philtrum)
             offsets[:, MESH_SIZE:] = self._around_face(frames, motion, held, proxy, solid[..., :2], placed)
         offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
         if proxy is not None:
             skull = roll_head(proxy, held, target)
             skull[:, MESH_SIZE:] = control.points[MESH_SIZE:] + self._around_face(frames, motion, held, proxy, skull)
             behind[:] = self._far_side.withdrawn(control.points + offsets, skull)
-        return offsets, depths, look, behind
+        return offsets, depths, acted.look, behind
 
     def _corrected(self, frames: DriverFrames, placed: NDArray[np.floating]) -> NDArray[np.floating]:
         """Faces (N, 478, 2), pixels, by what the second look found; and kept inside their contour."""
@@ -184,11 +203,7 @@ class MotionTransfer:
         keep_inside(placed, self._target, self._control.usable[:MESH_SIZE])
         return placed
 
-    def _acted(
-        self, motion: HeadMotion
-    ) -> tuple[NDArray[np.float64], NDArray[np.float32], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """The expression on the target's upright face, (N, 478, 3) offsets; where its irises look; how far its lids open, (N, 14) as `lid_ratio`;
-        how thick its lips are, (N, 2) as `thickness_shares`; and how far the skin under its nose is pressed, (N,) as `philtrum_compression`."""
+    def _acted(self, motion: HeadMotion) -> _Acted:
         rest, target = self._rest, self._target
         even = even_out_turned(motion)
         expression = self._acts @ carry_expression(self._maps, self._phi, even)
@@ -200,7 +215,7 @@ class MotionTransfer:
         expression = constrain_lids_and_lips(acted, target, ratio, self._control.bare) - target
         look = self._eyes * gaze(rest + motion.expression, rest, np.clip(ratio[:, [3, 10]], 0, 1))
         thickness = 1 + self._mouth * (thickness_shares(upright, rest) - 1)
-        return expression, look.astype(np.float32), ratio, thickness, philtrum_compression(upright, rest)
+        return _Acted(expression, look.astype(np.float32), ratio, thickness, philtrum_compression(upright, rest))
 
     def _carried_around(self, frames: DriverFrames) -> NDArray[np.floating]:
         """(N, P, 2) what the driver's tracked points around the face say of the target's peripheral points, pixels."""
