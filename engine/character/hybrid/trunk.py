@@ -65,6 +65,8 @@ def trunk_region(labels: Labels, template: PosedTemplate, rig: Rig) -> Region:
     even = cv2.GaussianBlur(body.astype(np.float32), (0, 0), TRUNK_BORDER_SMOOTHING_PIXELS) > 0.5
     beside = limbs | (seen & dilate_mask(np.isin(labels.labels, ARM_LABELS), TRUNK_BEHIND_LIMBS_PIXELS))
     body = np.where(beside, even, body)
+    if labels.held is not None:  # hair has a surface of its own, and no shoulder goes up behind it
+        beside = beside & (labels.held != HEAD_LABEL)
     return Region(largest_piece(body | (beside & dilate_mask(body, TRUNK_BEHIND_LIMBS_PIXELS))), own)
 
 

@@ -12,6 +12,7 @@ from engine.character.fit.template_fit import load_human
 from engine.character.fit.template_maps import side_maps
 from engine.character.hybrid.trunk import before_the_trunk, trunk_region
 from engine.character.parts.label_map import Labels
+from engine.imaging.masks.mask_distance import dilate_mask
 from tests.character.parts.test_overlapping_legs import LEFT_ARM, SIZE, standing
 
 HEAD, TRUNK = BODY_PARTS.index("head"), BODY_PARTS.index("torso")
@@ -51,6 +52,19 @@ def test_behind_a_staff_that_is_held_across_it_the_trunk_goes_on(template: Posed
     assert whole[staff & trunk].mean() > 0.95
     above, below = (trunk & (np.arange(SIZE[0])[:, None] < rows.mean()) == side for side in (True, False))
     assert all(whole[piece & trunk & ~staff].mean() > 0.95 for piece in (above, below)), "in one piece"
+
+
+@pytest.mark.parametrize(("holder", "goes_on"), [(LEFT_ARM, True), (HEAD, False)], ids=["a bag", "hair"])
+def test_behind_hair_no_shoulder_goes_up(template: PosedTemplate, labels: Labels, holder: int, goes_on: bool) -> None:
+    """Hair has a surface of its own, and what stands up behind it is seen from aside."""
+    found = np.where(labels.labels == HEAD, -1, labels.labels)
+    trunk = found == TRUNK
+    above = dilate_mask(trunk, 2) & (found < 0) & (np.arange(SIZE[0])[:, None] < np.flatnonzero(trunk.any(1))[0] + 20)
+    held = np.where(dilate_mask(above, 1) & (found < 0), holder, -1).astype(np.int8)
+    shown = Labels(found.astype(np.int8), labels.occlusion, labels.apart, labels.parting, labels.hidden, held=held)
+    whole = trunk_region(shown, template, load_human().rig).mask
+    assert above.sum() > 20
+    assert (whole[above].mean() > 0.8) == goes_on and (whole[above].mean() < 0.4) != goes_on
 
 
 @pytest.mark.parametrize("apart", [False, True])
