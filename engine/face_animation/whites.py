@@ -33,13 +33,13 @@ def white_tint(
     """(3,) the colour of what is white, at luminance 1, in a picture (H, W, 3) of a face at `mesh` (478, 2 or 3), with the skin's hue
     between two `shares`."""
     whites = np.concatenate([eye_whites(rgb, mesh, side) for side in range(2)])
-    return _tint(rgb, mesh, hue_share(rgb, mesh, whites), shares)
+    return _tint(rgb, mesh, float(np.clip(hue_share(rgb, mesh, whites), *shares)))
 
 
 def teeth_tint(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float64]:
     """(3,) the colour of teeth, at luminance 1, in a picture (H, W, 3) of a face at `mesh` (478, 2 or 3): between lips and gums they have more of the skin's
     hue than what is white elsewhere."""
-    return _tint(rgb, mesh, TEETH_HUE_SHARE, (TEETH_HUE_SHARE, TEETH_HUE_SHARE))
+    return _tint(rgb, mesh, TEETH_HUE_SHARE)
 
 
 def hue_share(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], colours: NDArray[np.floating]) -> float:
@@ -52,10 +52,8 @@ def hue_share(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], colours: NDArr
     return float(np.log(mean / float(mean @ LUMINANCE_WEIGHTS)) @ hue) / float(hue @ hue)
 
 
-def _tint(
-    rgb: NDArray[np.uint8], mesh: NDArray[np.floating], share: float, shares: tuple[float, float]
-) -> NDArray[np.float64]:
-    tint = np.exp(float(np.clip(share, *shares)) * _skin_hue(rgb, mesh))
+def _tint(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], share: float) -> NDArray[np.float64]:
+    tint = np.exp(share * _skin_hue(rgb, mesh))
     return np.asarray(tint / float(tint @ LUMINANCE_WEIGHTS), np.float64)
 
 

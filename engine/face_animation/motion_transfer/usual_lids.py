@@ -21,9 +21,8 @@ SHUT_SHARE_RANGE = (SHUT_SHARE, 0.55)
 """Shares of the usual gap between which a clip's blinks may end: lids seen further apart are lowered."""
 OPENS_OVER_SHARE = 0.3
 """Share of the usual gap above that of a shut eye, over which a gap comes to be carried as it is."""
-OPEN_SHARE_OF_WIDEST = 0.5
-"""Share of the gap of wide eyes from which on a frame shows them open."""
-WIDE_QUANTILE = 0.9
+OPEN_SHARE_OF_WIDEST, WIDE_QUANTILE = 0.5, 0.9
+"""Share of the gap of wide eyes from which on a frame shows them open, and the quantile of all gaps that wide eyes have."""
 USUAL_RANGE = (0.67, 1.5)
 """Multiples of the neutral frame's gap between which the usual one is: a person is at rest there."""
 BLINK_DEPTH_SHARE = 0.35
